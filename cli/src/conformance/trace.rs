@@ -1,0 +1,197 @@
+//! The trace format `vgdl-trace/1`: a gzip'd file of JSON lines, one episode.
+
+use engine::{Action, Rect, SpriteRecord};
+use flate2::read::GzDecoder;
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+/// Bytes of one line at most; the longest real ones are some hundred kilobytes.
+const MAX_LINE: u64 = 64 << 20;
+
+#[derive(Deserialize)]
+pub(crate) struct Header {
+    format: String,
+    pub(crate) game: String,
+    pub(crate) level: u32,
+    pub(crate) seed: i64,
+    #[serde(default)]
+    pub(crate) block_size: i32,
+    #[serde(default)]
+    pub(crate) width: i32,
+    #[serde(default)]
+    pub(crate) height: i32,
+    #[serde(default)]
+    pub(crate) types: Vec<String>,
+    #[serde(default)]
+    pub(crate) sprite_order: Vec<u16>,
+    #[serde(default)]
+    pub(crate) actions: Vec<String>,
+    #[serde(default)]
+    pub(crate) avatar: Option<u32>,
+    #[serde(default)]
+    pub(crate) log: Vec<String>,
+    #[serde(default)]
+    pub(crate) engine_error: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct Initial {
+    sprites: Vec<Value>,
+    rng: u64,
+}
+
+/// One tick as recorded.
+#[derive(Deserialize)]
+struct Line {
+    tick: i32,
+    action: String,
+    score: Option<f64>,
+    winner: Option<String>,
+    #[serde(default)]
+    ended: bool,
+    #[serde(default)]
+    rng: u64,
+    avatar: Option<u32>,
+    #[serde(default)]
+    resources: BTreeMap<String, i32>,
+    #[serde(default)]
+    add: Vec<Value>,
+    #[serde(default)]
+    del: Vec<u32>,
+    #[serde(rename = "mod", default)]
+    modified: Vec<Value>,
+    engine_error: Option<String>,
+}
+
+pub(crate) struct Tick {
+    pub(crate) tick: i32,
+    pub(crate) action: Action,
+    pub(crate) score: Option<f64>,
+    pub(crate) winner: Option<String>,
+    pub(crate) ended: bool,
+    pub(crate) rng: u64,
+    pub(crate) avatar: Option<u32>,
+    pub(crate) resources: BTreeMap<String, i32>,
+    pub(crate) add: Vec<SpriteRecord>,
+    pub(crate) del: Vec<u32>,
+    pub(crate) modified: Vec<SpriteRecord>,
+    pub(crate) engine_error: Option<String>,
+}
+
+/// A whole episode.
+pub(crate) struct Trace {
+    pub(crate) header: Header,
+    pub(crate) sprites: Vec<SpriteRecord>,
+    pub(crate) rng: u64,
+    pub(crate) ticks: Vec<Tick>,
+}
+
+impl Trace {
+    /// Reads a trace, gzip'd or plain.
+    ///
+    /// # Errors
+    /// What is wrong and in which line, in words.
+    pub(crate) fn read(path: &Path) -> Result<Trace, String> {
+        let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
+        let packed = path.extension().is_some_and(|extension| extension == "gz");
+        let reader: Box<dyn Read> = if packed { Box::new(GzDecoder::new(file)) } else { Box::new(file) };
+        let mut lines = numbered(BufReader::new(reader));
+        let header: Header = parse(lines.next())?;
+        if header.format != "vgdl-trace/1" {
+            return Err(format!("line 1: the format is `{}`, not `vgdl-trace/1`", header.format));
+        }
+        if header.engine_error.is_some() {
+            return Ok(Trace { header, sprites: Vec::new(), rng: 0, ticks: Vec::new() });
+        }
+        let initial: Initial = parse(lines.next())?;
+        let sprites = records(2, &initial.sprites)?;
+        let mut ticks = Vec::new();
+        for line in lines {
+            let number = line.as_ref().map_or(0, |(number, _)| *number);
+            let line: Line = parse(Some(line))?;
+            let action = Action::from_reference(&line.action)
+                .ok_or_else(|| format!("line {number}: no action named `{}`", line.action))?;
+            ticks.push(Tick {
+                tick: line.tick,
+                action,
+                score: line.score,
+                winner: line.winner,
+                ended: line.ended,
+                rng: line.rng,
+                avatar: line.avatar,
+                resources: line.resources,
+                add: records(number, &line.add)?,
+                del: line.del,
+                modified: records(number, &line.modified)?,
+                engine_error: line.engine_error,
+            });
+        }
+        Ok(Trace { header, sprites, rng: initial.rng, ticks })
+    }
+}
+
+type NumberedLine = Result<(usize, String), String>;
+
+/// The lines with their numbers; a line beyond [`MAX_LINE`] is an error.
+fn numbered(mut reader: impl BufRead) -> impl Iterator<Item = NumberedLine> {
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        number += 1;
+        let mut line = String::new();
+        match reader.by_ref().take(MAX_LINE).read_line(&mut line) {
+            Ok(0) => None,
+            Ok(_) if line.ends_with('\n') || (line.len() as u64) < MAX_LINE => Some(Ok((number, line))),
+            Ok(_) => Some(Err(format!("line {number}: longer than {MAX_LINE} bytes"))),
+            Err(error) => Some(Err(format!("line {number}: {error}"))),
+        }
+    })
+}
+
+fn parse<T: for<'a> Deserialize<'a>>(line: Option<NumberedLine>) -> Result<T, String> {
+    let (number, text) = line.ok_or("the file ends too early")??;
+    serde_json::from_str(&text).map_err(|error| format!("line {number}: {error}"))
+}
+
+fn records(line: usize, values: &[Value]) -> Result<Vec<SpriteRecord>, String> {
+    let wrong = |value| format!("line {line}: not a sprite record: {value}");
+    values.iter().map(|value| record(value).ok_or_else(|| wrong(value))).collect()
+}
+
+/// `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`, sometimes with `{"res": …, "rot": …}` at the end.
+fn record(value: &Value) -> Option<SpriteRecord> {
+    let list = value.as_array()?;
+    let int = |at: usize| list.get(at)?.as_i64();
+    let number = |at: usize| match list.get(at)? {
+        Value::String(text) if text == "NaN" => Some(f64::NAN),
+        value => value.as_f64(),
+    };
+    let mut record = SpriteRecord {
+        id: int(0)?.try_into().ok()?,
+        stype: int(1)?.try_into().ok()?,
+        rect: Rect {
+            x: int(2)?.try_into().ok()?,
+            y: int(3)?.try_into().ok()?,
+            w: int(4)?.try_into().ok()?,
+            h: int(5)?.try_into().ok()?,
+        },
+        orientation: (number(6)?, number(7)?),
+        speed: number(8)?,
+        health: int(9)?.try_into().ok()?,
+        flags: int(10)?.try_into().ok()?,
+        resources: Vec::new(),
+        rotation: 0.0,
+    };
+    if let Some(extra) = list.get(11) {
+        record.rotation = extra.get("rot").map_or(Some(0.0), Value::as_f64)?;
+        if let Some(resources) = extra.get("res") {
+            for (stype, amount) in resources.as_object()? {
+                record.resources.push((stype.parse().ok()?, amount.as_i64()?.try_into().ok()?));
+            }
+            record.resources.sort_unstable();
+        }
+    }
+    Some(record)
+}

@@ -1,0 +1,56 @@
+//! The `arcade` binary: one file per verb, everything else in the library crates.
+
+mod conformance;
+mod console;
+mod failure;
+mod input;
+mod verbs;
+
+use clap::{Parser, Subcommand};
+use console::Console;
+use std::process::ExitCode;
+
+/// Mints verified benchmarks of new arcade games, and checks them.
+///
+/// Exit status: 0 yes or done; 1 the answer is no; 2 the question is malformed; 3 the surroundings failed.
+#[derive(Parser)]
+#[command(name = "arcade", version, propagate_version = true, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+    /// One JSON document on standard output, nothing else there
+    #[arg(long, global = true)]
+    json: bool,
+    /// No progress, no remarks
+    #[arg(short, long, global = true)]
+    quiet: bool,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    Conformance(verbs::conformance::Args),
+}
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version are answers; everything else is a malformed question.
+            let code = if error.use_stderr() { failure::MALFORMED } else { 0 };
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    let console = Console::new(cli.json, cli.quiet);
+    let answer = match cli.verb {
+        Verb::Conformance(args) => verbs::conformance::run(&args, &console),
+    };
+    match answer {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(failure::NO),
+        Err(failure) => {
+            console.error(&failure);
+            ExitCode::from(failure.code())
+        }
+    }
+}

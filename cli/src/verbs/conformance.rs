@@ -1,0 +1,188 @@
+//! `arcade conformance`: is this engine the same as the reference?
+
+use crate::conformance::{Difference, Trace, compare};
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::input;
+use engine::Game;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Replays recorded traces of the reference engine and compares every field of every tick.
+///
+/// Prints the first divergence of every differing episode; the last line is `identical: N of M episodes`.
+///
+/// Example: arcade conformance --games gvgai/games --traces gvgai/traces --game zelda
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Folder with one folder per game: game.txt (or game.vgdl) and lvl0.txt, lvl1.txt …
+    #[arg(long, value_name = "DIR")]
+    games: PathBuf,
+    /// Folder with one folder of traces per game: *.jsonl.gz
+    #[arg(long, value_name = "DIR")]
+    traces: PathBuf,
+    /// Only this game; may be given several times
+    #[arg(long = "game", value_name = "NAME")]
+    only: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Report {
+    identical: usize,
+    episodes: usize,
+    ticks: usize,
+    differing: Vec<Episode>,
+}
+
+#[derive(Serialize)]
+struct Episode {
+    trace: String,
+    /// Why the episode could not be played at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    difference: Option<Difference>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let traces = find_traces(args)?;
+    let mut games = BTreeMap::new();
+    for name in traces.iter().map(|(game, _)| game) {
+        if !games.contains_key(name) {
+            games.insert(name.clone(), load_game(&args.games, name)?);
+        }
+    }
+    let bar = console.progress(traces.len() as u64, "replaying");
+    let outcomes: Vec<_> = traces
+        .par_iter()
+        .map(|(name, path)| {
+            let outcome = replay(args, &games[name], name, path);
+            bar.inc(1);
+            outcome
+        })
+        .collect();
+    bar.finish_and_clear();
+
+    let mut report = Report { identical: 0, episodes: traces.len(), ticks: 0, differing: Vec::new() };
+    for outcome in outcomes {
+        match outcome? {
+            (ticks, None) => {
+                report.identical += 1;
+                report.ticks += ticks;
+            }
+            (_, Some(episode)) => report.differing.push(episode),
+        }
+    }
+    for episode in &report.differing {
+        console.say(format_args!("{}: differs", episode.trace));
+        if let Some(refused) = &episode.refused {
+            console.say(format_args!("  {refused}"));
+        }
+        if let Some(difference) = &episode.difference {
+            console.say(difference.to_string().trim_end());
+        }
+    }
+    console.document(&report)?;
+    console.say(format_args!("identical: {} of {} episodes", report.identical, report.episodes));
+    Ok(report.identical == report.episodes)
+}
+
+/// Game and path of every trace, sorted.
+fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
+    let mut names = entries(&args.traces)?;
+    names.retain(|path| path.is_dir());
+    let name_of = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    for wanted in &args.only {
+        if !names.iter().any(|path| name_of(path) == *wanted) {
+            let known: Vec<String> = names.iter().map(|path| name_of(path)).collect();
+            let near = engine::nearest(wanted, known.iter().map(String::as_str));
+            let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            return Err(Failure::malformed(format!(
+                "{} has no game `{wanted}`{help}",
+                args.traces.display()
+            )));
+        }
+    }
+    let mut traces = Vec::new();
+    for folder in names {
+        let game = name_of(&folder);
+        if args.only.is_empty() || args.only.contains(&game) {
+            let mut files = entries(&folder)?;
+            files.retain(|path| [".jsonl.gz", ".jsonl"].iter().any(|end| name_of(path).ends_with(end)));
+            traces.extend(files.into_iter().map(|path| (game.clone(), path)));
+        }
+    }
+    if traces.is_empty() {
+        let folder = args.traces.display();
+        return Err(Failure::malformed(format!("{folder}: no trace in it; expected <game>/*.jsonl.gz")));
+    }
+    Ok(traces)
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let failed = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
+            Failure::malformed(format!("{}: there is no such folder", folder.display()))
+        }
+        _ => Failure::surroundings(error, folder.display()),
+    };
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        paths.push(entry.map_err(failed)?.path());
+    }
+    paths.sort();
+    Ok(paths)
+}
+
+/// The compiled game, or why it does not compile.
+fn load_game(games: &Path, name: &str) -> Result<Result<Game, String>, Failure> {
+    let folder = games.join(name);
+    let file = ["game.txt", "game.vgdl"].iter().map(|file| folder.join(file)).find(|path| path.exists());
+    let Some(path) = file else {
+        let message =
+            format!("{}: no game.txt or game.vgdl, but there are traces of `{name}`", folder.display());
+        return Err(Failure::malformed(message));
+    };
+    let source = input::read_text(&path, engine::MAX_SOURCE)?;
+    Ok(Game::from_source(&source).map_err(|problems| {
+        let first = problems.0.first().map_or(String::new(), |first| first.message.clone());
+        format!("{} does not load: {} problems, the first: {first}", path.display(), problems.0.len())
+    }))
+}
+
+/// Ticks played and, if the engine differs, the episode's entry in the report.
+fn replay(
+    args: &Args,
+    game: &Result<Game, String>,
+    name: &str,
+    path: &Path,
+) -> Result<(usize, Option<Episode>), Failure> {
+    let trace =
+        Trace::read(path).map_err(|error| Failure::malformed(format!("{}: {error}", path.display())))?;
+    let shown = path.strip_prefix(&args.traces).unwrap_or(path).display().to_string();
+    let refused =
+        |why: String| Ok((0, Some(Episode { trace: shown.clone(), refused: Some(why), difference: None })));
+    if trace.header.game != name {
+        let message =
+            format!("{}: a trace of `{}` in the folder of `{name}`", path.display(), trace.header.game);
+        return Err(Failure::malformed(message));
+    }
+    let game = match game {
+        Ok(game) => game,
+        Err(why) => return refused(why.clone()),
+    };
+    let file = args.games.join(name).join(format!("lvl{}.txt", trace.header.level));
+    let text = input::read_text(&file, engine::MAX_LEVEL_TEXT)?;
+    let level = match game.level(&text) {
+        Ok(level) if trace.header.engine_error.is_none() => level,
+        Ok(_) => return refused("the reference could not load the level".to_owned()),
+        Err(_) if trace.header.engine_error.is_some() => return Ok((0, None)),
+        Err(problems) => return refused(format!("{} does not load: {problems}", file.display())),
+    };
+    let difference = compare(game, &level, &trace);
+    let episode =
+        difference.map(|found| Episode { trace: shown.clone(), refused: None, difference: Some(found) });
+    Ok((trace.ticks.len(), episode))
+}

@@ -1,0 +1,3 @@
+//! One file per verb: its flags, what it does, what it prints.
+
+pub(crate) mod conformance;

@@ -1,0 +1,73 @@
+//! The chance of a game: the 48-bit linear congruential generator that VGDL games of the reference draw from
+//! (`spec/01` §7.1; the algorithm is the published one of `java.util.Random`).
+
+const MULTIPLIER: u64 = 0x5_DEEC_E66D;
+const MASK: u64 = (1 << 48) - 1;
+
+/// Eight bytes of state; part of every [`State`](crate::State).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Chance(u64);
+
+impl Chance {
+    /// The generator that the reference makes from a seed, as traces record it.
+    pub fn from_java(seed: i64) -> Chance {
+        Chance((seed as u64 ^ MULTIPLIER) & MASK)
+    }
+
+    /// The 48 bits of state, as traces record them.
+    pub fn state(self) -> u64 {
+        self.0
+    }
+
+    fn next(&mut self, bits: u32) -> i32 {
+        self.0 = self.0.wrapping_mul(MULTIPLIER).wrapping_add(0xB) & MASK;
+        (self.0 >> (48 - bits)) as i32
+    }
+
+    /// Uniform in `0..bound`: one draw for powers of two, seldom more for others.
+    pub fn below(&mut self, bound: i32) -> i32 {
+        debug_assert!(bound > 0, "a choice needs at least one option");
+        let mut draw = self.next(31);
+        let most = bound - 1;
+        if bound & most == 0 {
+            return ((i64::from(bound) * i64::from(draw)) >> 31) as i32;
+        }
+        loop {
+            let rest = draw % bound;
+            if draw.wrapping_sub(rest).wrapping_add(most) >= 0 {
+                return rest;
+            }
+            draw = self.next(31);
+        }
+    }
+
+    /// Uniform in [0, 1) with 24 bits: one draw.
+    pub fn float(&mut self) -> f32 {
+        self.next(24) as f32 / (1 << 24) as f32
+    }
+
+    /// Uniform in [0, 1) with 53 bits: two draws.
+    pub fn double(&mut self) -> f64 {
+        let high = i64::from(self.next(26)) << 27;
+        let low = i64::from(self.next(27));
+        (high + low) as f64 * (1.0 / (1u64 << 53) as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The vector of `spec/01` §7.1.
+    #[test]
+    fn the_vector_of_the_specification() {
+        let mut chance = Chance::from_java(42);
+        assert_eq!(chance.below(4), 2);
+        assert_eq!(chance.below(3), 0);
+        assert_eq!(chance.float(), 0.683_223_4);
+        assert_eq!(chance.double(), 0.047_939_305_137_387_644);
+        assert_eq!(chance.below(2), 1);
+        assert_eq!(chance.below(5), 0);
+        assert_eq!(chance.below(8), 5);
+    }
+}

@@ -1,0 +1,301 @@
+//! The InteractionSet as a flat program: effects, edge passes, pair passes in execution order (`spec/01` §1.8).
+
+use super::params::{Expected, Value, convert, wrong_type};
+use super::{MAX_PASSES, Names};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::game::{EffectInfo, Pass, SpriteType};
+use crate::ontology::effects::{self, Arguments, Effect, Moves};
+use crate::syntax::{Description, InteractionLine, Param, Word};
+
+#[derive(Default)]
+pub(super) struct Program {
+    pub(super) effects: Vec<EffectInfo>,
+    pub(super) edge: Vec<(SpriteType, u16)>,
+    pub(super) passes: Vec<Pass>,
+}
+
+/// Parameters that every effect takes.
+const COMMON: &[&str] = &[
+    "scoreChange",
+    "applyScore",
+    "repeat",
+    "enabled",
+    "inBatch",
+    "prob",
+    "counter",
+    "counterElse",
+    "count",
+    "countElse",
+    "is_kill_effect",
+    "is_stochastic",
+    "sequential",
+];
+
+pub(super) fn program(
+    description: &Description,
+    names: Names<'_>,
+    problems: &mut Vec<Diagnostic>,
+) -> Program {
+    let mut program = Program::default();
+    // Pairs execute where they first appear, whatever stands between their lines.
+    let mut pairs: Vec<((SpriteType, SpriteType), Vec<u16>)> = Vec::new();
+    let mut edges: Vec<SpriteType> = Vec::new();
+    let mut edge_effects: Vec<(SpriteType, u16)> = Vec::new();
+    let mut keywords: Vec<u16> = Vec::new();
+    for (at, line) in description.interactions.iter().enumerate() {
+        let mut reader = Reader { line, names, used: Vec::new(), problems: Vec::new() };
+        let built = reader.line(at);
+        problems.append(&mut reader.problems);
+        let first = partner(&line.first, names, problems);
+        let seconds: Vec<_> = line.second.iter().map(|word| partner(word, names, problems)).collect();
+        let Some((info, keyword, repeat)) = built else { continue };
+        let index = program.effects.len() as u16;
+        let enabled = info.is_some();
+        program.effects.extend(info);
+        if !enabled {
+            continue;
+        }
+        keywords.push(keyword);
+        for (second, word) in seconds.into_iter().zip(&line.second) {
+            match (first, second) {
+                (Partner::Sprite(one), Partner::Sprite(two)) => {
+                    let found = pairs.iter().position(|(pair, _)| *pair == (one, two));
+                    let at = found.unwrap_or_else(|| {
+                        pairs.push(((one, two), Vec::new()));
+                        pairs.len() - 1
+                    });
+                    pairs[at].1.extend(std::iter::repeat_n(index, repeat.min(MAX_PASSES)));
+                }
+                (Partner::Sprite(stype), Partner::Edge) | (Partner::Edge, Partner::Sprite(stype)) => {
+                    edges.push(stype);
+                    edge_effects.push((stype, index));
+                }
+                (Partner::Unknown, _) | (_, Partner::Unknown) => {}
+                (Partner::Edge, Partner::Edge) => {
+                    let message = "the edge of the screen has no edge: one of the two is a sprite";
+                    problems.push(Diagnostic::error("bad-interaction", word.span, message));
+                }
+            }
+        }
+    }
+    // A type with n lines has all its effects executed n times, in order each time (`spec/03` §4.4).
+    for stype in edges {
+        program.edge.extend(edge_effects.iter().filter(|(other, _)| *other == stype));
+    }
+    for ((first, second), effects) in pairs {
+        let disjoint =
+            names.types[first.index()].tree.iter().all(|&t| !names.types[second.index()].in_tree(t));
+        for effect in effects {
+            let either_side = match program.effects[usize::from(effect)].effect.moves() {
+                Moves::Nothing => true,
+                Moves::First => disjoint,
+                Moves::Anything => false,
+            };
+            let keyword = keywords[usize::from(effect)];
+            program.passes.push(Pass { first, second, effect, keyword, either_side });
+        }
+    }
+    program
+}
+
+#[derive(Clone, Copy)]
+enum Partner {
+    Sprite(SpriteType),
+    Edge,
+    Unknown,
+}
+
+fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Partner {
+    if let Some(stype) = names.find(&word.text) {
+        return Partner::Sprite(stype);
+    }
+    if word.text.eq_ignore_ascii_case("EOS") {
+        return Partner::Edge;
+    }
+    if word.text.eq_ignore_ascii_case("TIME") {
+        problems.push(Diagnostic::error("unsupported", word.span, "TIME effects are not supported yet"));
+        return Partner::Unknown;
+    }
+    let message = format!("no sprite named `{}`", word.text);
+    let problem = Diagnostic::error("unknown-sprite", word.span, message).label("not in the SpriteSet");
+    let known = names.types.iter().map(|info| info.name.as_str()).chain(["EOS"]);
+    problems.push(problem.suggest(&word.text, known));
+    Partner::Unknown
+}
+
+struct Reader<'a> {
+    line: &'a InteractionLine,
+    names: Names<'a>,
+    used: Vec<&'a str>,
+    problems: Vec<Diagnostic>,
+}
+
+impl<'a> Reader<'a> {
+    /// The effect (None if it never runs), its keyword's place, and how often it is repeated; None if there is no such
+    /// effect.
+    fn line(&mut self, at: usize) -> Option<(Option<EffectInfo>, u16, usize)> {
+        let name = self.line.effect.text.as_str();
+        let effect: Option<Effect> = effects::build(name, self);
+        let Some(effect) = effect else {
+            let known = effects::NAMES.iter().chain(effects::LATER).copied();
+            self.problems.push(if effects::LATER.contains(&name) {
+                let message = format!("the effect `{name}` is not supported yet");
+                Diagnostic::error("unsupported", self.line.effect.span, message)
+            } else {
+                let message = format!("no effect named `{name}`");
+                Diagnostic::error("unknown-effect", self.line.effect.span, message).suggest(name, known)
+            });
+            return None;
+        };
+        let keyword =
+            effects::NAMES.iter().position(|known| *known == name).expect("built effects are named");
+        let score_change = self.score("scoreChange");
+        let apply_score = self.flag("applyScore", true);
+        let repeat = self.int("repeat", 1);
+        let enabled = self.flag("enabled", true);
+        if self.flag("inBatch", false) {
+            let message = "`inBatch=True` switches an effect off that has no batch form";
+            let span = self.param("inBatch").map(Param::span).unwrap_or_default();
+            self.problems.push(Diagnostic::error("bad-parameter", span, message).help("remove it"));
+        }
+        self.leftovers(name);
+        let info = EffectInfo { effect, score_change, apply_score, line: at };
+        Some((enabled.then_some(info), keyword as u16, repeat.max(0) as usize))
+    }
+
+    /// Parameters that nothing has asked for.
+    fn leftovers(&mut self, name: &str) {
+        for param in &self.line.params {
+            let key = param.key.text.as_str();
+            if self.used.contains(&key) {
+                continue;
+            }
+            if COMMON.contains(&key) {
+                let message = format!("`{name}` ignores `{key}`");
+                self.problems
+                    .push(Diagnostic::warning("ignored-parameter", param.span(), message).help("remove it"));
+                continue;
+            }
+            let message = format!("`{name}` has no parameter `{key}`");
+            let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
+            let known: Vec<&str> = self.used.iter().copied().collect();
+            self.problems.push(problem.suggest(key, known));
+        }
+    }
+
+    /// The last parameter of that name counts.
+    fn param(&self, key: &str) -> Option<&'a Param> {
+        self.line.params.iter().rev().find(|param| param.key.text == key)
+    }
+
+    fn value(&mut self, key: &'static str) -> Option<(&'a Param, Value<'a>)> {
+        self.used.push(key);
+        let param = self.param(key)?;
+        Some((param, convert(key, &param.value.text)))
+    }
+
+    /// A sprite that the effect makes, kills or counts.
+    fn named(&mut self, text: &str, span: Span) -> Option<SpriteType> {
+        self.names.resolve(&Word { text: text.to_owned(), span }, &mut self.problems)
+    }
+}
+
+impl Arguments for Reader<'_> {
+    fn int(&mut self, key: &'static str, default: i32) -> i32 {
+        match self.value(key) {
+            None => default,
+            Some((_, Value::Int(int))) => int,
+            Some((param, _)) => {
+                self.problems.push(wrong_type(param, Expected::Int));
+                default
+            }
+        }
+    }
+
+    fn number(&mut self, key: &'static str, default: f64) -> f64 {
+        match self.value(key) {
+            None => default,
+            Some((_, Value::Int(int))) => f64::from(int),
+            Some((_, Value::Double(double))) => double,
+            Some((param, _)) => {
+                self.problems.push(wrong_type(param, Expected::Number));
+                default
+            }
+        }
+    }
+
+    fn flag(&mut self, key: &'static str, default: bool) -> bool {
+        match self.value(key) {
+            None => default,
+            Some((_, Value::Bool(bool))) => bool,
+            Some((param, _)) => {
+                self.problems.push(wrong_type(param, Expected::Bool));
+                default
+            }
+        }
+    }
+
+    fn score(&mut self, key: &'static str) -> i32 {
+        let Some((param, _)) = self.value(key) else { return 0 };
+        let first = param.value.text.split(',').next().unwrap_or_default();
+        first.parse().unwrap_or_else(|_| {
+            self.problems.push(wrong_type(param, Expected::Int));
+            0
+        })
+    }
+
+    fn sprite(&mut self, key: &'static str) -> SpriteType {
+        let found = self.optional_sprite(key);
+        if found.is_none() && self.param(key).is_none() {
+            let effect = &self.line.effect;
+            let message = format!("`{}` needs `{key}=`, the name of a sprite", effect.text);
+            self.problems.push(Diagnostic::error("missing-parameter", effect.span, message));
+        }
+        let makes = matches!(
+            (self.line.effect.text.as_str(), key),
+            ("transformTo" | "spawn" | "spawnIfHasMore" | "spawnIfHasLess" | "spawnBehind", "stype")
+                | ("spawnAbove" | "spawnBelow" | "spawnLeft" | "spawnRight", "stype")
+                | ("transformToAll", "stypeTo")
+        );
+        if let (Some(stype), Some(param), true) = (found, self.param(key), makes) {
+            self.names.instantiable(stype, &param.value, &mut self.problems);
+        }
+        found.unwrap_or(SpriteType(0))
+    }
+
+    fn optional_sprite(&mut self, key: &'static str) -> Option<SpriteType> {
+        match self.value(key)? {
+            (param, Value::Text(text)) => self.named(text, param.value.span),
+            (param, _) => {
+                self.problems.push(wrong_type(param, Expected::Text));
+                None
+            }
+        }
+    }
+
+    fn sprites(&mut self, key: &'static str) -> Vec<SpriteType> {
+        let Some((param, Value::Text(text))) = self.value(key) else { return Vec::new() };
+        text.split(',').filter_map(|name| self.named(name, param.value.span)).collect()
+    }
+
+    fn keyword(&mut self, key: &'static str) -> u16 {
+        let Some((param, _)) = self.value(key) else {
+            let effect = &self.line.effect;
+            let message = format!("`{}` needs `{key}=`, the name of an effect", effect.text);
+            self.problems.push(Diagnostic::error("missing-parameter", effect.span, message));
+            return 0;
+        };
+        let name = param.value.text.as_str();
+        let found = effects::NAMES.iter().position(|known| *known == name);
+        found.unwrap_or_else(|| {
+            let message = format!("no effect named `{name}`");
+            let problem = Diagnostic::error("unknown-effect", param.value.span, message);
+            self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
+            0
+        }) as u16
+    }
+
+    fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]> {
+        self.names.types[stype.index()].tree.iter().copied().filter(|&other| other != stype).collect()
+    }
+}

@@ -1,0 +1,187 @@
+//! From a syntax tree to rules: names resolved, parameters typed, interactions laid out as a flat program.
+
+mod interactions;
+mod params;
+mod sprites;
+mod terminations;
+
+use crate::Digest;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
+use crate::ontology::sprites as behaviour;
+use crate::ontology::terminations::Condition;
+use crate::syntax::{Description, Literal, Word, literal, print_bare};
+use smallvec::SmallVec;
+
+/// Sprite types at most.
+const MAX_TYPES: usize = 512;
+/// Interaction lines at most, and passes that they make.
+const MAX_PASSES: usize = 20_000;
+/// Cells that the largest sprite may cover along one side.
+const MAX_REACH: i32 = 64;
+
+pub(crate) fn compile(description: &Description) -> Result<Rules, Diagnostics> {
+    let mut problems = Vec::new();
+    let square_size = header(description, &mut problems);
+    let (types, order) = sprites::types(description, &mut problems);
+    if types.len() > MAX_TYPES {
+        let message = format!("the game has {} sprite types; the limit is {MAX_TYPES}", types.len());
+        problems.push(Diagnostic::error("too-large", description.header.class.span, message));
+        return Err(Diagnostics::sorted(problems));
+    }
+    let names = Names { types: &types };
+    let mapping = mapping(description, names, &mut problems);
+    let program = interactions::program(description, names, &mut problems);
+    let terminations = terminations::terminations(description, names, &mut problems);
+    if program.passes.len() > MAX_PASSES {
+        let message =
+            format!("the game has {} interactions; the limit is {MAX_PASSES}", program.passes.len());
+        problems.push(Diagnostic::error("too-large", description.header.class.span, message));
+    }
+    let problems = Diagnostics::sorted(problems);
+    if Diagnostics::has_errors(&problems.0) {
+        return Err(problems);
+    }
+
+    let moves = |stype: &SpriteType| {
+        let info = &types[stype.index()];
+        info.class.is_some_and(|class| !behaviour::is_idle(class, &info.traits))
+    };
+    let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
+    let classes = || types.iter().filter_map(|info| info.class);
+    Ok(Rules {
+        digest: Digest::of(print_bare(description).as_bytes()),
+        description: description.clone(),
+        warnings: problems.0,
+        square_size,
+        movers: order.iter().rev().copied().filter(moves).collect(),
+        order,
+        mapping,
+        draws: classes().any(behaviour::draws) || program.effects.iter().any(|info| info.effect.draws()),
+        effects: program.effects,
+        edge: program.edge,
+        passes: program.passes,
+        reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. })),
+        terminations,
+        reach: factors.clone().fold(1, |reach, factor| reach.max((factor.ceil() as i32).min(MAX_REACH))),
+        scales: factors.clone().any(|factor| factor != 1.0),
+        types,
+    })
+}
+
+fn header(description: &Description, problems: &mut Vec<Diagnostic>) -> Option<i32> {
+    let mut square_size = None;
+    for param in &description.header.params {
+        let value = literal(&param.value.text);
+        match (param.key.text.as_str(), value) {
+            ("square_size", Literal::Int(-1)) => square_size = None,
+            ("square_size", Literal::Int(size @ 1..=10_000)) => square_size = Some(size),
+            ("square_size", _) => {
+                let message = "`square_size` takes a number of pixels between 1 and 10000";
+                problems.push(Diagnostic::error("wrong-type", param.value.span, message));
+            }
+            ("no_players", Literal::Int(1)) | ("no_counters", Literal::Int(0)) | ("key_handler", _) => {}
+            ("no_players" | "no_counters" | "obs", _) => {
+                let message = format!("`{}` is not supported yet", param.key.text);
+                problems.push(Diagnostic::error("unsupported", param.span(), message).help("remove it"));
+            }
+            (key, _) => {
+                let known = ["square_size", "key_handler", "no_players", "no_counters", "obs"];
+                let message = format!("a game has no parameter `{key}`");
+                let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
+                problems.push(problem.suggest(key, known));
+            }
+        }
+    }
+    square_size
+}
+
+fn mapping(
+    description: &Description,
+    names: Names<'_>,
+    problems: &mut Vec<Diagnostic>,
+) -> Vec<SmallVec<[SpriteType; 4]>> {
+    let mut mapping = vec![SmallVec::new(); 128];
+    // Present in every game unless it maps these characters itself (`spec/01` §1.7).
+    mapping[usize::from(b'w')] = SmallVec::from_slice(&[SpriteType(0)]);
+    mapping[usize::from(b'A')] = SmallVec::from_slice(&[SpriteType(1)]);
+    let mut seen = Vec::new();
+    for line in &description.mapping {
+        if seen.contains(&line.symbol) {
+            let message = format!("`{}` is mapped twice; the last line counts", line.symbol);
+            let problem = Diagnostic::error("duplicate-mapping", line.span, message);
+            problems.push(problem.help("remove one of the two lines"));
+        }
+        seen.push(line.symbol);
+        let types = line.names.iter().filter_map(|name| {
+            let stype = names.resolve(name, problems)?;
+            names.instantiable(stype, name, problems).then_some(stype)
+        });
+        let types = types.collect();
+        if let Some(entry) =
+            u8::try_from(line.symbol).ok().and_then(|code| mapping.get_mut(usize::from(code)))
+        {
+            *entry = types;
+        }
+    }
+    mapping
+}
+
+/// Looks names up, with a problem for those that do not exist.
+#[derive(Clone, Copy)]
+struct Names<'a> {
+    types: &'a [TypeInfo],
+}
+
+impl Names<'_> {
+    fn find(self, name: &str) -> Option<SpriteType> {
+        self.types.iter().position(|info| info.name == name).map(|at| SpriteType(at as u16))
+    }
+
+    fn resolve(self, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
+        let found = self.find(&name.text);
+        if found.is_none() {
+            let message = format!("no sprite named `{}`", name.text);
+            let problem =
+                Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
+            problems.push(problem.suggest(&name.text, self.types.iter().map(|info| info.name.as_str())));
+        }
+        found
+    }
+
+    /// Whether sprites of the type can be made; a problem if not.
+    fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
+        let info = &self.types[stype.index()];
+        if info.class.is_none() {
+            let message = format!("`{}` has no class, so there can be no such sprite", name.text);
+            let problem = Diagnostic::error("no-class", name.span, message);
+            let below: Vec<&str> = self
+                .types
+                .iter()
+                .filter(|other| other.path.contains(&stype))
+                .skip(1)
+                .map(|other| other.name.as_str())
+                .collect();
+            problems.push(match below[..] {
+                [] => problem
+                    .help(format!("write `{} > Immovable`, or another class, in the SpriteSet", name.text)),
+                _ => problem.help(format!("name one of its subtypes: {}", below.join(", "))),
+            });
+        } else if !info.leaf {
+            let message = format!("`{}` is a parent type: its sprites are never updated", name.text);
+            problems.push(
+                Diagnostic::warning("parent-sprite", name.span, message).help("name one of its subtypes"),
+            );
+        }
+        info.class.is_some()
+    }
+}
+
+/// The place of every type in `tree`.
+fn ranks(tree: &[SpriteType], types: usize) -> Box<[u16]> {
+    let mut rank = vec![NOT_IN_TREE; types];
+    for (at, stype) in tree.iter().enumerate().rev() {
+        rank[stype.index()] = at as u16;
+    }
+    rank.into()
+}

@@ -1,0 +1,251 @@
+//! Parameter values: from text to the type of the field they set (`spec/01` §1.10).
+
+use crate::diagnostic::{Diagnostic, nearest};
+use crate::geometry::Direction;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::constants::{COLORS, Constant, constant, direction_names};
+use crate::ontology::traits::Traits;
+use crate::syntax::{Literal, Param, literal};
+
+/// A value after conversion, before the type of the field is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Value<'a> {
+    Int(i32),
+    Double(f64),
+    Bool(bool),
+    Direction(Direction),
+    Color([u8; 3]),
+    Text(&'a str),
+    Unusable,
+}
+
+/// Converts in the reference's order: constant, integer, double, boolean, text.
+pub(super) fn convert<'a>(key: &str, text: &'a str) -> Value<'a> {
+    match constant(text) {
+        Some(Constant::Direction(direction)) => return Value::Direction(direction),
+        Some(Constant::Int(value)) => return Value::Int(value),
+        Some(Constant::Color(rgb)) => return Value::Color(rgb),
+        Some(Constant::Unusable) => return Value::Unusable,
+        None => {}
+    }
+    let is = |name: &str| key.eq_ignore_ascii_case(name);
+    if is("scoreChange") || is("scoreChangeIfKilled") {
+        return Value::Text(text);
+    }
+    match literal(text) {
+        Literal::Int(value) => Value::Int(value),
+        Literal::Double(value) => Value::Double(value),
+        Literal::Bool(value) if !(is("win") || is("hidden") || is("invisible")) => Value::Bool(value),
+        Literal::Bool(_) | Literal::Text => Value::Text(text),
+    }
+}
+
+/// What a field takes; in words for messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Expected {
+    Int,
+    Number,
+    Bool,
+    Direction,
+    Color,
+    Text,
+}
+
+impl Expected {
+    fn words(self) -> &'static str {
+        match self {
+            Expected::Int => "a whole number",
+            Expected::Number => "a number",
+            Expected::Bool => "`True` or `False`",
+            Expected::Direction => "a direction: UP, DOWN, LEFT, RIGHT or NONE",
+            Expected::Color => "the name of a colour, such as RED or LIGHTBLUE",
+            Expected::Text => "a name",
+        }
+    }
+}
+
+/// The problem of a value that a field does not take. (The reference ignores it silently.)
+pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
+    let message = format!("`{}` takes {}", param.key.text, expected.words());
+    let problem = Diagnostic::error("wrong-type", param.value.span, message).label("not that");
+    let value = param.value.text.as_str();
+    let fixed = match (expected, convert("", value)) {
+        (Expected::Int, Value::Double(double)) => Some(format!("{}", double as i32)),
+        (Expected::Bool, Value::Int(int)) => Some(if int == 0 { "False".into() } else { "True".into() }),
+        (Expected::Bool, _) => nearest(value, ["True", "False"]).map(str::to_owned),
+        (Expected::Direction, _) => nearest(value, direction_names()).map(str::to_owned),
+        (Expected::Color, _) => nearest(value, COLORS.iter().map(|(name, _)| *name)).map(str::to_owned),
+        _ => None,
+    };
+    match fixed {
+        Some(fixed) => problem.help(format!("write `{}={fixed}`", param.key.text)),
+        None => problem.help("the reference engine would ignore this value silently"),
+    }
+}
+
+/// The parameters of every sprite, whatever its class. Those that only pictures use are read and forgotten.
+const BASE: &[&str] = &[
+    "speed",
+    "cooldown",
+    "physicstype",
+    "orientation",
+    "is_oriented",
+    "rotateInPlace",
+    "is_static",
+    "only_active",
+    "stationary",
+    "mass",
+    "gravity",
+    "friction",
+    "max_speed",
+    "jump_strength",
+    "solid",
+    "wMult",
+    "hMult",
+    "healthPoints",
+    "maxHealthPoints",
+    "limitHealthPoints",
+    "timeToLive",
+    "singleton",
+    "portal",
+    "is_npc",
+    "is_resource",
+    "is_avatar",
+    "hidden",
+    "invisible",
+    "is_stochastic",
+    "rotation",
+    "img",
+    "orientedImg",
+    "color",
+    "shrinkfactor",
+    "autotiling",
+    "randomtiling",
+    "frameRate",
+    "draw_arrow",
+];
+
+/// Sets one parameter on the traits of a sprite type. Names of sprites (`stype`, `ammo`) are resolved by the caller.
+pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) -> Result<(), Diagnostic> {
+    let key = param.key.text.as_str();
+    let own = class.parameters();
+    if !BASE.contains(&key) && !own.contains(&key) {
+        let message = format!("{} has no parameter `{key}`", class.name());
+        let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
+        return Err(problem.suggest(key, BASE.iter().copied().chain(own)));
+    }
+    let value = convert(key, &param.value.text);
+    let fail = |expected| wrong_type(param, expected);
+    let int = || if let Value::Int(int) = value { Ok(int) } else { Err(fail(Expected::Int)) };
+    let number = || match value {
+        Value::Int(int) => Ok(f64::from(int)),
+        Value::Double(double) => Ok(double),
+        _ => Err(fail(Expected::Number)),
+    };
+    let boolean = || if let Value::Bool(bool) = value { Ok(bool) } else { Err(fail(Expected::Bool)) };
+    let direction = || if let Value::Direction(d) = value { Ok(d) } else { Err(fail(Expected::Direction)) };
+    // `hidden` and `invisible` are texts, one entry a player; ours is the first and only player.
+    let switch = || {
+        let text = param.value.text.as_str();
+        let first = text.split(',').next().unwrap_or_default();
+        if first.eq_ignore_ascii_case("true") || first.eq_ignore_ascii_case("false") {
+            Ok(first.eq_ignore_ascii_case("true"))
+        } else {
+            Err(fail(Expected::Bool))
+        }
+    };
+    match key {
+        "speed" => traits.speed = number()?,
+        "cooldown" => traits.cooldown = int()?,
+        "physicstype" => {
+            if int()? != 0 {
+                let message = "continuous physics is not supported yet";
+                return Err(
+                    Diagnostic::error("unsupported", param.span(), message).help("use `physicstype=GRID`")
+                );
+            }
+        }
+        "orientation" => traits.orientation = direction()?,
+        "is_oriented" => traits.is_oriented = boolean()?,
+        "rotateInPlace" => traits.rotate_in_place = boolean()?,
+        "is_static" => traits.is_static = boolean()?,
+        "only_active" => traits.only_active = boolean()?,
+        "stationary" => traits.stationary = boolean()?,
+        "solid" => traits.solid = boolean()?,
+        "wMult" => traits.width_factor = number()?,
+        "hMult" => traits.height_factor = number()?,
+        "healthPoints" => traits.health = int()?,
+        "maxHealthPoints" => traits.max_health = int()?,
+        "limitHealthPoints" => traits.limit_health = int()?,
+        "timeToLive" => traits.time_to_live = int()?,
+        "portal" => traits.portal = boolean()?,
+        "is_npc" => traits.is_npc = boolean()?,
+        "is_resource" | "is_avatar" => {
+            if boolean()? != (if key == "is_avatar" { class.is_avatar() } else { traits.is_resource }) {
+                let message = format!("`{key}` does not fit the class {}", class.name());
+                return Err(
+                    Diagnostic::error("bad-parameter", param.span(), message).help("choose another class")
+                );
+            }
+        }
+        "singleton" | "is_stochastic" | "draw_arrow" | "autotiling" => drop(boolean()?),
+        "hidden" => traits.hidden = switch()?,
+        "invisible" => traits.invisible = switch()?,
+        "mass" | "gravity" | "friction" | "max_speed" | "jump_strength" | "rotation" | "shrinkfactor"
+        | "randomtiling" => drop(number()?),
+        "frameRate" => drop(int()?),
+        "color" => match value {
+            Value::Color(rgb) => traits.color = Some(rgb),
+            Value::Unusable => {}
+            _ => return Err(fail(Expected::Color)),
+        },
+        "limit" => traits.limit = int()?,
+        "value" => traits.value = int()?,
+        "age" => traits.age = int()?,
+        "spreadprob" => traits.spread_probability = number()?,
+        "cons" => traits.cons = int()?,
+        "fleeing" => traits.fleeing = boolean()?,
+        "maxDistance" => traits.max_distance = f64::from(int()?),
+        "prob" => traits.prob = number()?,
+        "total" => traits.total = int()?,
+        "spawnorientation" => traits.spawn_orientation = direction()?,
+        "start" => traits.start = int()?,
+        "counter" => drop(int()?),
+        "minAmmo" => traits.min_ammo = int()?,
+        "ammoCost" => traits.ammo_cost = int()?,
+        "stype" | "ammo" | "img" | "orientedImg" | "resource_name" => {}
+        _ => unreachable!("every parameter of the tables is matched: {key}"),
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(class: SpriteClass, key: &str, value: &str) -> Result<Traits, &'static str> {
+        let mut traits = Traits::of_class(class);
+        set_trait(class, &mut traits, &Param::new(key, value)).map_err(|problem| problem.code)?;
+        Ok(traits)
+    }
+
+    #[test]
+    fn every_parameter_of_every_class_is_matched() {
+        for &class in SpriteClass::ALL {
+            for key in BASE.iter().copied().chain(class.parameters()) {
+                let _ = set(class, key, "1");
+            }
+        }
+    }
+
+    #[test]
+    fn values_must_fit_the_field() {
+        assert_eq!(set(SpriteClass::Missile, "speed", "0.5").unwrap().speed, 0.5);
+        assert_eq!(set(SpriteClass::Missile, "cooldown", "2.0").unwrap_err(), "wrong-type");
+        assert_eq!(set(SpriteClass::Missile, "sped", "2").unwrap_err(), "unknown-parameter");
+        assert_eq!(set(SpriteClass::Missile, "orientation", "up").unwrap_err(), "wrong-type");
+        assert_eq!(set(SpriteClass::Missile, "orientation", "DUP").unwrap().orientation, Direction::UP);
+        assert_eq!(set(SpriteClass::Missile, "singleton", "1").unwrap_err(), "wrong-type");
+        assert!(set(SpriteClass::Passive, "hidden", "TRUE").unwrap().hidden);
+    }
+}

@@ -1,0 +1,291 @@
+//! The SpriteSet: registry, inheritance, update order (`spec/01` §1.6).
+
+use super::params::set_trait;
+use super::{Names, ranks};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::game::{SpriteType, TypeInfo};
+use crate::ontology::class::{self, SpriteClass};
+use crate::ontology::traits::Traits;
+use crate::syntax::{Description, Param, SpriteLine, Word};
+
+/// A line with what it inherits.
+struct Resolved<'a> {
+    line: Option<&'a SpriteLine>,
+    name: String,
+    /// Names from the root down, itself included.
+    path: Vec<String>,
+    /// In pre-order, itself left out.
+    descendants: Vec<String>,
+    class: Option<Word>,
+    params: Vec<&'a Param>,
+}
+
+/// The compiled types, in registry order, and the drawing order.
+pub(super) fn types(
+    description: &Description,
+    problems: &mut Vec<Diagnostic>,
+) -> (Vec<TypeInfo>, Vec<SpriteType>) {
+    let mut resolved = Vec::new();
+    inherit(&description.sprites, &None, &[], &[], &mut resolved);
+    duplicates(&resolved, problems);
+    let leaves: Vec<String> = resolved
+        .iter()
+        .filter(|sprite| sprite.descendants.is_empty())
+        .map(|sprite| sprite.name.clone())
+        .collect();
+
+    // `wall` and `avatar` come first in every registry, declared or not.
+    let mut registry: Vec<Resolved<'_>> = Vec::new();
+    for (name, class) in [("wall", "Immovable"), ("avatar", "MovingAvatar")] {
+        let declared = resolved.iter().position(|sprite| sprite.name == name);
+        registry.push(declared.map_or_else(|| built_in(name, class), |at| resolved.remove(at)));
+    }
+    for sprite in resolved {
+        if registry.iter().all(|known| known.name != sprite.name) {
+            registry.push(sprite);
+        }
+    }
+
+    let mut rejected = Rejected::default();
+    let mut types: Vec<TypeInfo> =
+        registry.iter().map(|sprite| type_info(sprite, &registry, &mut rejected, problems)).collect();
+    problems.extend(rejected.by_all());
+    let order = update_order(&leaves, &types);
+    for (at, stype) in order.iter().enumerate() {
+        types[stype.index()].order = Some(at as u16);
+    }
+    for at in 0..types.len() {
+        if let Some(class) = types[at].class {
+            let (stypes, ammo) = references(&registry[at], class, Names { types: &types }, problems);
+            (types[at].traits.stypes, types[at].traits.ammo) = (stypes.into(), ammo.into());
+        }
+    }
+    (types, order)
+}
+
+/// Parameters that a class does not have. A parent line passes its parameters to children of several classes; one is a
+/// mistake if none of them takes it.
+#[derive(Default)]
+struct Rejected {
+    problems: Vec<Diagnostic>,
+    taken: Vec<Span>,
+}
+
+impl Rejected {
+    fn by_all(self) -> impl Iterator<Item = Diagnostic> {
+        let mut told: Vec<Span> = self.taken;
+        self.problems.into_iter().filter(move |problem| {
+            let new = !told.contains(&problem.span);
+            told.push(problem.span);
+            new
+        })
+    }
+}
+
+fn built_in(name: &str, class: &str) -> Resolved<'static> {
+    Resolved {
+        line: None,
+        name: name.to_owned(),
+        path: vec![name.to_owned()],
+        descendants: Vec::new(),
+        class: Some(class.into()),
+        params: Vec::new(),
+    }
+}
+
+/// An inherited class beats the written one; the written one is what children inherit (`spec/01` §1.6.2).
+fn inherit<'a>(
+    lines: &'a [SpriteLine],
+    class: &Option<Word>,
+    params: &[&'a Param],
+    path: &[String],
+    out: &mut Vec<Resolved<'a>>,
+) {
+    for line in lines {
+        let mut own_params: Vec<&Param> = params.to_vec();
+        for param in &line.params {
+            own_params.retain(|inherited| inherited.key.text != param.key.text);
+            own_params.push(param);
+        }
+        let mut own_path = path.to_vec();
+        own_path.push(line.name.text.clone());
+        let at = out.len();
+        out.push(Resolved {
+            line: Some(line),
+            name: line.name.text.clone(),
+            path: own_path.clone(),
+            descendants: Vec::new(),
+            class: class.clone().or_else(|| line.class.clone()),
+            params: own_params.clone(),
+        });
+        let passed_on = line.class.clone().or_else(|| class.clone());
+        inherit(&line.children, &passed_on, &own_params, &own_path, out);
+        out[at].descendants = out[at + 1..].iter().map(|sprite| sprite.name.clone()).collect();
+    }
+}
+
+fn duplicates(resolved: &[Resolved<'_>], problems: &mut Vec<Diagnostic>) {
+    for (at, sprite) in resolved.iter().enumerate() {
+        let Some(line) = sprite.line else { continue };
+        if resolved[..at].iter().any(|other| other.name == sprite.name) {
+            let message = format!("`{}` is declared twice", sprite.name);
+            let problem = Diagnostic::error("duplicate-sprite", line.name.span, message);
+            problems.push(problem.help("give one of the two another name"));
+        }
+        if sprite.name.eq_ignore_ascii_case("EOS") || sprite.name.eq_ignore_ascii_case("TIME") {
+            let message = format!("`{}` has a meaning of its own in interactions", sprite.name);
+            problems.push(
+                Diagnostic::error("reserved-name", line.name.span, message).help("choose another name"),
+            );
+        }
+    }
+}
+
+fn type_info(
+    sprite: &Resolved<'_>,
+    registry: &[Resolved<'_>],
+    rejected: &mut Rejected,
+    problems: &mut Vec<Diagnostic>,
+) -> TypeInfo {
+    let id = |name: &String| {
+        let at = registry.iter().position(|other| other.name == *name);
+        SpriteType(at.expect("every line is registered") as u16)
+    };
+    let path: Box<[SpriteType]> = sprite.path.iter().map(id).collect();
+    let tree: Box<[SpriteType]> = sprite.path.iter().chain(&sprite.descendants).map(id).collect();
+    let class = sprite.class.as_ref().and_then(|word| class_named(word, problems));
+    let mut traits = Traits::of_class(class.unwrap_or(SpriteClass::Passive));
+    if sprite.line.is_none() && sprite.name == "wall" {
+        traits.solid = true;
+    }
+    if let Some(class) = class {
+        for param in &sprite.params {
+            match set_trait(class, &mut traits, param) {
+                Err(problem) if problem.code == "unknown-parameter" => rejected.problems.push(problem),
+                Err(problem) => problems.push(problem),
+                Ok(()) => rejected.taken.push(param.key.span),
+            }
+        }
+    } else if let Some(line) = sprite.line
+        && line.children.is_empty()
+        && sprite.class.is_none()
+    {
+        let message = format!("`{}` has no class", sprite.name);
+        let problem = Diagnostic::error("no-class", line.name.span, message);
+        problems.push(problem.help("write it after the `>`: Immovable, Missile, MovingAvatar …"));
+    }
+    for factor in [traits.width_factor, traits.height_factor] {
+        if !(factor > 0.0 && factor <= f64::from(super::MAX_REACH)) {
+            let message = format!("`wMult` and `hMult` are above 0 and at most {}", super::MAX_REACH);
+            let span = sprite.line.map(|line| line.name.span).unwrap_or_default();
+            problems.push(Diagnostic::error("bad-parameter", span, message));
+        }
+    }
+    traits.settle();
+    let singleton =
+        |param: &Param| param.key.text == "singleton" && param.value.text.eq_ignore_ascii_case("true");
+    TypeInfo {
+        name: sprite.name.clone(),
+        class,
+        resource_limit: if class == Some(SpriteClass::Resource) { traits.limit } else { 0 },
+        traits,
+        rank: ranks(&tree, registry.len()),
+        path,
+        tree,
+        order: None,
+        singleton: sprite.line.is_some_and(|line| line.params.iter().any(singleton)),
+        leaf: sprite.descendants.is_empty(),
+    }
+}
+
+fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClass> {
+    let found = SpriteClass::from_name(&word.text);
+    if found.is_none() {
+        let later = class::LATER.contains(&word.text.as_str());
+        let problem = if later {
+            let message = format!("the class {} is not supported yet", word.text);
+            Diagnostic::error("unsupported", word.span, message)
+        } else {
+            let message = format!("no sprite class named `{}`", word.text);
+            let known = SpriteClass::ALL.iter().map(|class| class.name()).chain(class::LATER.iter().copied());
+            Diagnostic::error("unknown-class", word.span, message).suggest(&word.text, known)
+        };
+        problems.push(problem);
+    }
+    found
+}
+
+/// The sprites that `stype` and `ammo` name.
+fn references(
+    sprite: &Resolved<'_>,
+    class: SpriteClass,
+    names: Names<'_>,
+    problems: &mut Vec<Diagnostic>,
+) -> (Vec<SpriteType>, Vec<SpriteType>) {
+    use SpriteClass as C;
+    let takes = class.parameters();
+    let mut list = |key: &str, many: bool| -> Vec<SpriteType> {
+        let Some(param) = sprite.params.iter().find(|param| param.key.text == key) else { return Vec::new() };
+        if !takes.contains(&key) {
+            return Vec::new();
+        }
+        let mut found = Vec::new();
+        let mut start = param.value.span.start;
+        for text in param.value.text.split(',') {
+            let span = Span::new(start, start + text.len());
+            start += text.len() + 1;
+            found.extend(names.resolve(&Word { text: text.to_owned(), span }, problems));
+        }
+        if found.len() > 1 && !many {
+            let message = format!("`{key}` of {} names one sprite", class.name());
+            problems.push(Diagnostic::error("wrong-type", param.value.span, message));
+        }
+        found
+    };
+    let shoots = class.is_a(C::ShootAvatar);
+    let (stypes, ammo) = (list("stype", shoots), list("ammo", shoots));
+    let makes = shoots || class.is_a(C::SpawnPoint) || class == C::FlakAvatar || class == C::Spreader;
+    let needs = makes && class != C::Spreader || class.is_a(C::Chaser) || class == C::Portal;
+    let given = sprite.params.iter().find(|param| param.key.text == "stype");
+    let place = sprite.line.map(|line| line.name.span).unwrap_or_default();
+    match given {
+        None if needs && sprite.descendants.is_empty() => {
+            let message = format!("{} `{}` needs `stype=`, the name of a sprite", class.name(), sprite.name);
+            problems.push(Diagnostic::error("missing-parameter", place, message));
+        }
+        Some(param) if makes => {
+            for &stype in &stypes {
+                let word = Word { text: names.types[stype.index()].name.clone(), span: param.value.span };
+                names.instantiable(stype, &word, problems);
+                let own = names.types[stype.index()].name == sprite.name;
+                if own && (class.is_a(C::SpawnPoint) || class == C::Spreader) {
+                    let message = format!("`{}` would make sprites of its own type", sprite.name);
+                    let problem = Diagnostic::error("spawns-itself", param.value.span, message);
+                    problems
+                        .push(problem.help("the reference engine dies of that; let it make another type"));
+                }
+            }
+        }
+        None if class == C::Spreader && sprite.descendants.is_empty() => {
+            let message = format!("without `stype=`, `{}` would spread into its own type", sprite.name);
+            let problem = Diagnostic::error("spawns-itself", place, message);
+            problems.push(problem.help("the reference engine dies of that; name another type with `stype=`"));
+        }
+        _ => {}
+    }
+    (stypes, ammo)
+}
+
+/// Drawing order: `wall`, the leaves as the file has them, `avatar` last; updates go backwards (`spec/01` §1.6.5).
+fn update_order(leaves: &[String], types: &[TypeInfo]) -> Vec<SpriteType> {
+    let named =
+        |name: &String| types.iter().position(|info| info.name == *name).map(|at| SpriteType(at as u16));
+    let mut order = vec![SpriteType(0)];
+    for leaf in leaves.iter().filter_map(named) {
+        order.retain(|&other| other != leaf);
+        order.push(leaf);
+    }
+    order.retain(|&other| other != SpriteType(1));
+    order.push(SpriteType(1));
+    order
+}

@@ -1,0 +1,143 @@
+//! The TerminationSet.
+
+use super::Names;
+use super::params::{Expected, Value, convert, wrong_type};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::game::SpriteType;
+use crate::ontology::terminations::{Condition, LATER, NAMES, Termination};
+use crate::syntax::{Description, Param, TerminationLine};
+
+pub(super) fn terminations(
+    description: &Description,
+    names: Names<'_>,
+    problems: &mut Vec<Diagnostic>,
+) -> Vec<Termination> {
+    let mut terminations = Vec::new();
+    for line in &description.terminations {
+        let mut reader = Reader { line, names, problems };
+        if let Some((condition, win)) = reader.termination() {
+            terminations.push(Termination { condition, win });
+        }
+    }
+    if description.terminations.is_empty() && description.has[3] {
+        let span = description.header.class.span;
+        let message = "the TerminationSet is empty: only the limit of 2000 ticks ends the game";
+        problems.push(Diagnostic::warning("no-win", span, message).help("add a termination with `win=True`"));
+    } else if !description.terminations.is_empty() && !terminations.iter().any(|end| end.win) {
+        let span = description.terminations[0].class.span;
+        let problem =
+            Diagnostic::warning("no-win", span, "no termination has `win=True`: the game cannot be won");
+        problems.push(problem.help("add `win=True` to one of them"));
+    }
+    terminations
+}
+
+struct Reader<'a> {
+    line: &'a TerminationLine,
+    names: Names<'a>,
+    problems: &'a mut Vec<Diagnostic>,
+}
+
+impl<'a> Reader<'a> {
+    fn termination(&mut self) -> Option<(Condition, bool)> {
+        let name = self.line.class.text.as_str();
+        let own: &[&str] = match name {
+            "SpriteCounter" | "SpriteCounterMore" => &["stype"],
+            "MultiSpriteCounter" => &["stype1", "stype2", "stype3", "min"],
+            "Timeout" => &[],
+            _ => {
+                let span = self.line.class.span;
+                self.problems.push(if LATER.contains(&name) {
+                    Diagnostic::error(
+                        "unsupported",
+                        span,
+                        format!("the termination {name} is not supported yet"),
+                    )
+                } else {
+                    let known = NAMES.iter().chain(LATER).copied();
+                    Diagnostic::error("unknown-termination", span, format!("no termination named `{name}`"))
+                        .suggest(name, known)
+                });
+                return None;
+            }
+        };
+        let common = ["limit", "win", "count_score"];
+        for param in &self.line.params {
+            let key = param.key.text.as_str();
+            if !common.contains(&key) && !own.contains(&key) {
+                let message = format!("{name} has no parameter `{key}`");
+                let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
+                self.problems.push(problem.suggest(key, common.iter().chain(own).copied()));
+            }
+        }
+        if let Some(param) = self.param("count_score") {
+            let message = "`count_score` is for games of several players";
+            self.problems.push(Diagnostic::error("unsupported", param.span(), message).help("remove it"));
+        }
+        let limit = self.limit(name);
+        let win = self.win();
+        let condition = match name {
+            "SpriteCounter" => Condition::SpriteCounter { stype: self.sprite("stype")?, limit },
+            "SpriteCounterMore" => Condition::SpriteCounterMore { stype: self.sprite("stype")?, limit },
+            "MultiSpriteCounter" => {
+                let first = self.sprite("stype1")?;
+                let rest = ["stype2", "stype3"].into_iter().filter(|key| self.param(key).is_some());
+                let rest: Vec<&'static str> = rest.collect();
+                let rest: Vec<SpriteType> = rest.into_iter().filter_map(|key| self.sprite(key)).collect();
+                let stypes = std::iter::once(first).chain(rest).collect();
+                Condition::MultiSpriteCounter { stypes, limit, min: self.flag("min") }
+            }
+            _ => Condition::Timeout { limit },
+        };
+        Some((condition, win))
+    }
+
+    fn param(&self, key: &str) -> Option<&'a Param> {
+        self.line.params.iter().rev().find(|param| param.key.text == key)
+    }
+
+    fn limit(&mut self, name: &str) -> i32 {
+        let Some(param) = self.param("limit") else {
+            if name == "Timeout" {
+                let message = "a Timeout without `limit` ends the game at once";
+                let problem = Diagnostic::warning("ends-at-once", self.line.class.span, message);
+                self.problems.push(problem.help("add `limit=` and a number of ticks"));
+            }
+            return 0;
+        };
+        let Value::Int(limit) = convert("limit", &param.value.text) else {
+            self.problems.push(wrong_type(param, Expected::Int));
+            return 0;
+        };
+        limit
+    }
+
+    /// A list with an entry a player; a missing entry is a loss.
+    fn win(&mut self) -> bool {
+        let Some(param) = self.param("win") else { return false };
+        let first = param.value.text.split(',').next().unwrap_or_default();
+        if !first.eq_ignore_ascii_case("true") && !first.eq_ignore_ascii_case("false") {
+            self.problems.push(wrong_type(param, Expected::Bool));
+        }
+        first.eq_ignore_ascii_case("true")
+    }
+
+    fn flag(&mut self, key: &str) -> bool {
+        let Some(param) = self.param(key) else { return false };
+        let Value::Bool(flag) = convert(key, &param.value.text) else {
+            self.problems.push(wrong_type(param, Expected::Bool));
+            return false;
+        };
+        flag
+    }
+
+    fn sprite(&mut self, key: &str) -> Option<SpriteType> {
+        let Some(param) = self.param(key) else {
+            let span: Span = self.line.class.span;
+            let message = format!("{} needs `{key}=`, the name of a sprite", self.line.class.text);
+            self.problems.push(Diagnostic::error("missing-parameter", span, message));
+            return None;
+        };
+        self.names.resolve(&param.value, self.problems)
+    }
+}

@@ -1,0 +1,150 @@
+//! What can be wrong with a VGDL file, as plain data; `cli` renders it.
+
+use serde::Serialize;
+use std::fmt;
+
+/// A range of bytes in a source text. The default span is "nowhere": made, not read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize)]
+pub struct Span {
+    /// First byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+impl Span {
+    /// The bytes `start..end`.
+    pub fn new(start: usize, end: usize) -> Span {
+        Span { start, end }
+    }
+}
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// The file does not make a game or level.
+    Error,
+    /// Legal, but surely not meant.
+    Warning,
+}
+
+/// One problem: a stable code, where it is, what is wrong, and the next move.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Diagnostic {
+    /// Stable, kebab-case: `unknown-sprite`.
+    pub code: &'static str,
+    /// Error or warning.
+    pub severity: Severity,
+    /// What is wrong, naming the thing; lower-case, no full stop.
+    pub message: String,
+    /// Where.
+    pub span: Span,
+    /// What to write under the caret; may be empty.
+    pub label: String,
+    /// The next move, if there is a likely one.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error at `span`.
+    pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Diagnostic {
+        let (message, label) = (message.into(), String::new());
+        Diagnostic { code, severity: Severity::Error, message, span, label, help: None }
+    }
+
+    /// A warning at `span`.
+    pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Diagnostic {
+        Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, span, message) }
+    }
+
+    /// With words under the caret.
+    pub fn label(self, label: impl Into<String>) -> Diagnostic {
+        Diagnostic { label: label.into(), ..self }
+    }
+
+    /// With the next move.
+    pub fn help(self, help: impl Into<String>) -> Diagnostic {
+        Diagnostic { help: Some(help.into()), ..self }
+    }
+
+    /// With "did you mean" if one of `candidates` is close to `wrong`.
+    pub fn suggest<'a>(self, wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Diagnostic {
+        match nearest(wrong, candidates) {
+            Some(name) => self.help(format!("did you mean `{name}`?")),
+            None => self,
+        }
+    }
+}
+
+/// The candidate that `wrong` most likely stands for.
+pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let key = wrong.to_lowercase();
+    candidates
+        .into_iter()
+        .map(|name| (strsim::damerau_levenshtein(&key, &name.to_lowercase()), name))
+        .filter(|&(distance, name)| distance <= 1.max(name.chars().count().min(key.chars().count()) / 3))
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, name)| name)
+}
+
+/// All problems of a file; at least one is an error.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostics(pub Vec<Diagnostic>);
+
+impl Diagnostics {
+    /// Sorted by place.
+    pub fn sorted(mut list: Vec<Diagnostic>) -> Diagnostics {
+        list.sort_by(|a, b| (a.span, a.code).cmp(&(b.span, b.code)));
+        list.dedup();
+        Diagnostics(list)
+    }
+
+    /// Whether `list` holds an error.
+    pub fn has_errors(list: &[Diagnostic]) -> bool {
+        list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, diagnostic) in self.0.iter().enumerate() {
+            let newline = if i == 0 { "" } else { "\n" };
+            write!(f, "{newline}{}: {}", diagnostic.code, diagnostic.message)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Diagnostics {}
+
+/// Line and column, both from 1, of byte `offset` in `source`; columns count characters.
+pub fn line_and_column(source: &str, offset: usize) -> (usize, usize) {
+    let mut offset = offset.min(source.len());
+    while !source.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    let before = &source[..offset];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn suggestions_are_close_or_absent() {
+        let names = ["avatar", "alien", "wall"];
+        assert_eq!(nearest("alein", names), Some("alien"));
+        assert_eq!(nearest("Avatar", names), Some("avatar"));
+        assert_eq!(nearest("spaceship", names), None);
+    }
+
+    #[test]
+    fn places_count_from_one() {
+        assert_eq!(line_and_column("ab\ncd", 0), (1, 1));
+        assert_eq!(line_and_column("ab\ncd", 4), (2, 2));
+        assert_eq!(line_and_column("ab\ncd", 99), (2, 3));
+    }
+}

@@ -1,0 +1,129 @@
+//! An episode: what was played, and enough to replay and check it bit for bit.
+
+use crate::game::{Action, Game, Outcome};
+use crate::level::Level;
+use crate::{Digest, Seed, State, StateHash};
+use serde::{Deserialize, Serialize};
+
+/// Actions and what they led to. Serves as a validator's witness, an evaluation's log and a golden trace alike: all
+/// three are checked by [`Episode::replay`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Episode {
+    /// The game's digest.
+    pub game: Digest,
+    /// The level's digest.
+    pub level: Digest,
+    /// Decides the game's chance.
+    pub seed: Seed,
+    /// One action a tick.
+    pub actions: Vec<Action>,
+    /// The state hash after each tick.
+    pub hashes: Vec<StateHash>,
+    /// How it stood in the end.
+    pub outcome: Outcome,
+    /// The score in the end.
+    pub score: f64,
+}
+
+/// Where a replay left the record.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Divergence {
+    /// The record is of another game.
+    #[error("the episode was recorded on game {recorded}, not on {given}")]
+    Game {
+        /// In the record.
+        recorded: Digest,
+        /// The one it was replayed on.
+        given: Digest,
+    },
+    /// The record is of another level.
+    #[error("the episode was recorded on level {recorded}, not on {given}")]
+    Level {
+        /// In the record.
+        recorded: Digest,
+        /// The one it was replayed on.
+        given: Digest,
+    },
+    /// Actions and hashes do not go together.
+    #[error("the episode has {actions} actions but {hashes} state hashes")]
+    Lengths {
+        /// How many actions.
+        actions: usize,
+        /// How many hashes.
+        hashes: usize,
+    },
+    /// A state differs.
+    #[error("the state after tick {tick} has hash {got}, the episode says {recorded}")]
+    Hash {
+        /// Counted from 0.
+        tick: usize,
+        /// In the record.
+        recorded: StateHash,
+        /// Replayed.
+        got: StateHash,
+    },
+    /// The end differs.
+    #[error(
+        "the episode ends {got:?} with score {score}, the record says {recorded:?} with {recorded_score}"
+    )]
+    End {
+        /// In the record.
+        recorded: Outcome,
+        /// In the record.
+        recorded_score: f64,
+        /// Replayed.
+        got: Outcome,
+        /// Replayed.
+        score: f64,
+    },
+}
+
+impl Episode {
+    /// An episode with no tick played yet, and the state to play it on.
+    pub fn begin(game: &Game, level: &Level, seed: Seed) -> (Episode, State) {
+        let state = game.start(level, seed);
+        let (outcome, score) = (state.outcome(), state.score());
+        let (game, level) = (game.digest(), level.digest());
+        (Episode { game, level, seed, actions: Vec::new(), hashes: Vec::new(), outcome, score }, state)
+    }
+
+    /// Plays one tick and records it.
+    pub fn play(&mut self, game: &Game, state: &mut State, action: Action) -> Outcome {
+        self.outcome = game.step(state, action);
+        self.score = state.score();
+        self.actions.push(action);
+        self.hashes.push(state.state_hash());
+        self.outcome
+    }
+
+    /// Plays the actions again, compares every state hash, and returns the last state.
+    ///
+    /// # Errors
+    /// The first place where the replay and the record differ.
+    pub fn replay(&self, game: &Game, level: &Level) -> Result<State, Divergence> {
+        if self.game != game.digest() {
+            return Err(Divergence::Game { recorded: self.game, given: game.digest() });
+        }
+        if self.level != level.digest() {
+            return Err(Divergence::Level { recorded: self.level, given: level.digest() });
+        }
+        if self.actions.len() != self.hashes.len() {
+            return Err(Divergence::Lengths { actions: self.actions.len(), hashes: self.hashes.len() });
+        }
+        let mut state = game.start(level, self.seed);
+        for (tick, (&action, &recorded)) in self.actions.iter().zip(&self.hashes).enumerate() {
+            game.step(&mut state, action);
+            let got = state.state_hash();
+            if got != recorded {
+                return Err(Divergence::Hash { tick, recorded, got });
+            }
+        }
+        let (got, score) = (state.outcome(), state.score());
+        if got != self.outcome || score != self.score {
+            let (recorded, recorded_score) = (self.outcome, self.score);
+            return Err(Divergence::End { recorded, recorded_score, got, score });
+        }
+        Ok(state)
+    }
+}

@@ -1,0 +1,212 @@
+//! The two hashes of a state, 128 bits each (`design.md` §4).
+//!
+//! [`State::state_hash`] covers all that can influence the future, chance and tick included. It is a sum over the sprites
+//! that `step` keeps up to date as they change, plus a hash of the few numbers beside them.
+//! [`State::search_key`] covers live behaviour only and is what transposition tables use.
+
+use crate::game::{Game, Rules};
+use crate::state::{Sprite, State, flag};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+macro_rules! hash_type {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub u128);
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{:032x}", self.0)
+            }
+        }
+
+        impl fmt::Debug for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                fmt::Display::fmt(self, f)
+            }
+        }
+
+        impl Serialize for $name {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.collect_str(self)
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<$name, D::Error> {
+                let text = String::deserialize(deserializer)?;
+                let bytes: [u8; 16] = crate::digest::parse_hex(&text)
+                    .map_err(|_| serde::de::Error::custom(format!("`{text}` is not 32 hexadecimal digits")))?;
+                Ok($name(u128::from_be_bytes(bytes)))
+            }
+        }
+    };
+}
+
+hash_type! {
+    /// Equal states have equal hashes; what is only picture or book-keeping is left out.
+    StateHash
+}
+hash_type! {
+    /// Equal keys mean equal keys, and equal outcomes, after any same actions.
+    SearchKey
+}
+
+/// Absorbs 64-bit words; two lanes of folded 128-bit products (the construction of wyhash, two secrets).
+struct Mixer {
+    low: u64,
+    high: u64,
+}
+
+const SECRET: [u64; 4] =
+    [0x9E37_79B9_7F4A_7C15, 0xC2B2_AE3D_27D4_EB4F, 0x1656_67B1_9E37_79F9, 0xD6E8_FEB8_6659_FD93];
+
+impl Mixer {
+    fn new(tag: u64) -> Mixer {
+        Mixer { low: SECRET[0] ^ tag, high: SECRET[1] ^ tag }
+    }
+
+    fn pair(&mut self, a: u64, b: u64) {
+        self.low = fold(self.low ^ a, SECRET[2] ^ b);
+        self.high = fold(self.high ^ b, SECRET[3] ^ a);
+    }
+
+    fn finish(self) -> u128 {
+        let low = fold(self.low ^ SECRET[3], self.high ^ SECRET[2]);
+        let high = fold(self.high ^ SECRET[0], self.low ^ SECRET[1]);
+        u128::from(high) << 64 | u128::from(low)
+    }
+}
+
+fn fold(a: u64, b: u64) -> u64 {
+    let wide = u128::from(a) * u128::from(b);
+    (wide as u64) ^ ((wide >> 64) as u64) ^ a.rotate_left(32)
+}
+
+fn two(a: i32, b: i32) -> u64 {
+    u64::from(a as u32) << 32 | u64::from(b as u32)
+}
+
+/// The share of one sprite in the state hash.
+pub(crate) fn sprite_hash(sprite: &Sprite) -> u128 {
+    let mut mixer = Mixer::new(u64::from(sprite.id));
+    let kind = i32::from(sprite.stype.0) << 16 | i32::from(sprite.flags & !flag::TRANSIENT);
+    mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
+    mixer.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
+    mixer.pair(sprite.orientation.x.to_bits(), sprite.orientation.y.to_bits());
+    mixer.pair(sprite.speed.to_bits(), two(sprite.moved_at, kind));
+    mixer.pair(two(sprite.health, sprite.max_health), two(sprite.time_to_live, i32::from(sprite.heading)));
+    mixer.pair(two(sprite.count, sprite.start), 0);
+    mixer.finish()
+}
+
+impl State {
+    /// The hash of all that can influence the future. Cost: a few numbers; the sprites are kept up to date by `step`.
+    pub fn state_hash(&self) -> StateHash {
+        self.with_globals(self.sprite_hash)
+    }
+
+    /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).
+    pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
+        let slots = game.sprite_types().flat_map(|stype| self.slots(stype));
+        let sum = slots.map(|slot| sprite_hash(self.sprite(slot))).fold(0u128, u128::wrapping_add);
+        self.with_globals(sum)
+    }
+
+    fn with_globals(&self, sprites: u128) -> StateHash {
+        debug_assert!(self.stale.is_empty(), "a state is hashed between steps");
+        let mut mixer = Mixer::new(0x5374_6174);
+        mixer.pair(sprites as u64, (sprites >> 64) as u64);
+        mixer.pair(two(self.tick, self.messages as i32), self.score as u64);
+        mixer.pair(self.chance.state(), two(self.next_id as i32, self.population));
+        mixer.pair(self.avatar_id().map_or(u64::MAX, u64::from), self.outcome_code());
+        let mut held: Vec<_> = self.held.iter().map(|held| (self.sprite(held.holder).id, *held)).collect();
+        held.sort_unstable_by_key(|(id, held)| (*id, held.resource));
+        for (id, held) in held {
+            mixer.pair(u64::from(id), two(i32::from(held.resource.0), held.amount));
+        }
+        for (chunk, bytes) in self.memory.chunks(8).enumerate() {
+            mixer.pair(chunk as u64, bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
+        }
+        for (stype, _) in self.templates.iter().enumerate().filter(|(_, made)| **made) {
+            mixer.pair(stype as u64, 1);
+        }
+        StateHash(mixer.finish())
+    }
+
+    fn outcome_code(&self) -> u64 {
+        use crate::game::Outcome;
+        match self.outcome {
+            Outcome::Ongoing => 0,
+            Outcome::Won => 1,
+            Outcome::Lost => 2,
+            Outcome::Ended => 3,
+            Outcome::Stopped(limit) => 4 + limit as u64,
+        }
+    }
+
+    /// The hash of live behaviour only: no score, no tick unless a rule reads it, no chance unless something can draw,
+    /// ages saturated at the cooldown, the order of creation instead of ids. Cost: O(sprites).
+    pub fn search_key(&self, game: &Game) -> SearchKey {
+        let rules: &Rules = &game.0;
+        let mut mixer = Mixer::new(0x4B65_7900);
+        mixer.pair(self.outcome_code(), u64::from(self.messages));
+        if self.is_over() {
+            return SearchKey(mixer.finish());
+        }
+        // The reference ends every game at its tick limit; a search that deep is not what keys are for.
+        mixer.pair(if rules.reads_tick { self.tick as u64 } else { 0 }, self.population as u64);
+        mixer.pair(if rules.draws { self.chance.state() } else { 0 }, self.avatar_rank());
+        for stype in game.sprite_types() {
+            if self.group(stype).count > 0 {
+                mixer.pair(u64::from(stype.0), u64::from(self.group(stype).count));
+            }
+            for slot in self.slots(stype) {
+                self.live_words(rules, self.sprite(slot), &mut mixer);
+                let held = self.held.iter().filter(|held| held.holder == slot && held.amount > 0);
+                let mut held: Vec<_> =
+                    held.map(|held| two(i32::from(held.resource.0), held.amount)).collect();
+                held.sort_unstable();
+                held.into_iter().for_each(|word| mixer.pair(1, word));
+            }
+        }
+        let memory = self.memory.iter().fold(0u64, |word, &byte| word.rotate_left(5) ^ u64::from(byte));
+        let templates = self.templates.iter().fold(0u64, |word, &made| word.rotate_left(1) ^ u64::from(made));
+        mixer.pair(memory, if rules.scales { templates } else { 0 });
+        SearchKey(mixer.finish())
+    }
+
+    fn avatar_rank(&self) -> u64 {
+        let Some(avatar) = self.sprites.get(usize::from(self.avatar)) else { return u64::MAX };
+        let rank = self.slots(avatar.stype).position(|slot| slot == self.avatar);
+        u64::from(avatar.stype.0) << 32 | rank.unwrap_or(0) as u64
+    }
+
+    fn live_words(&self, rules: &Rules, sprite: &Sprite, mixer: &mut Mixer) {
+        let info = &rules.types[sprite.stype.index()];
+        let frozen = sprite.is(flag::FROZEN);
+        let age = if frozen { sprite.moved_at } else { self.tick - sprite.moved_at };
+        // The age is read at the earliest in the sprite's next update, one tick on.
+        let age = if frozen { age } else { age.saturating_add(1) }.min(info.traits.cooldown);
+        let kind =
+            i32::from(sprite.flags & !(flag::TRANSIENT | flag::RECORDED) | sprite.flags & flag::DISABLED);
+        mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
+        mixer.pair(two(age, kind), two(sprite.health, sprite.max_health));
+        mixer.pair(sprite.orientation.x.to_bits(), sprite.orientation.y.to_bits());
+        // Spawners fire when (start + tick) is a multiple of the cooldown; without a first update, at any tick.
+        let phase = match (sprite.start, info.class) {
+            (-1, _) => -1,
+            (start, Some(class)) if class.is_a(crate::SpriteClass::SpawnPoint) => {
+                (start.wrapping_add(self.tick)).rem_euclid(info.traits.cooldown)
+            }
+            _ => 0,
+        };
+        mixer.pair(sprite.speed.to_bits(), two(phase, sprite.time_to_live));
+        mixer.pair(two(sprite.count, i32::from(sprite.heading)), 0);
+        if frozen {
+            // Only sprites without updates keep their last rectangle beyond this tick.
+            mixer.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
+        }
+    }
+}

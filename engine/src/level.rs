@@ -1,0 +1,265 @@
+//! A level: a grid of characters, checked against one game's LevelMapping (`spec/01` §2).
+
+use crate::Digest;
+use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+use crate::game::{Game, SpriteType};
+use std::fmt;
+
+/// Columns or rows at most.
+pub const MAX_SIDE: usize = 512;
+/// Cells at most.
+pub const MAX_CELLS: usize = 1 << 16;
+/// Sprites at most: the reference refuses to make more.
+pub const MAX_SPRITES: usize = 10_000;
+/// Bytes of level text that are read.
+pub const MAX_LEVEL_TEXT: usize = 1 << 18;
+/// Problems of one kind that are reported one by one.
+const MAX_REPEATS: usize = 10;
+
+/// A level that fits one game: row-major characters, every one in the game's LevelMapping or a blank.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Level {
+    columns: usize,
+    rows: usize,
+    cells: Vec<u8>,
+    warnings: Vec<Diagnostic>,
+}
+
+impl Level {
+    /// Columns of the board.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Rows of the board.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The characters, row-major, ASCII.
+    pub fn cells(&self) -> &[u8] {
+        &self.cells
+    }
+
+    /// What is legal but surely not meant.
+    pub fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
+    }
+
+    /// BLAKE3 of the canonical text: rows of equal length, each with a newline.
+    pub fn digest(&self) -> Digest {
+        Digest::of(self.to_string().as_bytes())
+    }
+}
+
+impl fmt::Display for Level {
+    /// The canonical text.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.cells.chunks(self.columns).try_for_each(|row| {
+            row.iter().try_for_each(|&symbol| write!(f, "{}", char::from(symbol)))?;
+            writeln!(f)
+        })
+    }
+}
+
+impl Game {
+    /// What a level character places, in order; empty for blanks and characters without a mapping.
+    pub fn places(&self, symbol: u8) -> &[SpriteType] {
+        self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
+    }
+
+    /// Checks a level's text against this game.
+    ///
+    /// # Errors
+    /// All problems of the text, sorted by place: characters without a mapping, no avatar or several, a size beyond
+    /// [`MAX_SIDE`], [`MAX_CELLS`] or [`MAX_SPRITES`].
+    pub fn level(&self, text: &str) -> Result<Level, Diagnostics> {
+        let everything = Span::new(0, 0);
+        let fail = |problem| Err(Diagnostics(vec![problem]));
+        if text.len() > MAX_LEVEL_TEXT {
+            let message =
+                format!("the level is {} bytes long; at most {MAX_LEVEL_TEXT} are read", text.len());
+            return fail(
+                Diagnostic::error("too-large", everything, message)
+                    .help("split it, or is this a level file?"),
+            );
+        }
+        let lines = level_lines(text);
+        let columns = lines.first().map_or(0, |(_, line)| line.chars().count());
+        let rows = lines.len();
+        if columns == 0 {
+            let message = "the level's first line is empty; its length is the width of the level";
+            return fail(
+                Diagnostic::error("empty-level", everything, message).help("a level is rows of characters"),
+            );
+        }
+        if columns > MAX_SIDE || rows > MAX_SIDE || columns * rows > MAX_CELLS {
+            let message = format!(
+                "the level has {columns} columns and {rows} rows; the limits are {MAX_SIDE} a side and {MAX_CELLS} cells"
+            );
+            return fail(
+                Diagnostic::error("too-large", everything, message).help("make it smaller, or split it"),
+            );
+        }
+        let mut reader = LevelReader { game: self, problems: Vec::new(), avatars: Vec::new(), sprites: 0 };
+        let mut cells = Vec::with_capacity(columns * rows);
+        for (start, line) in &lines {
+            reader.row(*start, line, columns, &mut cells);
+        }
+        reader.finish(text, columns, rows, cells)
+    }
+}
+
+struct LevelReader<'a> {
+    game: &'a Game,
+    problems: Vec<Diagnostic>,
+    avatars: Vec<Span>,
+    sprites: usize,
+}
+
+impl LevelReader<'_> {
+    fn row(&mut self, start: usize, line: &str, columns: usize, cells: &mut Vec<u8>) {
+        let length = line.chars().count();
+        if length != columns {
+            let message = format!("this row has {length} characters, the first one has {columns}");
+            let help = if length < columns { "the rest is taken as blank" } else { "the rest is cut off" };
+            let span = Span::new(start, start + line.len());
+            self.problem(Diagnostic::warning("ragged-level", span, message).help(help));
+        }
+        let mut width = 0;
+        for (at, symbol) in line.char_indices().take(columns) {
+            width += 1;
+            let span = Span::new(start + at, start + at + symbol.len_utf8());
+            cells.push(self.cell(symbol, span));
+        }
+        cells.extend(std::iter::repeat_n(b' ', columns - width));
+    }
+
+    fn cell(&mut self, symbol: char, span: Span) -> u8 {
+        let rules = &self.game.0;
+        let code = u8::try_from(symbol).unwrap_or(0);
+        let places = self.game.places(code);
+        self.sprites += places.len();
+        for &stype in places {
+            if rules.types[stype.index()].class.is_some_and(|class| class.is_avatar()) {
+                self.avatars.push(span);
+            }
+        }
+        let mapped = rules.description.mapping.iter().any(|line| line.symbol == symbol);
+        if !mapped && places.is_empty() && symbol != ' ' {
+            let message = format!("`{}` is not in the LevelMapping", symbol.escape_default());
+            let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
+            let other =
+                rules.description.mapping.iter().map(|line| line.symbol).find(|c| swapped.contains(*c));
+            let help = match other {
+                Some(other) => format!("did you mean `{other}`?"),
+                None => "add a line for it to the LevelMapping, or use a character that is there".to_owned(),
+            };
+            self.problem(Diagnostic::error("undefined-character", span, message).help(help));
+        }
+        code
+    }
+
+    fn problem(&mut self, problem: Diagnostic) {
+        let same = self.problems.iter().filter(|other| other.code == problem.code).count();
+        if same < MAX_REPEATS {
+            self.problems.push(problem);
+        }
+    }
+
+    fn finish(
+        mut self,
+        text: &str,
+        columns: usize,
+        rows: usize,
+        cells: Vec<u8>,
+    ) -> Result<Level, Diagnostics> {
+        if self.sprites > MAX_SPRITES {
+            let message = format!("the level places {} sprites; the limit is {MAX_SPRITES}", self.sprites);
+            self.problem(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
+        }
+        if let [_, extra, ..] = self.avatars[..] {
+            let message = format!("the level places {} avatars", self.avatars.len());
+            let problem = Diagnostic::error("extra-avatars", extra, message).label("not the first one");
+            self.problem(problem.help("keep one; the reference engine would remove all but the first"));
+        }
+        if self.avatars.is_empty() {
+            let end = text.trim_end().len();
+            let rules = &self.game.0;
+            let places_avatar = |line: &&crate::syntax::MappingLine| {
+                u8::try_from(line.symbol).is_ok_and(|code| {
+                    let is_avatar =
+                        |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
+                    self.game.places(code).iter().any(is_avatar)
+                })
+            };
+            let help = match rules.description.mapping.iter().find(places_avatar) {
+                Some(line) => format!("put `{}` where it starts", line.symbol),
+                None => "no character of the LevelMapping places one: add a line `A > avatar`".to_owned(),
+            };
+            let problem =
+                Diagnostic::error("no-avatar", Span::new(0, end.min(1)), "the level places no avatar");
+            self.problem(problem.help(help));
+        }
+        let problems = Diagnostics::sorted(self.problems);
+        if Diagnostics::has_errors(&problems.0) {
+            return Err(problems);
+        }
+        Ok(Level { columns, rows, cells, warnings: problems.0 })
+    }
+}
+
+/// The lines of a level and where each starts; a final newline does not make another line.
+fn level_lines(text: &str) -> Vec<(usize, &str)> {
+    let mut lines = Vec::new();
+    let mut rest = text;
+    while !rest.is_empty() {
+        let start = text.len() - rest.len();
+        let end = rest.find(['\n', '\r']).unwrap_or(rest.len());
+        lines.push((start, &rest[..end]));
+        let pair = rest[end..].starts_with("\r\n");
+        rest = &rest[(end + if pair { 2 } else { 1 }).min(rest.len())..];
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    gold > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    w > wall\n    g > gold\n    A > avatar\n  InteractionSet\n    avatar wall > stepBack\n    gold avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=gold win=True\n    Timeout limit=9 win=False\n";
+
+    fn check(text: &str, expect: Result<(usize, usize), &[&str]>) {
+        let game = Game::from_source(GAME).unwrap();
+        let got = game.level(text);
+        let codes: Vec<&str> =
+            got.as_ref().err().map_or(Vec::new(), |all| all.0.iter().map(|d| d.code).collect());
+        match expect {
+            Ok(size) => assert_eq!(got.map(|level| (level.columns(), level.rows())), Ok(size)),
+            Err(expected) => assert_eq!(codes, expected, "{text:?}"),
+        }
+    }
+
+    #[test]
+    fn levels_and_their_problems() {
+        check("wAg\r\nwww\r\n", Ok((3, 2)));
+        check("wAg\nw\n", Ok((3, 2)));
+        check("wAg\n\n", Ok((3, 2)));
+        check("wAG\n", Err(&["undefined-character"]));
+        check("wgw\n", Err(&["no-avatar"]));
+        check("AgA\n", Err(&["extra-avatars"]));
+        check("", Err(&["empty-level"]));
+        check(&"w".repeat(600), Err(&["too-large"]));
+        check(&"x".repeat(MAX_LEVEL_TEXT + 1), Err(&["too-large"]));
+        check("Aé\u{0}\n", Err(&["undefined-character", "undefined-character"]));
+    }
+
+    #[test]
+    fn the_canonical_text_is_rectangular() {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("wAg\nw").unwrap();
+        assert_eq!(level.to_string(), "wAg\nw  \n");
+        assert_eq!(level.warnings()[0].code, "ragged-level");
+        assert_eq!(game.level("wAg\nw  \n").unwrap().digest(), level.digest());
+    }
+}

@@ -1,0 +1,129 @@
+//! What a player is shown, and the full record of a state that traces are compared with.
+
+use crate::game::{Game, Outcome};
+use crate::geometry::Rect;
+use crate::state::{State, flag};
+
+/// What a player is shown of a state: never the state itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// Ticks played.
+    pub ticks: u32,
+    /// The score.
+    pub score: f64,
+    /// How the episode stands.
+    pub outcome: Outcome,
+    /// Columns of the board.
+    pub columns: usize,
+    /// Rows of the board.
+    pub rows: usize,
+    /// Row-major: the names of the sprites that overlap each cell, in drawing order, hidden ones left out.
+    pub cells: Vec<Vec<String>>,
+    /// What the avatar holds, by name of the resource.
+    pub resources: Vec<(String, i32)>,
+}
+
+/// Everything about one sprite that a golden trace records.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpriteRecord {
+    /// Creation number.
+    pub id: u32,
+    /// Index of the type in the registry.
+    pub stype: u16,
+    /// Place and size, pixels.
+    pub rect: Rect,
+    /// Orientation.
+    pub orientation: (f64, f64),
+    /// Speed.
+    pub speed: f64,
+    /// Health points.
+    pub health: i32,
+    /// 1 disabled, 2 avatar, 4 from the avatar, 8 on the ground.
+    pub flags: u16,
+    /// Resources held: type and amount, by type.
+    pub resources: Vec<(u16, i32)>,
+    /// Rotation, radians.
+    pub rotation: f64,
+}
+
+impl Game {
+    /// What the player is shown. Cost: O(sprites + cells).
+    pub fn observe(&self, state: &State) -> Observation {
+        let (columns, rows) = (state.columns as usize, state.rows as usize);
+        let mut cells = vec![Vec::new(); columns * rows];
+        for &stype in &self.0.order {
+            let info = &self.0.types[stype.index()];
+            if info.traits.hidden {
+                continue;
+            }
+            for slot in state.slots(stype) {
+                let sprite = state.sprite(slot);
+                let span = |from: i32, size: i32, limit: i32| {
+                    let first = from.div_euclid(state.block).clamp(0, limit);
+                    let last = (from.saturating_add(size) - 1).div_euclid(state.block).clamp(-1, limit - 1);
+                    first as usize..(last + 1) as usize
+                };
+                for row in span(sprite.rect.y, sprite.rect.h, state.rows) {
+                    for column in span(sprite.rect.x, sprite.rect.w, state.columns) {
+                        cells[row * columns + column].push(info.name.clone());
+                    }
+                }
+            }
+        }
+        let resources = self.held_by_avatar(state);
+        let (ticks, score, outcome) = ((state.tick + 1) as u32, state.score(), state.outcome);
+        Observation { ticks, score, outcome, columns, rows, cells, resources }
+    }
+
+    /// What the avatar holds: names of resources, sorted, with their amounts.
+    pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
+        let held = state.held.iter().filter(|held| held.holder == state.avatar);
+        let mut resources: Vec<_> =
+            held.map(|held| (self.name(held.resource).to_owned(), held.amount)).collect();
+        resources.sort();
+        resources
+    }
+
+    /// Every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
+    pub fn records(&self, state: &State) -> Vec<SpriteRecord> {
+        let slots = self.sprite_types().flat_map(|stype| state.slots(stype));
+        let mut records: Vec<SpriteRecord> = slots
+            .map(|slot| {
+                let sprite = state.sprite(slot);
+                let held = state.held.iter().filter(|held| held.holder == slot);
+                let mut resources: Vec<_> = held.map(|held| (held.resource.0, held.amount)).collect();
+                resources.sort_unstable();
+                SpriteRecord {
+                    id: sprite.id,
+                    stype: sprite.stype.0,
+                    rect: sprite.rect,
+                    orientation: (sprite.orientation.x, sprite.orientation.y),
+                    speed: sprite.speed,
+                    health: sprite.health,
+                    flags: sprite.flags & flag::RECORDED,
+                    resources,
+                    rotation: 0.0,
+                }
+            })
+            .collect();
+        records.sort_unstable_by_key(|record| record.id);
+        records
+    }
+
+    /// The drawing order of the types, as indices into the registry.
+    pub fn drawing_order(&self) -> Vec<u16> {
+        self.0.order.iter().map(|stype| stype.0).collect()
+    }
+}
+
+impl State {
+    /// Messages that the reference engine would have logged so far; more than 25 end a game.
+    pub fn messages(&self) -> u32 {
+        self.messages
+    }
+
+    /// The creation number of the player's avatar, disabled or not.
+    pub fn avatar_id(&self) -> Option<u32> {
+        self.sprites.get(usize::from(self.avatar)).map(|sprite| sprite.id)
+    }
+}

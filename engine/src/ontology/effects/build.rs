@@ -1,0 +1,202 @@
+//! From an interaction line to an [`Effect`]: keywords, required and optional parameters (`spec/03` §2).
+
+use super::{Effect, SpeedChange};
+use crate::game::SpriteType;
+
+/// The parameters of a line, typed on demand. Getters report what is wrong and go on with a default, so that one line
+/// shows all its problems.
+pub(crate) trait Arguments {
+    fn int(&mut self, key: &'static str, default: i32) -> i32;
+    fn number(&mut self, key: &'static str, default: f64) -> f64;
+    fn flag(&mut self, key: &'static str, default: bool) -> bool;
+    /// A list of scores, the first of which is ours.
+    fn score(&mut self, key: &'static str) -> i32;
+    /// A sprite that must be named.
+    fn sprite(&mut self, key: &'static str) -> SpriteType;
+    fn optional_sprite(&mut self, key: &'static str) -> Option<SpriteType>;
+    fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
+    /// The keyword of another effect.
+    fn keyword(&mut self, key: &'static str) -> u16;
+    /// A type and all that relates to it, itself left out.
+    fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
+}
+
+/// The keywords that the engine plays, sorted.
+pub(crate) const NAMES: &[&str] = &[
+    "addHealthPoints",
+    "addHealthPointsToMax",
+    "align",
+    "attractGaze",
+    "bounceForward",
+    "changeResource",
+    "cloneSprite",
+    "collectResource",
+    "collectResourceIfHeld",
+    "decreaseSpeedToAll",
+    "flipDirection",
+    "halfSpeed",
+    "increaseSpeedToAll",
+    "killAll",
+    "killBoth",
+    "killIfAlive",
+    "killIfFromAbove",
+    "killIfFrontal",
+    "killIfHasLess",
+    "killIfHasMore",
+    "killIfNotFrontal",
+    "killIfOtherHasMore",
+    "killSprite",
+    "pullWithIt",
+    "reverseDirection",
+    "setSpeedForAll",
+    "shieldFrom",
+    "spawn",
+    "spawnAbove",
+    "spawnBehind",
+    "spawnBelow",
+    "spawnIfHasLess",
+    "spawnIfHasMore",
+    "spawnLeft",
+    "spawnRight",
+    "stepBack",
+    "subtractHealthPoints",
+    "teleportToExit",
+    "transformTo",
+    "transformToAll",
+    "transformToRandomChild",
+    "turnAround",
+    "undoAll",
+    "wrapAround",
+];
+
+/// Keywords of the reference that the engine does not play yet.
+pub(crate) const LATER: &[&str] = &[
+    "addTimer",
+    "bounceDirection",
+    "killIfFast",
+    "killIfNotUpright",
+    "killIfSlow",
+    "removeScore",
+    "spawnIfCounterSubTypes",
+    "transformIfCount",
+    "transformToSingleton",
+    "updateSpawnType",
+    "wallBounce",
+    "wallReverse",
+    "wallStop",
+    "waterPhysics",
+];
+
+/// The effect of that keyword; None if there is none.
+pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> {
+    Some(match keyword {
+        "killSprite" => Effect::KillSprite,
+        "killBoth" => Effect::KillBoth,
+        "killAll" => Effect::KillAll { stype: args.sprite("stype") },
+        "killIfAlive" => Effect::KillIfAlive,
+        "killIfFromAbove" => Effect::KillIfFromAbove,
+        "killIfFrontal" | "killIfNotFrontal" => Effect::KillIfFrontal { frontal: keyword == "killIfFrontal" },
+        "killIfHasLess" => {
+            Effect::KillIfHasLess { resource: args.sprite("resource"), limit: args.int("limit", 0) }
+        }
+        "killIfHasMore" => {
+            Effect::KillIfHasMore { resource: args.sprite("resource"), limit: args.int("limit", 0) }
+        }
+        "killIfOtherHasMore" => Effect::KillIfOtherHasMore {
+            resource: args.sprite("resource"),
+            limit: args.int("limit", 0),
+            subtract: args.flag("subtract", false),
+        },
+        "addHealthPoints" | "addHealthPointsToMax" => Effect::AddHealthPoints {
+            value: args.int("value", 1),
+            kill_second: args.flag("killSecond", false),
+            to_max: keyword == "addHealthPointsToMax",
+        },
+        "subtractHealthPoints" => Effect::SubtractHealthPoints {
+            value: args.int("value", 1),
+            limit: args.int("limit", 0),
+            stype: args.optional_sprite("stype"),
+            score_if_killed: args.score("scoreChangeIfKilled"),
+        },
+        "stepBack" => Effect::StepBack { pixel_perfect: args.flag("pixelPerfect", false) },
+        "undoAll" => Effect::UndoAll { spare: args.sprites("notStype").into() },
+        "turnAround" => Effect::TurnAround,
+        "reverseDirection" => Effect::ReverseDirection,
+        "flipDirection" => Effect::FlipDirection,
+        "halfSpeed" => Effect::HalfSpeed,
+        "wrapAround" => Effect::WrapAround { offset: args.number("offset", 0.0) },
+        "align" => Effect::Align { orient: args.flag("orient", true) },
+        "attractGaze" => {
+            Effect::AttractGaze { align: args.flag("align", false), prob: args.number("prob", 1.0) }
+        }
+        "bounceForward" => Effect::BounceForward,
+        "pullWithIt" => Effect::PullWithIt { pixel_perfect: args.flag("pixelPerfect", false) },
+        "teleportToExit" => Effect::TeleportToExit,
+        "increaseSpeedToAll" => speed(args, 0.1, SpeedChange::Increase),
+        "decreaseSpeedToAll" => speed(args, 0.1, SpeedChange::Decrease),
+        "setSpeedForAll" => speed(args, 0.0, SpeedChange::Set),
+        "spawn" => Effect::Spawn { stype: args.sprite("stype"), prob: args.number("prob", 1.0) },
+        "spawnIfHasMore" | "spawnIfHasLess" => {
+            let more = keyword == "spawnIfHasMore";
+            Effect::SpawnIf {
+                resource: args.sprite("resource"),
+                limit: args.int("limit", 0),
+                stype: args.sprite("stype"),
+                spend: if more { args.int("spend", 0) } else { 0 },
+                prob: args.number("prob", 1.0),
+                more,
+            }
+        }
+        "spawnAbove" => beside(args, (0, -1)),
+        "spawnBelow" => beside(args, (0, 1)),
+        "spawnLeft" => beside(args, (-1, 0)),
+        "spawnRight" => beside(args, (1, 0)),
+        "spawnBehind" => Effect::SpawnBehind { stype: args.sprite("stype"), prob: args.number("prob", 1.0) },
+        "cloneSprite" => Effect::CloneSprite,
+        "transformTo" => Effect::TransformTo {
+            stype: args.sprite("stype"),
+            kill_second: args.flag("killSecond", false),
+            force_orientation: args.flag("forceOrientation", false),
+        },
+        "transformToAll" => Effect::TransformToAll {
+            stype: args.sprite("stype"),
+            to: args.sprite("stypeTo"),
+            kill_second: args.flag("killSecond", false),
+            force_orientation: args.flag("forceOrientation", false),
+        },
+        "transformToRandomChild" => {
+            let stype = args.sprite("stype");
+            Effect::TransformToRandomChild {
+                options: args.relatives(stype),
+                kill_second: args.flag("killSecond", false),
+                force_orientation: args.flag("forceOrientation", false),
+            }
+        }
+        "collectResource" => Effect::CollectResource { kill_resource: args.flag("killResource", true) },
+        "collectResourceIfHeld" => Effect::CollectResourceIfHeld {
+            held: args.sprite("heldResource"),
+            value: args.int("value", 1),
+            kill_resource: args.flag("killResource", true),
+        },
+        "changeResource" => Effect::ChangeResource {
+            resource: args.sprite("resource"),
+            value: args.int("value", 1),
+            kill_resource: args.flag("killResource", false),
+        },
+        "shieldFrom" => Effect::ShieldFrom { stype: args.sprite("stype"), keyword: args.keyword("ftype") },
+        _ => return None,
+    })
+}
+
+fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
+    Effect::ChangeSpeed { stype: args.sprite("stype"), value: args.number("value", default), how }
+}
+
+fn beside(args: &mut impl Arguments, shift: (i32, i32)) -> Effect {
+    Effect::SpawnBeside {
+        stype: args.sprite("stype"),
+        shift,
+        step_back: args.flag("stepBack", false),
+        prob: args.number("prob", 1.0),
+    }
+}

@@ -1,0 +1,52 @@
+//! Effects on health points (`spec/03` §7.2).
+
+use crate::game::SpriteType;
+use crate::state::{NONE, Slot, memory};
+use crate::step::Step;
+
+/// addHealthPoints and addHealthPointsToMax: the former never reaches the limit, the latter stops at it.
+pub(super) fn add(
+    step: &mut Step<'_>,
+    index: u16,
+    one: Slot,
+    victim: Option<Slot>,
+    value: i32,
+    to_max: bool,
+) {
+    let sprite = step.state.sprite(one);
+    let limit = step.rules.types[sprite.stype.index()].traits.limit_health;
+    let health = sprite.health.saturating_add(value);
+    if !to_max && health >= limit {
+        return step.apply_score(index, false);
+    }
+    step.apply_score(index, true);
+    let sprite = step.state.edit(one);
+    sprite.health = health.min(limit);
+    sprite.max_health = sprite.max_health.max(sprite.health);
+    if let Some(two) = victim {
+        step.kill(two);
+    }
+}
+
+/// With a type, the first sprite of the last of its tree's groups that has any; the killing execution scores otherwise.
+pub(super) fn subtract(
+    step: &mut Step<'_>,
+    index: u16,
+    one: Slot,
+    value: i32,
+    limit: i32,
+    stype: Option<SpriteType>,
+) {
+    let mut target = one;
+    if let Some(stype) = stype {
+        let groups = step.rules.types[stype.index()].tree.iter().map(|&stype| step.state.group(stype).head);
+        target = groups.filter(|&head| head != NONE).last().unwrap_or(one);
+    }
+    let sprite = step.state.edit(target);
+    sprite.health = sprite.health.saturating_sub(value);
+    let killed = sprite.health <= limit;
+    step.remember(index, memory::KILLED, killed);
+    if killed {
+        step.kill(target);
+    }
+}

@@ -1,0 +1,219 @@
+//! The effects of interactions (`spec/03`): an enum of what they do, matched in one place.
+
+mod build;
+mod health;
+mod kill;
+mod motion;
+mod resource;
+mod spawn;
+mod transform;
+
+use crate::game::{EffectInfo, Pass, SpriteType};
+use crate::state::{Slot, flag, memory};
+use crate::step::Step;
+pub(crate) use build::{Arguments, LATER, NAMES, build};
+
+/// An effect with its parameters, named as in VGDL.
+#[derive(Clone, Debug)]
+pub(crate) enum Effect {
+    KillSprite,
+    KillBoth,
+    KillAll { stype: SpriteType },
+    KillIfAlive,
+    KillIfFromAbove,
+    KillIfHasLess { resource: SpriteType, limit: i32 },
+    KillIfHasMore { resource: SpriteType, limit: i32 },
+    KillIfOtherHasMore { resource: SpriteType, limit: i32, subtract: bool },
+    KillIfFrontal { frontal: bool },
+    AddHealthPoints { value: i32, kill_second: bool, to_max: bool },
+    SubtractHealthPoints { value: i32, limit: i32, stype: Option<SpriteType>, score_if_killed: i32 },
+    StepBack { pixel_perfect: bool },
+    UndoAll { spare: Box<[SpriteType]> },
+    TurnAround,
+    ReverseDirection,
+    FlipDirection,
+    HalfSpeed,
+    WrapAround { offset: f64 },
+    Align { orient: bool },
+    AttractGaze { align: bool, prob: f64 },
+    BounceForward,
+    PullWithIt { pixel_perfect: bool },
+    TeleportToExit,
+    ChangeSpeed { stype: SpriteType, value: f64, how: SpeedChange },
+    Spawn { stype: SpriteType, prob: f64 },
+    SpawnIf { resource: SpriteType, limit: i32, stype: SpriteType, spend: i32, prob: f64, more: bool },
+    SpawnBeside { stype: SpriteType, shift: (i32, i32), step_back: bool, prob: f64 },
+    SpawnBehind { stype: SpriteType, prob: f64 },
+    CloneSprite,
+    TransformTo { stype: SpriteType, kill_second: bool, force_orientation: bool },
+    TransformToAll { stype: SpriteType, to: SpriteType, kill_second: bool, force_orientation: bool },
+    TransformToRandomChild { options: Box<[SpriteType]>, kill_second: bool, force_orientation: bool },
+    CollectResource { kill_resource: bool },
+    CollectResourceIfHeld { held: SpriteType, value: i32, kill_resource: bool },
+    ChangeResource { resource: SpriteType, value: i32, kill_resource: bool },
+    ShieldFrom { stype: SpriteType, keyword: u16 },
+}
+
+/// How increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SpeedChange {
+    Increase,
+    Decrease,
+    Set,
+}
+
+/// What an effect may move when it runs; decides how a pass may look for hits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Moves {
+    Nothing,
+    First,
+    Anything,
+}
+
+impl Effect {
+    pub(crate) fn moves(&self) -> Moves {
+        match self {
+            Effect::StepBack { .. }
+            | Effect::TurnAround
+            | Effect::WrapAround { .. }
+            | Effect::Align { .. }
+            | Effect::AttractGaze { .. }
+            | Effect::BounceForward
+            | Effect::PullWithIt { .. }
+            | Effect::TeleportToExit => Moves::First,
+            Effect::UndoAll { .. } => Moves::Anything,
+            _ => Moves::Nothing,
+        }
+    }
+
+    /// Whether executing it can draw from the chance.
+    pub(crate) fn draws(&self) -> bool {
+        matches!(
+            self,
+            Effect::FlipDirection
+                | Effect::AttractGaze { .. }
+                | Effect::TeleportToExit
+                | Effect::Spawn { .. }
+                | Effect::SpawnIf { .. }
+                | Effect::SpawnBeside { .. }
+                | Effect::SpawnBehind { .. }
+                | Effect::TransformToRandomChild { .. }
+        )
+    }
+}
+
+/// Runs an effect on a sprite and, in pairs, its partner. Effects that need a partner and have none log a message.
+pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slot, two: Option<Slot>) {
+    match (effect, two) {
+        (Effect::KillSprite, _) => step.kill(one),
+        (Effect::KillAll { stype }, _) => kill::all(step, *stype),
+        (Effect::KillIfHasLess { resource, limit }, _) => {
+            let hit = step.state.amount(one, *resource) <= *limit;
+            kill::when(step, index, one, hit);
+        }
+        (Effect::KillIfHasMore { resource, limit }, _) => {
+            let hit = step.state.amount(one, *resource) >= *limit;
+            kill::when(step, index, one, hit);
+        }
+        (Effect::AddHealthPoints { value, kill_second, to_max }, _) => {
+            health::add(step, index, one, two.filter(|_| *kill_second), *value, *to_max);
+        }
+        (Effect::SubtractHealthPoints { value, limit, stype, .. }, _) => {
+            health::subtract(step, index, one, *value, *limit, *stype);
+        }
+        (Effect::StepBack { pixel_perfect }, _) => {
+            motion::step_back(step, one, two.filter(|_| *pixel_perfect))
+        }
+        (Effect::UndoAll { spare }, _) => motion::undo_all(step, spare),
+        (Effect::TurnAround, _) => motion::turn_around(step, one),
+        (Effect::ReverseDirection, _) => motion::reverse(step, one),
+        (Effect::FlipDirection, _) => motion::flip(step, one),
+        (Effect::HalfSpeed, _) => step.state.edit(one).speed *= 0.5,
+        (Effect::WrapAround { offset }, _) => motion::wrap_around(step, one, *offset),
+        (Effect::ChangeSpeed { stype, value, how }, _) => motion::change_speed(step, *stype, *value, *how),
+        (Effect::Spawn { stype, prob }, _) => spawn::here(step, one, *stype, *prob),
+        (Effect::SpawnIf { .. }, _) => spawn::if_amount(step, index, one, effect),
+        (Effect::CloneSprite, _) => spawn::clone(step, one),
+        (Effect::TransformTo { stype, kill_second, force_orientation }, _) => {
+            transform::to(step, one, two.filter(|_| *kill_second), *stype, *force_orientation);
+        }
+        (Effect::TransformToAll { stype, to, kill_second, force_orientation }, _) => {
+            transform::all(step, two.filter(|_| *kill_second), *stype, *to, *force_orientation);
+        }
+        (Effect::TransformToRandomChild { options, kill_second, force_orientation }, _) => {
+            transform::random_child(step, one, two.filter(|_| *kill_second), options, *force_orientation);
+        }
+        (Effect::ShieldFrom { stype, keyword }, _) => {
+            let shielded = step.state.sprite(one).stype;
+            step.state.shields.push((shielded, *stype, *keyword));
+        }
+        (_, None) => step.message(),
+        (Effect::KillBoth, Some(two)) => {
+            step.kill(one);
+            step.kill(two);
+        }
+        (Effect::KillIfAlive, Some(two)) => {
+            if !step.state.sprite(two).is(flag::KILLED) {
+                step.kill(one);
+            }
+        }
+        (Effect::KillIfFromAbove, Some(two)) => kill::if_from_above(step, index, one, two),
+        (Effect::KillIfFrontal { frontal }, Some(two)) => kill::if_frontal(step, index, one, two, *frontal),
+        (Effect::KillIfOtherHasMore { resource, limit, subtract }, Some(two)) => {
+            let hit = step.state.amount(two, *resource) >= *limit;
+            kill::when(step, index, one, hit);
+            if hit && *subtract {
+                step.state.add_amount(two, *resource, -limit);
+            }
+        }
+        (Effect::Align { orient }, Some(two)) => motion::align(step, one, two, *orient),
+        (Effect::AttractGaze { align, prob }, Some(two)) => {
+            motion::attract_gaze(step, one, two, *align, *prob)
+        }
+        (Effect::BounceForward, Some(two)) => motion::bounce_forward(step, one, two),
+        (Effect::PullWithIt { pixel_perfect }, Some(two)) => {
+            motion::pull_with_it(step, index, one, two, *pixel_perfect);
+        }
+        (Effect::TeleportToExit, Some(two)) => motion::teleport(step, one, two),
+        (Effect::SpawnBeside { stype, shift, step_back, prob }, Some(two)) => {
+            spawn::beside(step, two, *stype, *shift, *step_back, *prob);
+        }
+        (Effect::SpawnBehind { stype, prob }, Some(two)) => spawn::behind(step, two, *stype, *prob),
+        (Effect::CollectResource { kill_resource }, Some(two)) => {
+            resource::collect(step, index, one, two, *kill_resource);
+        }
+        (Effect::CollectResourceIfHeld { held, value, kill_resource }, Some(two)) => {
+            resource::collect_if_held(step, index, one, two, (*held, *value), *kill_resource);
+        }
+        (Effect::ChangeResource { resource, value, kill_resource }, Some(two)) => {
+            resource::change(step, index, one, two, (*resource, *value), *kill_resource);
+        }
+    }
+}
+
+/// What an execution adds to the score.
+pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> i32 {
+    match info.effect {
+        Effect::SubtractHealthPoints { score_if_killed, .. } if remembered & memory::KILLED != 0 => {
+            score_if_killed
+        }
+        _ => info.score_change,
+    }
+}
+
+/// Whether a shield of this tick covers the pass (`spec/03` §5.7): exact types and keyword.
+pub(crate) fn is_shielded(step: &Step<'_>, pass: &Pass) -> bool {
+    step.state.shields.contains(&(pass.first, pass.second, pass.keyword))
+}
+
+impl Step<'_> {
+    /// Remembers whether the effect's score applies: some effects say so as they run.
+    fn apply_score(&mut self, index: u16, on: bool) {
+        self.remember(index, memory::APPLY_SCORE, on);
+    }
+
+    fn remember(&mut self, index: u16, bit: u8, on: bool) {
+        let byte = &mut self.state.memory[usize::from(index)];
+        *byte = if on { *byte | bit } else { *byte & !bit };
+    }
+}

@@ -1,0 +1,181 @@
+//! Effects on place, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
+
+use super::SpeedChange;
+use crate::game::SpriteType;
+use crate::geometry::{Direction, Rect};
+use crate::ontology::physics;
+use crate::state::{NONE, Slot, flag};
+use crate::step::Step;
+
+pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>) {
+    let rect = match flush_with {
+        Some(two) => pixel_perfect(step, one, two),
+        None => step.state.sprite(one).last,
+    };
+    step.place(one, rect);
+}
+
+/// Flush with the partner on the side the sprite came from; its last rectangle if it did not come straight.
+fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
+    let (sprite, other) = (step.state.sprite(one), step.state.sprite(two).rect);
+    let (now, before) = (sprite.rect.centre(), sprite.last.centre());
+    let came = Direction { x: now.0 - before.0, y: now.1 - before.1 }.normalised();
+    let rect = sprite.rect;
+    match came {
+        Direction::DOWN => rect.at(rect.x, other.y - rect.h),
+        Direction::RIGHT => rect.at(other.x - rect.w, rect.y),
+        Direction::UP => rect.at(rect.x, other.y + other.h),
+        Direction::LEFT => rect.at(other.x + other.w, rect.y),
+        _ => sprite.last,
+    }
+}
+
+/// Every sprite of every updated type goes back to its last rectangle.
+pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
+    // Only sprites that moved in this tick have another last rectangle.
+    for at in 0..step.state.moved.len() {
+        let slot = step.state.moved[at];
+        let sprite = step.state.sprite(slot);
+        let (stype, last) = (sprite.stype, sprite.last);
+        if step.rules.types[stype.index()].order.is_some() && !spare.contains(&stype) {
+            step.place(slot, last);
+        }
+    }
+}
+
+/// Back, two steps down, and the other way.
+pub(super) fn turn_around(step: &mut Step<'_>, one: Slot) {
+    let sprite = step.state.sprite(one);
+    let (last, speed) = (sprite.last, sprite.speed);
+    let cooldown = step.rules.types[sprite.stype.index()].traits.cooldown;
+    step.place(one, last);
+    for _ in 0..2 {
+        step.set_age(one, cooldown);
+        physics::active(step, one, Direction::DOWN, speed);
+    }
+    reverse(step, one);
+}
+
+pub(super) fn reverse(step: &mut Step<'_>, one: Slot) {
+    let sprite = step.state.edit(one);
+    sprite.orientation = sprite.orientation.reversed();
+}
+
+pub(super) fn flip(step: &mut Step<'_>, one: Slot) {
+    let drawn = Direction::BASE[step.state.chance.below(4) as usize];
+    step.state.edit(one).orientation = drawn;
+}
+
+/// To the opposite edge along the orientation, one axis only.
+pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
+    let screen = step.screen();
+    let sprite = step.state.sprite(one);
+    let (facing, rect) = (sprite.orientation, sprite.rect);
+    let near = |size: i32| (offset * f64::from(size)) as i32;
+    let far = |edge: i32, size: i32| (f64::from(edge) - f64::from(size) * (1.0 + offset)) as i32;
+    let to = if facing.x > 0.0 {
+        rect.at(near(rect.w), rect.y)
+    } else if facing.x < 0.0 {
+        rect.at(far(screen.w, rect.w), rect.y)
+    } else if facing.y > 0.0 {
+        rect.at(rect.x, near(rect.h))
+    } else if facing.y < 0.0 {
+        rect.at(rect.x, far(screen.h, rect.h))
+    } else {
+        rect
+    };
+    step.place(one, to);
+    step.set_age(one, 0);
+}
+
+pub(super) fn align(step: &mut Step<'_>, one: Slot, two: Slot, orient: bool) {
+    let other = *step.state.sprite(two);
+    if orient {
+        step.state.edit(one).orientation = other.orientation;
+    }
+    let rect = step.state.sprite(one).rect.at(other.rect.x, other.rect.y);
+    step.place(one, rect);
+}
+
+pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: bool, prob: f64) {
+    let other = *step.state.sprite(two);
+    if !step.state.sprite(one).is(flag::ORIENTED) || !other.is(flag::ORIENTED) {
+        return;
+    }
+    if step.state.chance.double() >= prob {
+        return;
+    }
+    step.state.edit(one).orientation = other.orientation;
+    if align {
+        let rect = step.state.sprite(one).rect;
+        let sideways = other.orientation == Direction::LEFT || other.orientation == Direction::RIGHT;
+        let to = if sideways { rect.at(rect.x, other.rect.y) } else { rect.at(other.rect.x, rect.y) };
+        step.place(one, to);
+    }
+}
+
+/// The partner pushes: the sprite moves where the partner moved in this tick, and faces there.
+pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
+    let moved = step.last_direction(two);
+    let other = step.state.sprite(two);
+    let (facing, speed) = (other.orientation, other.speed);
+    let mut push = moved.normalised();
+    if moved.x * facing.x < 0.0 {
+        push.x = -push.x;
+    }
+    if moved.y * facing.y < 0.0 {
+        push.y = -push.y;
+    }
+    physics::active(step, one, push, speed);
+    step.state.edit(one).orientation = push;
+}
+
+/// The partner carries the sprite, once a tick.
+pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, onto: bool) {
+    if step.state.pulled.contains(&(index, one)) {
+        return;
+    }
+    step.state.pulled.push((index, one));
+    let direction = step.last_direction(two).normalised();
+    let amount = (step.state.sprite(two).speed * f64::from(step.state.block)) as i32;
+    step.displace(one, direction, amount);
+    if onto {
+        let rect = step.state.sprite(two).rect;
+        step.place(one, rect);
+    }
+}
+
+/// To a drawn sprite of the type that the partner leads to; to its death if there is none.
+pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
+    let info = &step.rules.types[step.state.sprite(two).stype.index()];
+    let Some(exit_type) = info.leads_to() else { return step.message() };
+    let count = step.state.group(exit_type).count;
+    if count == 0 {
+        return step.kill(one);
+    }
+    let drawn = step.state.chance.below(i32::from(count));
+    let exit = step.state.slots(exit_type).nth(drawn as usize).expect("one of the group");
+    let exit = *step.state.sprite(exit);
+    step.place(one, exit.rect);
+    step.set_age(one, 0);
+    if exit.is(flag::ORIENTED) {
+        step.state.edit(one).orientation = exit.orientation;
+    }
+}
+
+pub(super) fn change_speed(step: &mut Step<'_>, stype: SpriteType, value: f64, how: SpeedChange) {
+    let rules = step.rules;
+    for &stype in &rules.types[stype.index()].tree {
+        let mut slot = step.state.group(stype).head;
+        while slot != NONE {
+            let sprite = step.state.edit(slot);
+            sprite.speed = match how {
+                SpeedChange::Increase => sprite.speed + value,
+                SpeedChange::Decrease if sprite.speed - value < 0.0 => 0.0,
+                SpeedChange::Decrease => sprite.speed - value,
+                SpeedChange::Set => value,
+            };
+            slot = sprite.next;
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Effects that turn sprites into others (`spec/03` §5.8, §7.5, §8.5).
+
+use crate::game::{Limit, SpriteType};
+use crate::geometry::Direction;
+use crate::state::{NONE, Slot, flag};
+use crate::step::Step;
+
+pub(super) fn to(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: SpriteType, force: bool) {
+    if step.state.sprite(one).is(flag::DISABLED) {
+        return;
+    }
+    let rect = step.state.sprite(one).rect;
+    if let Some(new) = step.add(stype, rect.x, rect.y) {
+        hand_over(step, one, new, victim, force);
+    }
+}
+
+/// Every sprite of exactly that type, singletons notwithstanding.
+pub(super) fn all(step: &mut Step<'_>, victim: Option<Slot>, stype: SpriteType, to: SpriteType, force: bool) {
+    if stype == to && step.state.group(stype).head != NONE {
+        return step.stop(Limit::EndlessTransform);
+    }
+    let mut slot = step.state.group(stype).head;
+    while slot != NONE {
+        let rect = step.state.sprite(slot).rect;
+        if let Some(new) = step.add_forced(to, rect.x, rect.y) {
+            hand_over(step, slot, new, victim, force);
+        }
+        slot = step.state.sprite(slot).next;
+    }
+}
+
+/// A drawn relative of a type.
+pub(super) fn random_child(
+    step: &mut Step<'_>,
+    one: Slot,
+    victim: Option<Slot>,
+    options: &[SpriteType],
+    force: bool,
+) {
+    if options.is_empty() {
+        return;
+    }
+    let drawn = options[step.state.chance.below(options.len() as i32) as usize];
+    if step.rules.types[drawn.index()].class.is_none() {
+        return step.message();
+    }
+    let rect = step.state.sprite(one).rect;
+    if let Some(new) = step.add(drawn, rect.x, rect.y) {
+        hand_over(step, one, new, victim, force);
+    }
+}
+
+/// What the new sprite takes over from the old one, and the end of the old one.
+fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
+    let before = *step.state.sprite(old);
+    let oriented = step.state.sprite(new).is(flag::ORIENTED) && before.is(flag::ORIENTED);
+    let sprite = step.state.edit(new);
+    if force || (oriented && sprite.orientation == Direction::NONE) {
+        sprite.orientation = before.orientation;
+    }
+    sprite.health = before.health;
+    step.set_last(new, before.last);
+    for at in 0..step.state.held.len() {
+        let held = step.state.held[at];
+        if held.holder == old {
+            step.state.add_amount(new, held.resource, held.amount);
+        }
+    }
+    // The player moves on with the avatar, if the new sprite can be one; else the old one stays, disabled.
+    let player_lost = before.is(flag::AVATAR) && !step.state.sprite(new).is(flag::AVATAR);
+    if before.is(flag::AVATAR) && !player_lost {
+        step.control(new);
+    }
+    if player_lost {
+        step.kill(old);
+    } else {
+        step.remove(old);
+    }
+    if let Some(victim) = victim {
+        step.remove(victim);
+    }
+}

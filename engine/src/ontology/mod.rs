@@ -1,0 +1,11 @@
+//! What VGDL's words do: sprite classes, avatars, effects, terminations, physics. Each set is closed: an enum, matched in
+//! one place; a file holds one tight family.
+
+pub(crate) mod avatars;
+pub(crate) mod class;
+pub(crate) mod constants;
+pub(crate) mod effects;
+pub(crate) mod physics;
+pub(crate) mod sprites;
+pub(crate) mod terminations;
+pub(crate) mod traits;

@@ -1,0 +1,76 @@
+//! What sprites do by themselves in a tick (`spec/02` §4–§8).
+
+mod npcs;
+mod plain;
+mod producers;
+
+use super::class::SpriteClass;
+use super::traits::Traits;
+use crate::ontology::physics;
+use crate::state::{Slot, flag};
+use crate::step::Step;
+
+/// `heading` of an NPC that has not drawn a direction.
+pub(crate) const NO_HEADING: u16 = 4;
+
+/// Whether the update of such sprites does anything at all: if not, they cost nothing in a tick.
+pub(crate) fn is_idle(class: SpriteClass, traits: &Traits) -> bool {
+    use SpriteClass as C;
+    match class {
+        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::Portal => {
+            let stays = traits.is_static || traits.only_active || traits.speed == 0.0;
+            stays && traits.time_to_live < 0
+        }
+        C::SpriteProducer => true,
+        class => class.is_avatar(),
+    }
+}
+
+/// Whether sprites of the class can draw from the chance.
+pub(crate) fn draws(class: SpriteClass) -> bool {
+    use SpriteClass as C;
+    class.is_a(C::RandomNPC) || class.is_a(C::SpawnPoint) || matches!(class, C::RandomMissile | C::Spreader)
+}
+
+/// One update. The avatar is updated in `avatars`.
+pub(crate) fn update(step: &mut Step<'_>, slot: Slot) {
+    use SpriteClass as C;
+    let stype = step.state.sprite(slot).stype;
+    let class = step.rules.types[stype.index()].class.expect("sprites are made of types with a class");
+    match class {
+        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::Portal => base(step, slot),
+        C::Missile | C::ErraticMissile => base(step, slot),
+        C::RandomMissile => plain::random_missile(step, slot),
+        C::Flicker | C::OrientedFlicker => plain::flicker(step, slot),
+        C::Spreader => plain::spreader(step, slot),
+        C::RandomNPC => npcs::random_npc(step, slot),
+        C::Chaser | C::Fleeing => npcs::chaser(step, slot),
+        C::SpawnPoint | C::Bomber => producers::spawn_point(step, slot),
+        C::RandomBomber => producers::random_bomber(step, slot),
+        C::SpriteProducer => {}
+        C::MovingAvatar
+        | C::HorizontalAvatar
+        | C::VerticalAvatar
+        | C::FlakAvatar
+        | C::OrientedAvatar
+        | C::ShootAvatar
+        | C::OngoingAvatar
+        | C::OngoingShootAvatar
+        | C::MissileAvatar => {}
+    }
+}
+
+/// The update of every sprite that does not replace it: passive movement, then the time to live.
+fn base(step: &mut Step<'_>, slot: Slot) {
+    let sprite = *step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    if !traits.is_static && !traits.only_active {
+        physics::passive(step, slot);
+    }
+    if sprite.time_to_live > 0 {
+        step.state.edit(slot).time_to_live -= 1;
+    } else if sprite.time_to_live == 0 {
+        step.kill(slot);
+    }
+    debug_assert!(!sprite.is(flag::GONE), "only live sprites are updated");
+}

@@ -1,0 +1,46 @@
+//! Missiles and flickers (`spec/02` §6).
+
+use super::base;
+use crate::geometry::Direction;
+use crate::ontology::physics;
+use crate::state::Slot;
+use crate::step::Step;
+
+pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {
+    if step.state.sprite(slot).orientation == Direction::NIL {
+        let drawn = Direction::BASE[step.state.chance.below(4) as usize];
+        step.state.edit(slot).orientation = drawn;
+    }
+    physics::passive(step, slot);
+}
+
+/// Killed in the update in which its age exceeds the limit.
+pub(super) fn flicker(step: &mut Step<'_>, slot: Slot) {
+    base(step, slot);
+    let sprite = step.state.sprite(slot);
+    if sprite.count > step.rules.types[sprite.stype.index()].traits.limit {
+        step.kill(slot);
+    }
+    step.state.edit(slot).count += 1;
+}
+
+/// A flicker that spreads in its second update: four draws, always.
+pub(super) fn spreader(step: &mut Step<'_>, slot: Slot) {
+    flicker(step, slot);
+    let sprite = *step.state.sprite(slot);
+    if sprite.count != 2 {
+        return;
+    }
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    let stype = traits.stypes.first().copied().unwrap_or(sprite.stype);
+    for direction in Direction::BASE {
+        if step.state.chance.double() < traits.spread_probability {
+            let at = |corner: i32, component: f64, size: i32| {
+                (f64::from(corner) + component * f64::from(size)) as i32
+            };
+            let x = at(sprite.last.x, direction.x, sprite.last.w);
+            let y = at(sprite.last.y, direction.y, sprite.last.h);
+            step.add(stype, x, y);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Sprites that make sprites (`spec/02` §8).
+
+use super::base;
+use crate::geometry::Direction;
+use crate::ontology::physics;
+use crate::state::Slot;
+use crate::step::Step;
+
+/// SpawnPoint and Bomber: a draw in every update; a sprite when the tick and the draw allow it.
+pub(super) fn spawn_point(step: &mut Step<'_>, slot: Slot) {
+    let tick = step.state.tick;
+    if step.state.sprite(slot).start == -1 {
+        step.state.edit(slot).start = tick;
+    }
+    let draw = f64::from(step.state.chance.float());
+    let sprite = *step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    if sprite.start.wrapping_add(tick) % traits.cooldown == 0 && draw < traits.prob {
+        let made = step.add(traits.stypes[0], sprite.rect.x, sprite.rect.y);
+        if let Some(made) = made {
+            step.state.edit(slot).count += 1;
+            let new = step.state.edit(made);
+            if traits.spawn_orientation != Direction::NONE {
+                new.orientation = traits.spawn_orientation;
+            } else if new.orientation == Direction::NONE {
+                new.orientation = sprite.orientation;
+            }
+        }
+    }
+    base(step, slot);
+    if traits.total > 0 && step.state.sprite(slot).count >= traits.total {
+        step.kill(slot);
+    }
+}
+
+/// Moves at random, then does what a spawn point does, where it now stands.
+pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
+    let direction = Direction::BASE[step.state.chance.below(4) as usize];
+    let speed = step.state.sprite(slot).speed;
+    physics::active(step, slot, direction, speed);
+    spawn_point(step, slot);
+}

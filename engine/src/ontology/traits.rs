@@ -1,0 +1,167 @@
+//! What a sprite type is given: base fields, class defaults, parameters (`spec/02` §1, `spec/01` §3.1).
+
+use super::class::SpriteClass;
+use crate::game::SpriteType;
+use crate::geometry::Direction;
+use smallvec::SmallVec;
+
+/// The values of a type's fields after class defaults and parameters: what a new sprite starts with, and what never
+/// changes in it.
+#[derive(Clone, Debug)]
+pub(crate) struct Traits {
+    pub(crate) speed: f64,
+    pub(crate) cooldown: i32,
+    pub(crate) orientation: Direction,
+    pub(crate) is_oriented: bool,
+    pub(crate) rotate_in_place: bool,
+    pub(crate) is_static: bool,
+    pub(crate) only_active: bool,
+    pub(crate) stationary: bool,
+    pub(crate) solid: bool,
+    pub(crate) width_factor: f64,
+    pub(crate) height_factor: f64,
+    pub(crate) health: i32,
+    pub(crate) max_health: i32,
+    pub(crate) limit_health: i32,
+    pub(crate) time_to_live: i32,
+    pub(crate) portal: bool,
+    pub(crate) is_npc: bool,
+    pub(crate) is_resource: bool,
+    pub(crate) hidden: bool,
+    pub(crate) invisible: bool,
+    pub(crate) color: Option<[u8; 3]>,
+    /// `limit` of Resource and Flicker.
+    pub(crate) limit: i32,
+    pub(crate) value: i32,
+    pub(crate) age: i32,
+    pub(crate) spread_probability: f64,
+    pub(crate) cons: i32,
+    pub(crate) fleeing: bool,
+    pub(crate) max_distance: f64,
+    pub(crate) prob: f64,
+    pub(crate) total: i32,
+    pub(crate) spawn_orientation: Direction,
+    pub(crate) start: i32,
+    pub(crate) min_ammo: i32,
+    pub(crate) ammo_cost: i32,
+    /// `stype`: what it shoots, spawns, chases or leads to.
+    pub(crate) stypes: SmallVec<[SpriteType; 2]>,
+    /// `ammo`: the resources that shots cost.
+    pub(crate) ammo: SmallVec<[SpriteType; 2]>,
+}
+
+impl Traits {
+    /// Base defaults, then those of the class, from its root down.
+    pub(crate) fn of_class(class: SpriteClass) -> Traits {
+        let mut traits = Traits {
+            speed: 0.0,
+            cooldown: 0,
+            orientation: Direction::NONE,
+            is_oriented: false,
+            rotate_in_place: false,
+            is_static: false,
+            only_active: false,
+            stationary: false,
+            solid: false,
+            width_factor: 1.0,
+            height_factor: 1.0,
+            health: 0,
+            max_health: 0,
+            limit_health: 1000,
+            time_to_live: -1,
+            portal: false,
+            is_npc: false,
+            is_resource: false,
+            hidden: false,
+            invisible: false,
+            color: None,
+            limit: 0,
+            value: 1,
+            age: 0,
+            spread_probability: 1.0,
+            cons: 0,
+            fleeing: false,
+            max_distance: -1.0,
+            prob: 1.0,
+            total: 0,
+            spawn_orientation: Direction::NONE,
+            start: -1,
+            min_ammo: -1,
+            ammo_cost: 1,
+            stypes: SmallVec::new(),
+            ammo: SmallVec::new(),
+        };
+        traits.class_defaults(class);
+        traits
+    }
+
+    fn class_defaults(&mut self, class: SpriteClass) {
+        use SpriteClass as C;
+        if class.is_avatar() {
+            self.speed = 1.0;
+        }
+        if class.is_a(C::OrientedAvatar) {
+            self.orientation = Direction::RIGHT;
+            self.is_oriented = true;
+            self.rotate_in_place = true;
+        }
+        match class {
+            C::Immovable => self.is_static = true,
+            C::Door => {
+                self.is_static = true;
+                self.portal = true;
+            }
+            C::Conveyor => {
+                self.is_static = true;
+                self.is_oriented = true;
+            }
+            C::Resource => {
+                self.is_resource = true;
+                self.limit = 2;
+            }
+            C::Flicker | C::Spreader => self.limit = 1,
+            C::OrientedFlicker => {
+                self.limit = 1;
+                self.is_oriented = true;
+            }
+            C::Missile | C::ErraticMissile | C::RandomMissile => {
+                self.speed = 1.0;
+                self.is_oriented = true;
+                if class == C::RandomMissile {
+                    self.orientation = Direction::NIL;
+                }
+            }
+            C::RandomNPC | C::Chaser | C::Fleeing => {
+                self.speed = 1.0;
+                self.is_npc = true;
+                self.fleeing = class == C::Fleeing;
+            }
+            C::Portal => {
+                self.is_static = true;
+                self.portal = true;
+            }
+            C::SpawnPoint => {
+                self.cooldown = 1;
+                self.is_static = true;
+            }
+            C::Bomber | C::RandomBomber => {
+                self.cooldown = 1;
+                self.is_oriented = true;
+                self.orientation = Direction::RIGHT;
+                self.is_npc = true;
+                self.speed = if class == C::RandomBomber { 1.0 } else { 0.0 };
+            }
+            _ => {}
+        }
+    }
+
+    /// What the reference does after the parameters are set (`spec/01` §3.5).
+    pub(crate) fn settle(&mut self) {
+        self.is_oriented |= self.orientation != Direction::NONE;
+        if self.max_health == 0 {
+            self.max_health = self.health;
+        }
+        self.health = self.health.min(self.max_health);
+        self.cooldown = self.cooldown.max(1);
+    }
+}

@@ -1,0 +1,352 @@
+//! The state of an episode: flat arrays, no pointer to the rules (`docs/decisions/0004-state-as-flat-data.md`).
+//!
+//! Sprites live in slots of one array. Two chains thread through the slots: the sprites of one type in the order of
+//! their creation (what the reference calls a group), and the sprites in one cell of the board (`occupancy.rs`).
+//! Effects read and write sprites through the methods here and in `step.rs` only, so that the layout can change
+//! without them.
+
+use crate::chance::Chance;
+use crate::game::{Action, Outcome, Rules, SpriteType};
+use crate::geometry::{Direction, Rect};
+
+/// An index into the sprites of a state.
+pub(crate) type Slot = u16;
+/// No sprite.
+pub(crate) const NONE: Slot = u16::MAX;
+
+/// Bits of [`Sprite::flags`]; the first four are those that traces record.
+pub(crate) mod flag {
+    /// A killed avatar: stays in its group, is no longer updated.
+    pub(crate) const DISABLED: u16 = 1;
+    pub(crate) const AVATAR: u16 = 2;
+    pub(crate) const FROM_AVATAR: u16 = 4;
+    /// What traces record.
+    pub(crate) const RECORDED: u16 = 15;
+    pub(crate) const FIRST_TICK: u16 = 16;
+    pub(crate) const ORIENTED: u16 = 32;
+    /// In the kill list.
+    pub(crate) const KILLED: u16 = 64;
+    /// `moved_at` holds the age itself: the sprite is not updated.
+    pub(crate) const FROZEN: u16 = 128;
+    /// In `State::moved`: the last rectangle differs from the rectangle, or may.
+    pub(crate) const MOVED: u16 = 256;
+    /// In `State::stale`: the running hash does not hold this sprite at the moment.
+    pub(crate) const STALE: u16 = 512;
+    /// The slot is free.
+    pub(crate) const GONE: u16 = 1024;
+    /// Book-keeping that two equal states may differ in.
+    pub(crate) const TRANSIENT: u16 = MOVED | STALE;
+}
+
+/// One sprite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sprite {
+    pub(crate) rect: Rect,
+    /// The rectangle at the start of the sprite's own update in this tick.
+    pub(crate) last: Rect,
+    pub(crate) orientation: Direction,
+    pub(crate) speed: f64,
+    /// Creation number, never reused.
+    pub(crate) id: u32,
+    /// The tick of the last move; `lastmove` of the reference is the tick minus this.
+    pub(crate) moved_at: i32,
+    pub(crate) health: i32,
+    pub(crate) max_health: i32,
+    pub(crate) time_to_live: i32,
+    /// Flicker: its age. NPC: how often the last direction was repeated. Spawner: how many it spawned.
+    pub(crate) count: i32,
+    /// Spawner: the tick of its first update.
+    pub(crate) start: i32,
+    pub(crate) stype: SpriteType,
+    pub(crate) flags: u16,
+    /// NPC: the last drawn direction as an index into the base directions, 4 for none.
+    pub(crate) heading: u16,
+    /// The chain of the type.
+    pub(crate) next: Slot,
+    pub(crate) previous: Slot,
+    /// The chain of the cell.
+    pub(crate) cell_next: Slot,
+    pub(crate) cell_previous: Slot,
+    pub(crate) cell: u32,
+}
+
+impl Sprite {
+    pub(crate) fn is(&self, flag: u16) -> bool {
+        self.flags & flag != 0
+    }
+
+    pub(crate) fn set(&mut self, flag: u16, on: bool) {
+        if on {
+            self.flags |= flag;
+        } else {
+            self.flags &= !flag;
+        }
+    }
+}
+
+/// The sprites of one type, in order of creation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Group {
+    pub(crate) head: Slot,
+    pub(crate) tail: Slot,
+    pub(crate) count: u16,
+    pub(crate) disabled: u16,
+    /// How many are not aligned to one cell.
+    pub(crate) loose: u16,
+}
+
+impl Group {
+    pub(crate) const EMPTY: Group = Group { head: NONE, tail: NONE, count: 0, disabled: 0, loose: 0 };
+}
+
+/// A number of a resource that a sprite holds; entries stay at 0 (`spec/02` §1.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Held {
+    pub(crate) holder: Slot,
+    pub(crate) resource: SpriteType,
+    pub(crate) amount: i32,
+}
+
+/// What an effect remembers between executions (`spec/03` §13), bits of one byte an effect.
+pub(crate) mod memory {
+    /// The score changes when the effect runs; many effects set this as they go.
+    pub(crate) const APPLY_SCORE: u8 = 1;
+    /// subtractHealthPoints: the last execution killed.
+    pub(crate) const KILLED: u8 = 2;
+}
+
+/// The state of an episode.
+///
+/// `clone` replays the same chance; planners use [`State::fork`]. `clone_from` reuses buffers and does not allocate
+/// once they have grown.
+#[derive(Debug)]
+pub struct State {
+    pub(crate) tick: i32,
+    pub(crate) score: i64,
+    pub(crate) outcome: Outcome,
+    pub(crate) chance: Chance,
+    pub(crate) last_action: Action,
+    pub(crate) avatar: Slot,
+    pub(crate) next_id: u32,
+    /// The reference's sprite counter, drift included (`spec/03` §5.1).
+    pub(crate) population: i32,
+    /// Messages logged so far: more than 25 end the game.
+    pub(crate) messages: u32,
+    pub(crate) block: i32,
+    pub(crate) columns: i32,
+    pub(crate) rows: i32,
+    pub(crate) free: Slot,
+    /// Sum over the sprites of the hash of each, those in `stale` apart.
+    pub(crate) sprite_hash: u128,
+    pub(crate) sprites: Vec<Sprite>,
+    pub(crate) groups: Vec<Group>,
+    pub(crate) cells: Vec<Slot>,
+    pub(crate) moved: Vec<Slot>,
+    pub(crate) stale: Vec<Slot>,
+    pub(crate) killed: Vec<Slot>,
+    pub(crate) held: Vec<Held>,
+    pub(crate) memory: Vec<u8>,
+    /// Types of which a sprite was made before: later ones are copies (`spec/02` §1.3).
+    pub(crate) templates: Vec<bool>,
+    /// This tick's shields: type, partner, effect keyword (`spec/03` §5.7).
+    pub(crate) shields: Vec<(SpriteType, SpriteType, u16)>,
+    /// Sprites that a pullWithIt effect has carried in this tick.
+    pub(crate) pulled: Vec<(u16, Slot)>,
+}
+
+macro_rules! clone_fields {
+    ($to:ident, $from:ident; copy $($scalar:ident)*; buffers $($buffer:ident)*) => {
+        impl Clone for State {
+            fn clone(&self) -> State {
+                let $from = self;
+                State { $($scalar: $from.$scalar,)* $($buffer: $from.$buffer.clone(),)* }
+            }
+
+            fn clone_from(&mut self, $from: &State) {
+                let $to = self;
+                $($to.$scalar = $from.$scalar;)*
+                $($to.$buffer.clone_from(&$from.$buffer);)*
+            }
+        }
+    };
+}
+
+clone_fields! { to, from;
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free sprite_hash;
+    buffers sprites groups cells moved stale killed held memory templates shields pulled
+}
+
+impl State {
+    /// How many ticks have been played, minus one: −1 at the start, 0 after the first step.
+    pub fn tick(&self) -> i32 {
+        self.tick
+    }
+
+    /// The score.
+    pub fn score(&self) -> f64 {
+        self.score as f64
+    }
+
+    /// How the episode stands.
+    pub fn outcome(&self) -> Outcome {
+        self.outcome
+    }
+
+    /// Whether the episode is over.
+    pub fn is_over(&self) -> bool {
+        self.outcome != Outcome::Ongoing
+    }
+
+    /// The game's chance.
+    pub fn chance(&self) -> Chance {
+        self.chance
+    }
+
+    /// The same state with another future: for planners, who must not foresee the dice.
+    pub fn fork(&self, seed: crate::Seed) -> State {
+        State { chance: seed.chance(), ..self.clone() }
+    }
+
+    /// Overwrites this state with `source`, with a future of its own; keeps the buffers.
+    pub fn fork_from(&mut self, source: &State, chance: Chance) {
+        self.clone_from(source);
+        self.chance = chance;
+    }
+
+    /// Pixels of a cell.
+    pub fn block(&self) -> i32 {
+        self.block
+    }
+
+    /// Columns and rows of the board.
+    pub fn size(&self) -> (i32, i32) {
+        (self.columns, self.rows)
+    }
+
+    /// The type of the player's avatar, if there is one and it lives.
+    pub(crate) fn avatar_type(&self) -> Option<SpriteType> {
+        let sprite = self.sprites.get(usize::from(self.avatar))?;
+        (!sprite.is(flag::DISABLED)).then_some(sprite.stype)
+    }
+
+    pub(crate) fn sprite(&self, slot: Slot) -> &Sprite {
+        &self.sprites[usize::from(slot)]
+    }
+
+    pub(crate) fn group(&self, stype: SpriteType) -> &Group {
+        &self.groups[stype.index()]
+    }
+
+    /// The slots of a type, in order of creation.
+    pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + '_ {
+        let mut at = self.group(stype).head;
+        std::iter::from_fn(move || {
+            let slot = at;
+            (slot != NONE).then(|| {
+                at = self.sprite(slot).next;
+                slot
+            })
+        })
+    }
+
+    /// Sprites of a type and its relatives, those killed in this tick and disabled ones included.
+    pub(crate) fn count(&self, rules: &Rules, stype: SpriteType) -> i32 {
+        let tree = &rules.types[stype.index()].tree;
+        tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum()
+    }
+
+    /// [`State::count`] without disabled ones: what terminations look at.
+    pub(crate) fn count_live(&self, rules: &Rules, stype: SpriteType) -> i32 {
+        let tree = &rules.types[stype.index()].tree;
+        tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()
+    }
+
+    /// How much of a resource a sprite holds.
+    pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
+        let found = self.held.iter().find(|held| held.holder == holder && held.resource == resource);
+        found.map_or(0, |held| held.amount)
+    }
+
+    /// Adds to a resource, not below 0; the entry is made even for 0.
+    pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
+        match self.held.iter_mut().find(|held| held.holder == holder && held.resource == resource) {
+            Some(held) => held.amount = held.amount.saturating_add(change).max(0),
+            None => self.held.push(Held { holder, resource, amount: change.max(0) }),
+        }
+    }
+
+    /// A sprite, to be changed: takes it out of the running hash until the end of the step.
+    pub(crate) fn edit(&mut self, slot: Slot) -> &mut Sprite {
+        let sprite = &mut self.sprites[usize::from(slot)];
+        if !sprite.is(flag::STALE) {
+            self.sprite_hash = self.sprite_hash.wrapping_sub(crate::hash::sprite_hash(sprite));
+            sprite.set(flag::STALE, true);
+            self.stale.push(slot);
+        }
+        sprite
+    }
+
+    /// Puts the changed sprites back into the running hash.
+    pub(crate) fn freshen(&mut self) {
+        for slot in self.stale.drain(..) {
+            let sprite = &mut self.sprites[usize::from(slot)];
+            sprite.set(flag::STALE, false);
+            self.sprite_hash = self.sprite_hash.wrapping_add(crate::hash::sprite_hash(sprite));
+        }
+    }
+
+    /// Takes a slot out of its chains and frees it. The caller has taken it out of the running hash.
+    pub(crate) fn release(&mut self, slot: Slot) {
+        let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
+        self.leave_cell(slot);
+        let group = &mut self.groups[stype.index()];
+        group.count -= 1;
+        if flags & flag::DISABLED != 0 {
+            group.disabled -= 1;
+        }
+        match previous {
+            NONE => group.head = next,
+            previous => self.sprites[usize::from(previous)].next = next,
+        }
+        match next {
+            NONE => self.groups[stype.index()].tail = previous,
+            next => self.sprites[usize::from(next)].previous = previous,
+        }
+        if !self.held.is_empty() {
+            self.held.retain(|held| held.holder != slot);
+        }
+        let sprite = &mut self.sprites[usize::from(slot)];
+        (sprite.next, sprite.flags) = (self.free, flag::GONE);
+        self.free = slot;
+    }
+
+    /// Takes a slot for `sprite`, at the end of its type's chain; None if there are no more.
+    pub(crate) fn admit(&mut self, sprite: Sprite) -> Option<Slot> {
+        let slot = match self.free {
+            NONE => {
+                let slot = Slot::try_from(self.sprites.len()).ok().filter(|&slot| slot != NONE)?;
+                self.sprites.push(sprite);
+                slot
+            }
+            slot => {
+                self.free = self.sprite(slot).next;
+                self.sprites[usize::from(slot)] = sprite;
+                slot
+            }
+        };
+        let group = &mut self.groups[sprite.stype.index()];
+        let tail = std::mem::replace(&mut group.tail, slot);
+        group.count += 1;
+        if tail == NONE {
+            group.head = slot;
+        } else {
+            self.sprites[usize::from(tail)].next = slot;
+        }
+        let sprite = &mut self.sprites[usize::from(slot)];
+        (sprite.next, sprite.previous) = (NONE, tail);
+        sprite.set(flag::STALE, true);
+        self.stale.push(slot);
+        self.enter_cell(slot);
+        Some(slot)
+    }
+}

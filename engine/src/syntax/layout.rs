@@ -1,0 +1,59 @@
+//! The layout pass: a text becomes logical lines with an indent, comments set aside (`spec/01` §1.1).
+
+use crate::diagnostic::Span;
+
+/// One line that is not blank.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Line<'a> {
+    /// Columns before the first character; a tab counts as one.
+    pub(super) indent: usize,
+    /// Without indent, comment and trailing blanks.
+    pub(super) text: &'a str,
+    /// Where `text` stands.
+    pub(super) span: Span,
+    /// Whole-line comments above.
+    pub(super) above: Vec<&'a str>,
+    /// The comment at the end.
+    pub(super) beside: Option<&'a str>,
+}
+
+/// The lines of `source`, and the comments below the last one. Terminators are `\n`, `\r\n` and `\r`.
+pub(super) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
+    let mut lines = Vec::new();
+    let mut above = Vec::new();
+    let mut start = 0;
+    for raw in source.split(['\n', '\r']) {
+        let (code, comment) = match raw.split_once('#') {
+            Some((code, comment)) => (code, Some(comment.trim())),
+            None => (raw, None),
+        };
+        let text = code.trim_matches(|c: char| c <= ' ');
+        if text.is_empty() {
+            above.extend(comment);
+        } else {
+            let indent = code.chars().take_while(|&c| c <= ' ').count();
+            let at = start + (text.as_ptr() as usize - raw.as_ptr() as usize);
+            let span = Span::new(at, at + text.len());
+            lines.push(Line { indent, text, span, above: std::mem::take(&mut above), beside: comment });
+        }
+        start += raw.len() + 1;
+    }
+    (lines, above)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_indents_and_spans() {
+        let source = "# top\r\nBasicGame # game\n\n\t a > B  \n# end";
+        let (lines, tail) = lines(source);
+        assert_eq!(lines.len(), 2);
+        assert_eq!((lines[0].text, lines[0].indent), ("BasicGame", 0));
+        assert_eq!((lines[0].above.as_slice(), lines[0].beside), (["top"].as_slice(), Some("game")));
+        assert_eq!((lines[1].text, lines[1].indent), ("a > B", 2));
+        assert_eq!(&source[lines[1].span.start..lines[1].span.end], "a > B");
+        assert_eq!(tail, ["end"]);
+    }
+}

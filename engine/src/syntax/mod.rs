@@ -1,0 +1,14 @@
+//! Game text: layout, grammar, syntax tree, canonical print. `pest` does not leave this module.
+
+mod description;
+mod layout;
+mod parse;
+mod print;
+
+pub use description::{
+    Description, Header, InteractionLine, MappingLine, Param, Section, SpriteLine, TerminationLine, Trivia,
+    Word,
+};
+pub(crate) use parse::{Literal, literal};
+pub use parse::{MAX_SOURCE, parse};
+pub use print::{print, print_bare};

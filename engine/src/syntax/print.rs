@@ -1,0 +1,114 @@
+//! The canonical print of a syntax tree: `arcade fmt`, and what digests are taken of.
+
+use super::description::{Description, Param, Section, SpriteLine, Trivia};
+use std::fmt::Write;
+
+/// The canonical text: sections in canonical order, four blanks an indent, single blanks between tokens, comments kept.
+pub fn print(description: &Description) -> String {
+    Printer { out: String::new(), comments: true }.game(description)
+}
+
+/// The canonical text without comments: what a game's digest covers.
+pub fn print_bare(description: &Description) -> String {
+    Printer { out: String::new(), comments: false }.game(description)
+}
+
+struct Printer {
+    out: String,
+    comments: bool,
+}
+
+impl Printer {
+    fn game(mut self, game: &Description) -> String {
+        self.line(0, &game.header.trivia, &with_params(&game.header.class.text, &game.header.params));
+        for (section, has) in Section::ALL.into_iter().zip(game.has) {
+            if !has {
+                continue;
+            }
+            self.line(1, &Trivia::default(), section.name());
+            match section {
+                Section::SpriteSet => self.sprites(2, &game.sprites),
+                Section::LevelMapping => {
+                    for line in &game.mapping {
+                        let names: Vec<&str> = line.names.iter().map(|name| name.text.as_str()).collect();
+                        self.line(
+                            2,
+                            &line.trivia,
+                            format!("{} > {}", line.symbol, names.join(" ")).trim_end(),
+                        );
+                    }
+                }
+                Section::InteractionSet => {
+                    for line in &game.interactions {
+                        let mut text = line.first.text.clone();
+                        for second in &line.second {
+                            let _ = write!(text, " {}", second.text);
+                        }
+                        let _ = write!(text, " > {}", line.effect.text);
+                        self.line(2, &line.trivia, &with_params(&text, &line.params));
+                    }
+                }
+                Section::TerminationSet => {
+                    for line in &game.terminations {
+                        self.line(2, &line.trivia, &with_params(&line.class.text, &line.params));
+                    }
+                }
+            }
+        }
+        if self.comments {
+            for comment in &game.tail {
+                let _ = writeln!(self.out, "{}", format!("# {comment}").trim_end());
+            }
+        }
+        self.out
+    }
+
+    fn sprites(&mut self, depth: usize, lines: &[SpriteLine]) {
+        for line in lines {
+            let class = line.class.as_ref().map_or(String::new(), |class| format!(" {}", class.text));
+            self.line(
+                depth,
+                &line.trivia,
+                &with_params(&format!("{} >{class}", line.name.text), &line.params),
+            );
+            self.sprites(depth + 1, &line.children);
+        }
+    }
+
+    fn line(&mut self, depth: usize, trivia: &Trivia, text: &str) {
+        let indent = "    ".repeat(depth);
+        if self.comments {
+            for comment in &trivia.above {
+                let _ = writeln!(self.out, "{}", format!("{indent}# {comment}").trim_end());
+            }
+        }
+        let _ = match trivia.beside.as_ref().filter(|_| self.comments) {
+            Some(comment) => writeln!(self.out, "{indent}{text}  # {comment}"),
+            None => writeln!(self.out, "{indent}{text}"),
+        };
+    }
+}
+
+fn with_params(head: &str, params: &[Param]) -> String {
+    let mut text = head.to_owned();
+    for param in params {
+        let _ = write!(text, " {}={}", param.key.text, param.value.text);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::syntax::{parse, print, print_bare};
+
+    #[test]
+    fn printing_is_stable_and_keeps_comments() {
+        let source = "BasicGame\n SpriteSet # what exists\n\t\ta >   Missile # fast\n\t # fruit\n\t\t\tb > color=RED\n  LevelMapping\n    x >  a\n  InteractionSet\n  TerminationSet\n    Timeout   limit=5\n# end\n";
+        let once = print(&parse(source).0);
+        assert_eq!(print(&parse(&once).0), once);
+        assert!(once.contains("            # fruit\n            b > color=RED\n"), "{once}");
+        assert!(once.contains("        a > Missile  # fast\n"), "{once}");
+        assert!(once.ends_with("# end\n"), "{once}");
+        assert!(!print_bare(&parse(source).0).contains('#'));
+    }
+}

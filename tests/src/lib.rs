@@ -1,0 +1,89 @@
+//! What the tests that span crates share: where the workspace is and what files it holds.
+//!
+//! The tests themselves are in `tests/tests/`; `tidy.rs` there holds the rules that a machine can check.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The root folder of the workspace: the one that holds the virtual manifest.
+///
+/// # Panics
+///
+/// If this crate does not lie in a folder of the workspace.
+pub fn workspace_root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().expect("this crate lies one folder below the workspace root").to_path_buf()
+}
+
+/// Every file that belongs to the repository, relative to [`workspace_root`], sorted.
+///
+/// Left out: build output (`target`, and any folder with cargo's `CACHEDIR.TAG`), unfinished releases
+/// (`*.partial`), links, and what is hidden, except `.cargo` and `.ci`.
+///
+/// # Panics
+///
+/// If a folder cannot be read.
+pub fn workspace_files() -> Vec<PathBuf> {
+    let root = workspace_root();
+    let mut files = Vec::new();
+    collect(&root, Path::new(""), &mut files);
+    files.sort();
+    files
+}
+
+/// Every `.rs` file of the workspace's crates with its text, relative to [`workspace_root`], sorted by path.
+///
+/// A crate is a folder at the root that holds a `Cargo.toml`; build output is left out.
+///
+/// # Panics
+///
+/// If a file cannot be read or is not UTF-8.
+pub fn rust_files() -> Vec<(PathBuf, String)> {
+    let root = workspace_root();
+    let in_crate = |file: &Path| {
+        file.components().next().is_some_and(|folder| root.join(folder).join("Cargo.toml").is_file())
+    };
+    workspace_files()
+        .into_iter()
+        .filter(|file| file.extension().is_some_and(|extension| extension == "rs") && in_crate(file))
+        .map(|file| {
+            let text = read(&file);
+            (file, text)
+        })
+        .collect()
+}
+
+/// The text of a file of the repository, named relative to [`workspace_root`].
+///
+/// # Panics
+///
+/// If the file is missing, cannot be read or is not UTF-8.
+pub fn read(file: impl AsRef<Path>) -> String {
+    let file = file.as_ref();
+    match fs::read_to_string(workspace_root().join(file)) {
+        Ok(text) => text,
+        Err(error) => panic!("{}: {error}", file.display()),
+    }
+}
+
+/// Adds every file below `folder` (relative to `root`) to `files`, in no particular order.
+fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) {
+    let here = root.join(folder);
+    let entries = fs::read_dir(&here).unwrap_or_else(|error| panic!("{}: {error}", here.display()));
+    for entry in entries {
+        let entry = entry.unwrap_or_else(|error| panic!("{}: {error}", here.display()));
+        let path = folder.join(entry.file_name());
+        let kind = entry.file_type().unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        if kind.is_dir() {
+            let name = entry.file_name();
+            let name = name.to_string_lossy();
+            let hidden = name.starts_with('.') && name != ".cargo" && name != ".ci";
+            let built = name == "target" || entry.path().join("CACHEDIR.TAG").exists();
+            if !hidden && !built && !name.ends_with(".partial") {
+                collect(root, &path, files);
+            }
+        } else if kind.is_file() {
+            files.push(path);
+        }
+    }
+}

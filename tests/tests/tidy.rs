@@ -1,0 +1,512 @@
+//! House rules that a machine can check: which crate may import which, how long a file may be, where a
+//! link may lead.
+//!
+//! Every message reads `file:line: what is wrong; how to repair it`, and a test reports all it found at once.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use tests::{read, rust_files, workspace_files, workspace_root};
+use toml::de::{DeTable, DeValue};
+
+/// Our crates by folder, each with those it may depend on. Imports point one way only.
+const ALLOWED: &[(&str, &[&str])] = &[
+    ("engine", &[]),
+    ("statistics", &[]),
+    ("agents", &["engine"]),
+    ("generators", &["engine"]),
+    ("validators", &["engine", "agents", "statistics"]),
+    ("snapshots", &["engine", "agents", "generators", "validators", "statistics"]),
+    ("cli", &["engine", "agents", "generators", "validators", "snapshots", "statistics"]),
+];
+
+/// The crate that may depend on all others, because none depends on it.
+const ABOVE_ALL: &str = "tests";
+
+/// Crates of others (with their families, such as `pest_derive`) that stay in few of ours.
+const CONFINED: &[(&str, &[&str])] = &[
+    ("pest", &["engine"]),
+    ("clap", &["cli"]),
+    ("indicatif", &["cli"]),
+    ("miette", &["cli"]),
+    ("anyhow", &["cli", "xtask"]),
+];
+
+/// The longest a Rust file may be, in lines.
+const RUST_LINES: usize = 1000;
+
+/// The longest `ARCHITECTURE.md` may be, in lines.
+const ARCHITECTURE_LINES: usize = 200;
+
+/// The pages at the root; their links are checked like those in `docs/`.
+const PAGES: [&str; 3] = ["ARCHITECTURE.md", "CHANGELOG.md", "README.md"];
+
+#[test]
+fn imports_point_one_way() {
+    let manifests = manifests();
+    let mut problems = Vec::new();
+    for manifest in &manifests {
+        let folder = manifest.folder.as_str();
+        let allowed = ALLOWED.iter().find(|(name, _)| *name == folder).map(|(_, allowed)| *allowed);
+        if allowed.is_none() && folder != ABOVE_ALL {
+            problems.push(format!(
+                "{}:1: the place of `{folder}` among the crates is not decided; give it a row in \
+                 ALLOWED in {}",
+                manifest.path(),
+                file!()
+            ));
+        }
+        for dependency in manifest.dependencies.iter().filter(|dependency| !dependency.development) {
+            let Some(target) = folder_of(&manifests, &dependency.package) else { continue };
+            if allowed.is_some_and(|allowed| !allowed.contains(&target)) {
+                problems.push(format!(
+                    "{}:{}: `{folder}` must not depend on `{target}`; move what both need into a \
+                     crate that both may use",
+                    manifest.path(),
+                    dependency.line
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn dev_dependencies_close_no_cycle() {
+    let manifests = manifests();
+    let mut edges: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for manifest in &manifests {
+        let targets = manifest.dependencies.iter().filter_map(|d| folder_of(&manifests, &d.package));
+        edges.insert(&manifest.folder, targets.collect());
+    }
+    let mut problems = Vec::new();
+    for manifest in &manifests {
+        for dependency in manifest.dependencies.iter().filter(|dependency| dependency.development) {
+            let Some(target) = folder_of(&manifests, &dependency.package) else { continue };
+            if reaches(&edges, target, &manifest.folder) {
+                problems.push(format!(
+                    "{}:{}: `{target}` depends on `{}` in turn; move the test that needs it into \
+                     `{ABOVE_ALL}`",
+                    manifest.path(),
+                    dependency.line,
+                    manifest.folder
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn confined_crates_stay_where_they_belong() {
+    let mut problems = Vec::new();
+    for manifest in manifests() {
+        for dependency in &manifest.dependencies {
+            let family = CONFINED.iter().find(|(name, _)| {
+                let rest = dependency.package.strip_prefix(name);
+                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', '-']))
+            });
+            let Some((name, homes)) = family else { continue };
+            if !homes.contains(&manifest.folder.as_str()) {
+                problems.push(format!(
+                    "{}:{}: `{name}` belongs in {} only; hand over plain data and use `{}` there",
+                    manifest.path(),
+                    dependency.line,
+                    homes.join(" and "),
+                    dependency.package
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn rust_files_are_short() {
+    let mut problems = Vec::new();
+    for (file, text) in rust_files() {
+        let lines = text.lines().count();
+        if lines > RUST_LINES {
+            problems.push(format!(
+                "{}:{lines}: longer than {RUST_LINES} lines; split it by noun",
+                file.display()
+            ));
+        }
+    }
+    report(problems);
+}
+
+/// Relies on the formatting, which puts the first line of every item, and nothing else, at the left margin.
+#[test]
+fn lib_files_hold_docs_and_declarations_only() {
+    let mut problems = Vec::new();
+    for (file, text) in rust_files() {
+        // The helpers of this crate are few and have no other user: its lib.rs is their file.
+        if !file.ends_with("src/lib.rs") || file.starts_with(ABOVE_ALL) {
+            continue;
+        }
+        for (line, number) in text.lines().zip(1..) {
+            if !is_declaration(line) {
+                problems.push(format!(
+                    "{}:{number}: lib.rs holds docs, `mod`, `use` and the constants SEMANTICS and \
+                     GENERATION; move `{line}` into a module",
+                    file.display()
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn crates_open_with_their_docs() {
+    let mut problems = Vec::new();
+    for (file, text) in rust_files() {
+        let crate_root = file.components().count() == 3
+            && (file.ends_with("src/lib.rs") || file.ends_with("src/main.rs"))
+            && !text.trim_start().starts_with("//!");
+        if crate_root {
+            problems.push(format!(
+                "{}:1: does not start with `//!`; say in a sentence what the crate is for",
+                file.display()
+            ));
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn files_are_named_after_what_they_hold() {
+    let mut problems = Vec::new();
+    for (file, _) in rust_files() {
+        let nameless = file.iter().any(|part| {
+            let stem = Path::new(part).file_stem().unwrap_or(part);
+            ["utils", "helpers", "misc"].iter().any(|name| stem == *name)
+        });
+        if nameless {
+            problems.push(format!(
+                "{}:1: its name does not say what it holds; a helper lives with its user until it has a name",
+                file.display()
+            ));
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn nothing_is_left_unfinished() {
+    // In two halves, so that this file is not found wanting itself.
+    let unfinished = [
+        (concat!("todo", "!("), "write it, or leave it out"),
+        (concat!("unimplemented", "!("), "write it, or leave it out"),
+        (concat!("dbg", "!("), "remove it"),
+        (concat!("#[", "ignore"), "make the test fast enough to run, or remove it"),
+    ];
+    let mut problems = Vec::new();
+    for (file, text) in rust_files() {
+        for (line, number) in text.lines().zip(1..) {
+            for (needle, repair) in unfinished {
+                if line.contains(needle) {
+                    problems.push(format!("{}:{number}: `{needle}` in the tree; {repair}", file.display()));
+                }
+            }
+        }
+    }
+    report(problems);
+}
+
+/// Home and work folders are refused everywhere; `/tmp` may stand in tests, as an absolute path like others.
+#[test]
+fn no_path_leads_out_of_the_repository() {
+    let homes = ["home", "root", "Users", "work"];
+    let checked = ["rs", "md", "toml", "json", "vgdl", "txt", "html", "py", "sh", "yml", "yaml"];
+    let mut problems = Vec::new();
+    for file in workspace_files() {
+        let text_file =
+            file.extension().is_some_and(|extension| checked.iter().any(|known| extension == *known));
+        if !text_file && !file.starts_with(".ci") {
+            continue;
+        }
+        let mut in_test = file.iter().any(|part| part == "tests");
+        for (line, number) in read(&file).lines().zip(1..) {
+            in_test |= line.trim_start().starts_with("#[cfg(test)]");
+            let home = homes.iter().find(|folder| names_absolute(line, folder));
+            let found = home.or_else(|| Some(&"tmp").filter(|tmp| !in_test && names_absolute(line, tmp)));
+            if let Some(folder) = found {
+                problems.push(format!(
+                    "{}:{number}: a path below /{folder} exists on one machine only; write it relative to \
+                     the repository, or take it as an argument",
+                    file.display()
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn links_lead_to_files() {
+    let root = workspace_root().canonicalize().expect("the workspace root exists");
+    let in_docs = workspace_files().into_iter().filter(|file| {
+        file.starts_with("docs") && file.extension().is_some_and(|extension| extension == "md")
+    });
+    let mut problems = Vec::new();
+    for page in PAGES.iter().map(PathBuf::from).chain(in_docs) {
+        let folder = root.join(&page).parent().expect("a page lies in a folder").to_path_buf();
+        for (number, target) in relative_links(&read(&page)) {
+            let found = folder.join(&target).canonicalize();
+            if !found.is_ok_and(|found| found.starts_with(&root)) {
+                problems.push(format!(
+                    "{}:{number}: the link `{target}` leads to no file of the repository; correct or \
+                     remove it",
+                    page.display()
+                ));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn architecture_is_a_short_read() {
+    let lines = read("ARCHITECTURE.md").lines().count();
+    let mut problems = Vec::new();
+    if lines > ARCHITECTURE_LINES {
+        problems.push(format!(
+            "ARCHITECTURE.md:{lines}: longer than {ARCHITECTURE_LINES} lines; move details next to the code \
+             they describe"
+        ));
+    }
+    report(problems);
+}
+
+#[test]
+fn decisions_are_numbered_and_complete() {
+    let pages = workspace_files().into_iter().filter(|file| {
+        let here = file.parent().is_some_and(|folder| folder == Path::new("docs/decisions"));
+        here && file.file_name().is_some_and(|name| name != "README.md")
+    });
+    let mut problems = Vec::new();
+    for (page, expected) in pages.zip(1..) {
+        let name = page.file_name().expect("a page has a name").to_string_lossy().into_owned();
+        if !name.starts_with(&format!("{expected:04}-")) || !name.ends_with(".md") {
+            problems.push(format!(
+                "{}:1: should be called {expected:04}-title.md; number the decisions without gaps or doubles",
+                page.display()
+            ));
+        }
+        let text = read(&page);
+        let headings: Vec<&str> = text.lines().filter(|line| line.starts_with("## ")).collect();
+        let wanted = ["## Question", "## Answer", "## What we gave up"];
+        if !text.starts_with("# ") || headings != wanted {
+            problems.push(format!(
+                "{}:1: has the headings {headings:?}; under its `# ` title write {wanted:?}, in this order",
+                page.display()
+            ));
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn code_is_formatted() {
+    let cargo = || {
+        let mut command = Command::new(env!("CARGO"));
+        command.current_dir(workspace_root()).arg("fmt");
+        command
+    };
+    if !cargo().arg("--version").output().is_ok_and(|output| output.status.success()) {
+        // Written past the capture of the test harness, so that it is seen.
+        writeln!(std::io::stderr(), "rustfmt is not installed: formatting is not checked")
+            .expect("stderr is open");
+        return;
+    }
+    let output = cargo().args(["--all", "--check"]).output().expect("cargo fmt has just run");
+    if output.status.success() {
+        return;
+    }
+    let root = format!("{}/", workspace_root().display());
+    let differences = String::from_utf8_lossy(&output.stdout).replace(&root, "");
+    let mut problems: Vec<String> = differences
+        .lines()
+        .filter_map(|line| line.strip_prefix("Diff in "))
+        .map(|place| format!("{} not as rustfmt writes it; run `cargo fmt --all`", place.trim_end()))
+        .collect();
+    if problems.is_empty() {
+        problems.push(String::from_utf8_lossy(&output.stderr).replace(&root, ""));
+    }
+    report(problems);
+}
+
+#[test]
+fn relative_links_are_found() {
+    let page = "See [`a`](a.md#part), [b](<b c.md> \"title\") and ![c](../c.png).\n\
+                Not [d](https://example.org/d), [e](#here), `[f](f.md)`.\n\
+                ```\n[g](g.md)\n```\n[h]: h.md\n[^1]: note\n";
+    let found: Vec<(usize, String)> = relative_links(page);
+    let found: Vec<(usize, &str)> = found.iter().map(|(line, target)| (*line, target.as_str())).collect();
+    assert_eq!(found, [(1, "a.md"), (1, "b c.md"), (1, "../c.png"), (6, "h.md")]);
+}
+
+#[test]
+fn absolute_paths_are_found() {
+    let path = concat!("/", "home/me");
+    for line in [format!("{path}/x"), format!("open(\"{path}\")"), format!("run in `{path}`")] {
+        assert!(names_absolute(&line, "home"), "{line}");
+    }
+    for line in [format!("https://example.org{path}"), format!("{{root}}{path}"), "/homestead/x".to_owned()] {
+        assert!(!names_absolute(&line, "home"), "{line}");
+    }
+}
+
+/// What a member's `Cargo.toml` says about dependencies of all kinds and for all targets.
+struct Manifest {
+    /// Folder and library name, such as `engine`.
+    folder: String,
+    /// Package name, such as `infinite-arcade-engine`.
+    package: String,
+    dependencies: Vec<Dependency>,
+}
+
+impl Manifest {
+    fn path(&self) -> String {
+        format!("{}/Cargo.toml", self.folder)
+    }
+}
+
+/// One line of a dependency section.
+struct Dependency {
+    /// The real package name, whatever it is renamed to.
+    package: String,
+    /// Whether only tests, examples and benches see it.
+    development: bool,
+    line: usize,
+}
+
+/// The manifests of all members, in the order of the workspace.
+fn manifests() -> Vec<Manifest> {
+    let source = read("Cargo.toml");
+    let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("Cargo.toml: {error}"));
+    let workspace = get(root.get_ref(), "workspace").and_then(DeValue::as_table);
+    let workspace = workspace.expect("Cargo.toml has [workspace]");
+    let shared = get(workspace, "dependencies").and_then(DeValue::as_table);
+    let members = get(workspace, "members").and_then(DeValue::as_array).expect("[workspace] has members");
+    let folders = members.iter().map(|member| member.get_ref().as_str().expect("a member is a string"));
+    folders.map(|folder| manifest(folder, shared)).collect()
+}
+
+/// Reads one member's manifest; `shared` is `[workspace.dependencies]`.
+fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
+    let source = read(Path::new(folder).join("Cargo.toml"));
+    let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("{folder}/Cargo.toml: {error}"));
+    let root = root.get_ref();
+    let targets = get(root, "target").and_then(DeValue::as_table);
+    let mut scopes = vec![root];
+    scopes.extend(
+        targets.iter().flat_map(|targets| targets.values()).filter_map(|target| target.get_ref().as_table()),
+    );
+    let mut dependencies = Vec::new();
+    for scope in scopes {
+        for section in ["dependencies", "build-dependencies", "dev-dependencies"] {
+            for (name, value) in get(scope, section).and_then(DeValue::as_table).into_iter().flatten() {
+                let written = name.get_ref().as_ref();
+                let own = renamed(value.get_ref());
+                let inherited = || shared.and_then(|shared| get(shared, written)).and_then(renamed);
+                dependencies.push(Dependency {
+                    package: own.or_else(inherited).unwrap_or(written).to_owned(),
+                    development: section == "dev-dependencies",
+                    line: source[..name.span().start].matches('\n').count() + 1,
+                });
+            }
+        }
+    }
+    let package = get(root, "package").and_then(DeValue::as_table).and_then(|package| get(package, "name"));
+    let package = package.and_then(DeValue::as_str).unwrap_or_else(|| panic!("{folder}/Cargo.toml: no name"));
+    Manifest { folder: folder.to_owned(), package: package.to_owned(), dependencies }
+}
+
+/// The `package = "..."` of a dependency, if it is renamed.
+fn renamed<'a>(dependency: &'a DeValue<'_>) -> Option<&'a str> {
+    dependency.as_table().and_then(|table| get(table, "package")).and_then(DeValue::as_str)
+}
+
+fn get<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<&'a DeValue<'i>> {
+    table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.get_ref())
+}
+
+/// The folder of the member whose package is called `package`; `None` for the crates of others.
+fn folder_of<'a>(manifests: &'a [Manifest], package: &str) -> Option<&'a str> {
+    manifests.iter().find(|manifest| manifest.package == package).map(|manifest| manifest.folder.as_str())
+}
+
+/// Whether `goal` is `start` or one of its direct or indirect dependencies.
+fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> bool {
+    let mut seen = BTreeSet::from([start]);
+    let mut open = vec![start];
+    while let Some(folder) = open.pop() {
+        if folder == goal {
+            return true;
+        }
+        let next = edges.get(folder).into_iter().flatten();
+        open.extend(next.filter(|target| seen.insert(target)));
+    }
+    false
+}
+
+/// Whether a line of a formatted `lib.rs` is part of docs, of an attribute or of a declaration that may be there.
+fn is_declaration(line: &str) -> bool {
+    let continued = line.is_empty() || line.starts_with([' ', '}', ')', ']']);
+    let item = line.strip_prefix("pub(crate) ").or_else(|| line.strip_prefix("pub ")).unwrap_or(line);
+    let module = item.starts_with("mod ") && (item.ends_with(';') || item.ends_with("{}"));
+    let constant = ["const SEMANTICS:", "const GENERATION:"].iter().any(|start| item.starts_with(start));
+    let starts = ["//", "#[", "#![", "use "];
+    continued || module || constant || starts.iter().any(|start| item.starts_with(start))
+}
+
+/// Whether a line holds an absolute path below the given folder of the file system's root.
+fn names_absolute(line: &str, folder: &str) -> bool {
+    let prefix = format!("/{folder}/");
+    line.match_indices(&prefix).any(|(start, _)| {
+        let before = line[..start].chars().next_back();
+        before.is_none_or(|before| before.is_whitespace() || "\"'`(<[=:,|".contains(before))
+    })
+}
+
+/// The links of a Markdown page that are neither URLs nor places in the page itself, without their fragments,
+/// each with its line number. Code is passed over.
+fn relative_links(page: &str) -> Vec<(usize, String)> {
+    let mut links = Vec::new();
+    let mut fenced = false;
+    for (line, number) in page.lines().zip(1..) {
+        let start = line.trim_start();
+        if start.starts_with("```") || start.starts_with("~~~") {
+            fenced = !fenced;
+        }
+        if fenced {
+            continue;
+        }
+        // Every second piece between backticks is code.
+        let prose: String = line.split('`').step_by(2).collect();
+        let defined = prose.trim_start().strip_prefix('[').filter(|rest| !rest.starts_with('^'));
+        let defined = defined.and_then(|rest| rest.split_once("]: ")).map(|(_, target)| target);
+        for target in prose.split("](").skip(1).chain(defined) {
+            let target = match target.trim_start().strip_prefix('<') {
+                Some(quoted) => quoted.split('>').next(),
+                None => target.split([')', ' ']).next(),
+            };
+            let target = target.unwrap_or_default().split('#').next().unwrap_or_default();
+            if !target.is_empty() && !target.contains("://") && !target.starts_with("mailto:") {
+                links.push((number, target.to_owned()));
+            }
+        }
+    }
+    links
+}
+
+/// Fails with every problem on a line of its own, if there is one.
+#[track_caller]
+fn report(problems: Vec<String>) {
+    assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));
+}
