@@ -1,0 +1,1 @@
+//! Game generators: rules, mapping and fiction.

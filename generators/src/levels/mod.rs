@@ -1,0 +1,1 @@
+//! Level generators: they work on any valid game.
