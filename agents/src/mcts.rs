@@ -1,0 +1,234 @@
+//! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS` by calls (`spec/04` §1).
+//!
+//! Open loop: a node is a sequence of actions, not a state; every iteration plays its sequence again from a fresh copy
+//! of the root, with a chance of its own, so the statistics of a node average over what may happen.
+//! (Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning"; Browne et al. 2012, "A survey of Monte Carlo tree
+//! search methods".)
+
+use crate::planner::{Budget, Planner};
+use engine::{Action, Chance, Game, Outcome, Sampler, Seed, State};
+use serde::{Deserialize, Serialize};
+
+/// Breaks ties and guards divisions; the reference's value.
+const EPSILON: f64 = 1e-6;
+/// Added for a win, subtracted for a loss.
+const TERMINAL: f64 = 1e7;
+/// Actions at most.
+const WIDTH: usize = Action::ALL.len();
+const UNEXPANDED: u32 = u32::MAX;
+
+/// The parameters of the search. The default is the reference's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MctsConfig {
+    /// Ticks that tree and rollout together look ahead.
+    pub depth: u32,
+    /// Weight of exploration in UCT.
+    pub exploration: f64,
+}
+
+impl Default for MctsConfig {
+    fn default() -> MctsConfig {
+        MctsConfig { depth: 10, exploration: std::f64::consts::SQRT_2 }
+    }
+}
+
+/// The planner: plans each decision from nothing, on a fresh tree.
+#[derive(Clone, Debug)]
+pub struct Mcts {
+    config: MctsConfig,
+    seed: Seed,
+    decisions: u64,
+    tree: Vec<Node>,
+    path: Vec<u32>,
+    scratch: Option<State>,
+}
+
+#[derive(Clone, Debug)]
+struct Node {
+    children: [u32; WIDTH],
+    visits: f64,
+    total: f64,
+    /// Least and greatest result seen through this node.
+    least: f64,
+    greatest: f64,
+}
+
+impl Node {
+    fn new() -> Node {
+        let (least, greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        Node { children: [UNEXPANDED; WIDTH], visits: 0.0, total: 0.0, least, greatest }
+    }
+
+    /// The mean result.
+    fn value(&self) -> f64 {
+        self.total / (self.visits + EPSILON)
+    }
+}
+
+impl Mcts {
+    /// A planner of its own streams of choices and imagined chance.
+    pub fn new(config: MctsConfig, seed: Seed) -> Mcts {
+        Mcts { config, seed, decisions: 0, tree: Vec::new(), path: Vec::new(), scratch: None }
+    }
+
+    /// One iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls.
+    fn iterate(&mut self, game: &Game, state: &mut State, actions: &[Action], choices: &mut Sampler) -> u64 {
+        let mut calls = 0;
+        let mut depth = 0;
+        let mut node = 0;
+        self.path.clear();
+        self.path.push(0);
+        while !state.is_over() && depth < self.config.depth {
+            let (branch, new) = match self.unexpanded(node, actions.len(), choices) {
+                Some(branch) => (branch, true),
+                None => (self.select(node, actions.len(), choices), false),
+            };
+            game.step(state, actions[branch]);
+            calls += 1;
+            depth += 1;
+            if new {
+                self.tree[node as usize].children[branch] = self.tree.len() as u32;
+                self.tree.push(Node::new());
+            }
+            node = self.tree[node as usize].children[branch];
+            self.path.push(node);
+            if new {
+                break;
+            }
+        }
+        while !state.is_over() && depth < self.config.depth {
+            game.step(state, *choices.choose(actions));
+            calls += 1;
+            depth += 1;
+        }
+        let result = match state.outcome() {
+            Outcome::Won => state.score() + TERMINAL,
+            Outcome::Lost | Outcome::Stopped(_) => state.score() - TERMINAL,
+            Outcome::Ongoing | Outcome::Ended => state.score(),
+        };
+        for &node in &self.path {
+            let node = &mut self.tree[node as usize];
+            node.visits += 1.0;
+            node.total += result;
+            node.least = node.least.min(result);
+            node.greatest = node.greatest.max(result);
+        }
+        calls
+    }
+
+    /// A branch without a node, uniformly.
+    fn unexpanded(&self, node: u32, width: usize, choices: &mut Sampler) -> Option<usize> {
+        let children = &self.tree[node as usize].children[..width];
+        let open = children.iter().filter(|&&child| child == UNEXPANDED).count();
+        if open == 0 {
+            return None;
+        }
+        let drawn = choices.below(open);
+        children.iter().enumerate().filter(|(_, child)| **child == UNEXPANDED).nth(drawn).map(|(branch, _)| branch)
+    }
+
+    /// The branch of the greatest UCT value: the mean, normalised to what was seen through the node, and exploration.
+    fn select(&self, node: u32, width: usize, choices: &mut Sampler) -> usize {
+        let Node { children, visits, least, greatest, .. } = &self.tree[node as usize];
+        let logarithm = libm::log(visits + 1.0);
+        let value = |branch: usize, noise: f64| {
+            let child = &self.tree[children[branch] as usize];
+            let mean = child.value();
+            let mean = if least < greatest { (mean - least) / (greatest - least) } else { mean };
+            let explore = (logarithm / (child.visits + EPSILON)).sqrt();
+            blurred(mean + self.config.exploration * explore, noise)
+        };
+        best(width, |branch| value(branch, choices.unit()))
+    }
+
+    /// The most visited branch; the best mean if all are visited alike.
+    fn decide(&self, width: usize, choices: &mut Sampler) -> usize {
+        let root = &self.tree[0];
+        let child = |branch: usize| self.tree.get(root.children[branch] as usize);
+        let visits = |branch: usize| child(branch).map_or(0.0, |child| child.visits);
+        let alike = (1..width).all(|branch| visits(branch) == visits(0));
+        best(width, |branch| match child(branch) {
+            Some(child) if alike => blurred(child.value(), choices.unit()),
+            Some(child) => blurred(child.visits, choices.unit()),
+            None => f64::NEG_INFINITY,
+        })
+    }
+}
+
+/// The reference's tie-breaking noise: multiplicative, so nothing at 0 and several units at a win.
+fn blurred(value: f64, noise: f64) -> f64 {
+    (value + EPSILON) * (1.0 + EPSILON * (noise - 0.5))
+}
+
+/// The first branch of the greatest value.
+fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
+    let mut best = (0, f64::NEG_INFINITY);
+    for branch in 0..width {
+        let value = value(branch);
+        if value > best.1 {
+            best = (branch, value);
+        }
+    }
+    best.0
+}
+
+impl Planner for Mcts {
+    fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64) {
+        let actions = game.actions(state);
+        let seed = self.seed.child("decision", self.decisions);
+        self.decisions += 1;
+        if actions.len() == 1 {
+            return (actions[0], 0);
+        }
+        let mut choices = seed.child("choices", 0).sampler();
+        let mut imagined = seed.child("imagined", 0).sampler();
+        self.tree.clear();
+        self.tree.push(Node::new());
+        let mut scratch = self.scratch.take().unwrap_or_else(|| state.clone());
+        let mut calls = 0;
+        while calls < budget.0 {
+            scratch.fork_from(state, Chance::from_java(imagined.bits() as i64));
+            let cost = self.iterate(game, &mut scratch, actions, &mut choices);
+            calls += cost;
+            if cost == 0 {
+                break; // The episode is over: nothing to plan.
+            }
+        }
+        self.scratch = Some(scratch);
+        (actions[self.decide(actions.len(), &mut choices)], calls)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Limits, play};
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=500 win=False\n";
+
+    #[test]
+    fn it_walks_past_the_pit_to_the_goal() {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("wwwwwww\nwA p gw\nw     w\nwwwwwww\n").unwrap();
+        for run in 0..5 {
+            let seed = Seed::from_text("mcts").child("run", run);
+            let mut planner = Mcts::new(MctsConfig::default(), seed);
+            let played = play(&game, &level, &mut planner, Budget(500), seed.child("game", 0), Limits::default());
+            assert_eq!(played.episode.outcome, Outcome::Won, "run {run}");
+            assert!(played.episode.replay(&game, &level).is_ok());
+        }
+    }
+
+    #[test]
+    fn the_same_seed_plans_the_same_and_the_budget_is_kept() {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("wwwwwww\nwA p gw\nw     w\nwwwwwww\n").unwrap();
+        let state = game.start(&level, Seed::from_text("game"));
+        let plan = |budget| Mcts::new(MctsConfig::default(), Seed::from_text("a")).plan(&game, &state, Budget(budget));
+        assert_eq!(plan(300), plan(300));
+        for budget in [1, 10, 100, 1000] {
+            assert!((budget..budget + 10).contains(&plan(budget).1), "budget {budget} cost {}", plan(budget).1);
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Playing an episode with a planner.
+
+use crate::planner::{Budget, Planner};
+use engine::{Episode, Game, Level, Seed};
+
+/// A played episode and what it cost.
+#[derive(Clone, Debug)]
+pub struct Play {
+    /// What was played: replays bit for bit.
+    pub episode: Episode,
+    /// Forward-model calls of all decisions together.
+    pub calls: u64,
+}
+
+/// When a play is broken off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Ticks at most.
+    pub ticks: usize,
+    /// Forward-model calls of all decisions together: checked before each decision.
+    pub calls: u64,
+}
+
+impl Default for Limits {
+    /// None beyond the engine's own tick limit.
+    fn default() -> Limits {
+        Limits { ticks: usize::MAX, calls: u64::MAX }
+    }
+}
+
+/// Plays until the episode is over or a limit is met. `seed` decides the game's chance; the planner has streams of its
+/// own.
+pub fn play(
+    game: &Game,
+    level: &Level,
+    planner: &mut dyn Planner,
+    budget: Budget,
+    seed: Seed,
+    limits: Limits,
+) -> Play {
+    let (mut episode, mut state) = Episode::begin(game, level, seed);
+    let mut calls = 0;
+    while !state.is_over() && episode.actions.len() < limits.ticks && calls < limits.calls {
+        let (action, cost) = planner.plan(game, &state, budget);
+        calls += cost;
+        episode.play(game, &mut state, action);
+    }
+    Play { episode, calls }
+}

@@ -1,0 +1,93 @@
+//! What a sample of scores looks like in five numbers.
+
+/// Count, mean, extremes and median of a sample.
+///
+/// A function of the values, not of their order: shards and threads may deliver them in any.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Summary {
+    /// Number of values, at least 1.
+    pub count: usize,
+    /// Arithmetic mean, within `min..=max`.
+    pub mean: f64,
+    /// The smallest value.
+    pub min: f64,
+    /// The largest value.
+    pub max: f64,
+    /// The middle value, or the mean of the middle two.
+    pub median: f64,
+}
+
+impl Summary {
+    /// The summary of `values`, or `None` if there are none or one is not finite: then no number would be right,
+    /// and "missing" is not 0.
+    ///
+    /// The mean is the sum divided by the count; the sum runs from the smallest value to the largest
+    /// (`f64::total_cmp`), one addition each, starting from the smallest. Values are expected to stay far enough
+    /// below `f64::MAX` that their sum is finite; where it is not, mean and median are the extreme of that sign.
+    /// Cost: O(n log n) and one copy.
+    pub fn of(values: &[f64]) -> Option<Summary> {
+        if !values.iter().all(|value| value.is_finite()) {
+            return None;
+        }
+        let mut sorted = values.to_vec();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let (min, max) = (*sorted.first()?, *sorted.last()?);
+        let count = sorted.len();
+        let sum = sorted[1..].iter().fold(min, |sum, value| sum + value);
+        // A mean beyond the extremes is a rounding error: three times 0.1 is above 0.3.
+        let mean = (sum / count as f64).clamp(min, max);
+        let (below, above) = (sorted[(count - 1) / 2], sorted[count / 2]);
+        let median = if count % 2 == 1 { below } else { ((below + above) / 2.0).clamp(below, above) };
+        Some(Summary { count, mean, min, max, median })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(values: &[f64], mean: f64, min: f64, max: f64, median: f64) {
+        let expect = Summary { count: values.len(), mean, min, max, median };
+        assert_eq!(Summary::of(values), Some(expect));
+    }
+
+    #[test]
+    fn small_samples() {
+        check(&[5.0], 5.0, 5.0, 5.0, 5.0);
+        check(&[4.0, 1.0], 2.5, 1.0, 4.0, 2.5);
+        check(&[3.0, -1.0, 10.0], 4.0, -1.0, 10.0, 3.0);
+        check(&[1.0, 2.0, 3.0, 10.0], 4.0, 1.0, 10.0, 2.5);
+        check(&[0.0, -0.0], 0.0, -0.0, 0.0, 0.0);
+    }
+
+    #[test]
+    fn nothing_or_no_number_has_no_summary() {
+        for values in [&[][..], &[f64::NAN], &[1.0, f64::INFINITY], &[f64::NEG_INFINITY, 1.0]] {
+            assert_eq!(Summary::of(values), None);
+        }
+    }
+
+    /// Summed as given, these would have a mean for each order.
+    #[test]
+    fn order_does_not_matter() {
+        let values = [1e16, 1.0, -1e16, 1.0, 0.1, 0.7];
+        let expect = Summary::of(&values).expect("finite");
+        for turn in 0..values.len() {
+            let mut turned = values;
+            turned.rotate_left(turn);
+            assert_eq!(Summary::of(&turned), Some(expect));
+            turned.reverse();
+            assert_eq!(Summary::of(&turned), Some(expect));
+        }
+        // From the smallest: -1e16 swallows the small ones one by one. As given, they would sum to 1.8.
+        assert_eq!(expect.mean, 0.0);
+    }
+
+    #[test]
+    fn the_mean_stays_between_the_extremes() {
+        // (0.1 + 0.1 + 0.1) / 3.0 is 0.10000000000000002.
+        check(&[0.1; 3], 0.1, 0.1, 0.1, 0.1);
+        check(&[f64::MAX; 2], f64::MAX, f64::MAX, f64::MAX, f64::MAX);
+    }
+}

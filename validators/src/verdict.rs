@@ -1,0 +1,122 @@
+//! What a validator is asked, and what it answers.
+
+use engine::{Episode, Game, Level, Seed};
+use serde::{Deserialize, Serialize};
+
+/// What is judged, and with which seed.
+#[derive(Clone, Copy)]
+pub struct Case<'a> {
+    /// The game.
+    pub game: &'a Game,
+    /// The level.
+    pub level: &'a Level,
+    /// Where the validator's own chance comes from.
+    pub seed: Seed,
+    /// An episode that wins, if an earlier validator found one.
+    pub witness: Option<&'a Episode>,
+}
+
+/// One criterion.
+pub trait Validator: Sync {
+    /// Its name, kebab-case, as in recipes and cards.
+    fn name(&self) -> &'static str;
+
+    /// Judges the case. The same case gives the same answer, on any number of threads.
+    fn validate(&self, case: Case<'_>) -> Finding;
+}
+
+/// A verdict and what was measured on the way.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// The answer.
+    #[serde(flatten)]
+    pub verdict: Verdict,
+    /// How often players won, where players played.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Rate>,
+}
+
+impl From<Verdict> for Finding {
+    fn from(verdict: Verdict) -> Finding {
+        Finding { verdict, measured: None }
+    }
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "verdict", rename_all = "lowercase")]
+pub enum Verdict {
+    /// Yes.
+    Pass {
+        /// An episode that shows it, if one episode can.
+        #[serde(skip)]
+        witness: Option<Episode>,
+    },
+    /// No.
+    Fail {
+        /// Why.
+        reason: Reason,
+        /// An episode that shows it, if one episode can.
+        #[serde(skip)]
+        witness: Option<Episode>,
+    },
+    /// Not known within the budget.
+    Unknown {
+        /// Forward-model calls spent.
+        spent: u64,
+    },
+}
+
+impl Verdict {
+    /// A pass that nothing needs to show.
+    pub fn pass() -> Verdict {
+        Verdict::Pass { witness: None }
+    }
+
+    /// A failure for a reason in words.
+    pub fn fail(reason: impl Into<String>) -> Verdict {
+        Verdict::Fail { reason: Reason(reason.into()), witness: None }
+    }
+
+    /// Whether the answer is yes.
+    pub fn is_pass(&self) -> bool {
+        matches!(self, Verdict::Pass { .. })
+    }
+}
+
+/// Why not, in words that a designer can act on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Reason(pub String);
+
+/// How often players won.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rate {
+    /// Episodes won.
+    pub wins: u64,
+    /// Episodes played.
+    pub plays: u64,
+    /// Wilson score interval of the win rate, 95 %.
+    pub interval: [f64; 2],
+    /// Forward-model calls of all plays together.
+    pub calls: u64,
+    /// Mean score at the end.
+    pub mean_score: f64,
+}
+
+impl Rate {
+    /// The rate of some plays.
+    pub fn of<'a>(plays: impl IntoIterator<Item = &'a agents::Play>) -> Rate {
+        let plays: Vec<&agents::Play> = plays.into_iter().collect();
+        let wins = plays.iter().filter(|play| play.episode.outcome == engine::Outcome::Won).count() as u64;
+        let interval = statistics::wilson(wins, plays.len() as u64, statistics::Z95);
+        let scores: Vec<f64> = plays.iter().map(|play| play.episode.score).collect();
+        Rate {
+            wins,
+            plays: plays.len() as u64,
+            interval: [interval.low, interval.high],
+            calls: plays.iter().map(|play| play.calls).sum(),
+            mean_score: statistics::Summary::of(&scores).map_or(0.0, |summary| summary.mean),
+        }
+    }
+}
