@@ -13,8 +13,10 @@ pub(super) fn terminations(
     problems: &mut Vec<Diagnostic>,
 ) -> Vec<Termination> {
     let mut terminations = Vec::new();
+    let mut winnable = false;
     for line in &description.terminations {
         let mut reader = Reader { line, names, problems };
+        winnable |= reader.param("win").is_some_and(|param| param.value.text.to_lowercase().starts_with("true"));
         if let Some((condition, win)) = reader.termination() {
             terminations.push(Termination { condition, win });
         }
@@ -23,7 +25,7 @@ pub(super) fn terminations(
         let span = description.header.class.span;
         let message = "the TerminationSet is empty: only the limit of 2000 ticks ends the game";
         problems.push(Diagnostic::warning("no-win", span, message).help("add a termination with `win=True`"));
-    } else if !description.terminations.is_empty() && !terminations.iter().any(|end| end.win) {
+    } else if description.has[3] && !winnable {
         let span = description.terminations[0].class.span;
         let problem =
             Diagnostic::warning("no-win", span, "no termination has `win=True`: the game cannot be won");
