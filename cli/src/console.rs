@@ -18,11 +18,6 @@ impl Console {
         Console { json, quiet }
     }
 
-    /// Whether one JSON document is wanted instead of text.
-    pub(crate) fn json(&self) -> bool {
-        self.json
-    }
-
     /// The answer, for people; nothing where JSON is wanted.
     pub(crate) fn say(&self, text: impl Display) {
         if !self.json {

@@ -1,17 +1,175 @@
 //! Games and levels as the user names them: files, folders, names of the corpus.
 
+use crate::embedded;
 use crate::failure::Failure;
-use engine::{Diagnostic, Diagnostics, Game, Severity, line_and_column};
-use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource, Report};
-use serde::Serialize;
-use std::io::{IsTerminal, Read};
-use std::path::Path;
+use engine::{Game, MAX_LEVEL_TEXT, MAX_SOURCE};
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
-/// Reads a text file of at most `limit` bytes (a byte more shows that it is longer).
+/// A text and what the user calls it.
+#[derive(Clone, Debug)]
+pub(crate) struct Named {
+    pub(crate) name: String,
+    pub(crate) text: String,
+}
+
+/// A game with the levels that come with it, not yet parsed.
+#[derive(Clone, Debug)]
+pub(crate) struct GameInput {
+    /// The game's text, under the name that messages use.
+    pub(crate) source: Named,
+    /// What tables call it.
+    pub(crate) title: String,
+    levels: Vec<LevelInput>,
+}
+
+#[derive(Clone, Debug)]
+enum LevelInput {
+    File(PathBuf),
+    Text(Named),
+}
+
+impl LevelInput {
+    fn read(&self) -> Result<Named, Failure> {
+        match self {
+            LevelInput::File(path) => {
+                Ok(Named { name: path.display().to_string(), text: read_text(path, MAX_LEVEL_TEXT)? })
+            }
+            LevelInput::Text(named) => Ok(named.clone()),
+        }
+    }
+}
+
+impl GameInput {
+    /// Compiles the game.
+    pub(crate) fn compile(&self) -> Result<Game, Failure> {
+        Game::from_source(&self.source.text)
+            .map_err(|problems| Failure::malformed(crate::render::problems(&self.source, &problems.0)))
+    }
+
+    /// The levels that come with the game.
+    pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
+        self.levels.iter().map(LevelInput::read).collect()
+    }
+
+    /// A level as the user names it: a file, or the number of one that comes with the game.
+    pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
+        let path = Path::new(name);
+        if path.exists() {
+            return LevelInput::File(path.to_owned()).read();
+        }
+        let number = name.strip_prefix("lvl").unwrap_or(name).trim_end_matches(".txt").parse::<usize>();
+        match number.ok().and_then(|number| self.levels.get(number)) {
+            Some(level) => level.read(),
+            None if number_like(name) => {
+                let count = self.levels.len();
+                Err(Failure::malformed(format!("{} has {count} levels, numbered from 0: no `{name}`", self.title)))
+            }
+            None => Err(Failure::malformed(format!("{name}: there is no such file"))),
+        }
+    }
+}
+
+fn number_like(name: &str) -> bool {
+    name.strip_prefix("lvl").unwrap_or(name).chars().all(|c| c.is_ascii_digit())
+}
+
+/// Finds a game: a .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game.
+pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
+    let path = Path::new(name);
+    if path.is_dir() {
+        return game_in(path)?.ok_or_else(|| {
+            Failure::malformed(format!("{name}: no game.vgdl or game.txt in this folder"))
+        });
+    }
+    if path.exists() {
+        let text = read_text(path, MAX_SOURCE)?;
+        let whole_folder = path.file_stem().is_some_and(|stem| stem == "game");
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let levels = if whole_folder { level_files(folder)? } else { Vec::new() };
+        return Ok(GameInput { source: Named { name: name.to_owned(), text }, title: name.to_owned(), levels });
+    }
+    let corpus = embedded::corpus()?;
+    let Some(found) = corpus.find(name) else {
+        let near = engine::nearest(name, corpus.games.iter().map(|game| game.name.as_str()));
+        let help = match near {
+            Some(near) => format!("did you mean the corpus game `{near}`?"),
+            None => "there is no such file, folder or corpus game".to_owned(),
+        };
+        return Err(Failure::malformed(format!("{name}: {help}")));
+    };
+    let level = |(number, text): (usize, &String)| {
+        LevelInput::Text(Named { name: format!("{name}/lvl{number}.txt"), text: text.clone() })
+    };
+    Ok(GameInput {
+        source: Named { name: format!("{name}/game.vgdl"), text: found.source.clone() },
+        title: name.to_owned(),
+        levels: found.levels.iter().enumerate().map(level).collect(),
+    })
+}
+
+/// Finds games: what [`game`] finds, and all games in a folder of such folders.
+pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
+    let path = Path::new(name);
+    if !path.is_dir() {
+        return Ok(vec![game(name)?]);
+    }
+    if let Some(game) = game_in(path)? {
+        return Ok(vec![game]);
+    }
+    let mut games = Vec::new();
+    for folder in sorted_entries(path)? {
+        if folder.is_dir() {
+            games.extend(game_in(&folder)?);
+        }
+    }
+    if games.is_empty() {
+        return Err(Failure::malformed(format!("{name}: neither a game nor a folder of games")));
+    }
+    Ok(games)
+}
+
+fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
+    let file = ["game.vgdl", "game.txt"].iter().map(|file| folder.join(file)).find(|path| path.exists());
+    let Some(path) = file else { return Ok(None) };
+    let text = read_text(&path, MAX_SOURCE)?;
+    let title = folder.file_name().map_or_else(|| folder.display().to_string(), |n| n.to_string_lossy().into_owned());
+    let source = Named { name: path.display().to_string(), text };
+    Ok(Some(GameInput { source, title, levels: level_files(folder)? }))
+}
+
+fn level_files(folder: &Path) -> Result<Vec<LevelInput>, Failure> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let number = |path: &PathBuf| {
+        let stem = path.file_name()?.to_str()?.strip_prefix("lvl")?.strip_suffix(".txt")?;
+        stem.parse::<u32>().ok()
+    };
+    let mut files: Vec<(u32, PathBuf)> =
+        sorted_entries(folder)?.into_iter().filter_map(|path| Some((number(&path)?, path))).collect();
+    files.sort();
+    Ok(files.into_iter().map(|(_, path)| LevelInput::File(path)).collect())
+}
+
+/// What a folder holds, sorted by name.
+pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let failed = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
+            Failure::malformed(format!("{}: there is no such folder", folder.display()))
+        }
+        _ => Failure::surroundings(error, folder.display()),
+    };
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        paths.push(entry.map_err(failed)?.path());
+    }
+    paths.sort();
+    Ok(paths)
+}
+
+/// Reads a text file of at most `limit` bytes; of a larger one no more than that is read.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.display();
-    let open = || std::fs::File::open(path);
-    let file = open().map_err(|error| match error.kind() {
+    let file = std::fs::File::open(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => Failure::malformed(format!("{name}: there is no such file")),
         _ => Failure::surroundings(error, name.to_string()),
     })?;
@@ -19,71 +177,10 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let read = file.take(limit as u64 + 1).read_to_end(&mut bytes);
     read.map_err(|error| Failure::surroundings(error, name.to_string()))?;
     if bytes.len() > limit {
-        return Err(Failure::malformed(format!(
-            "{name}: larger than {limit} bytes, the limit for such a file"
-        )));
+        return Err(Failure::malformed(format!("{name}: larger than {limit} bytes, the limit for such a file")));
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         Failure::malformed(format!("{name}: not a text file (byte {at} is not UTF-8)"))
     })
-}
-
-/// Parses and compiles the text of a game file; problems are rendered into the failure.
-pub(crate) fn compile(name: &str, source: &str) -> Result<Game, Failure> {
-    Game::from_source(source).map_err(|problems| Failure::malformed(rendered(name, source, &problems)))
-}
-
-/// A summary line, then every problem with its place.
-pub(crate) fn rendered(name: &str, source: &str, problems: &Diagnostics) -> String {
-    let errors = problems.0.iter().filter(|problem| problem.severity == Severity::Error).count();
-    let plural = if errors == 1 { "problem" } else { "problems" };
-    let mut text = format!("{name} has {errors} {plural}\n");
-    for problem in &problems.0 {
-        text.push_str(&render(name, source, problem));
-    }
-    text
-}
-
-/// One problem as people read it: code, message, file, line, column, the line with a caret, help.
-pub(crate) fn render(name: &str, source: &str, problem: &Diagnostic) -> String {
-    let label = Some(problem.label.clone()).filter(|label| !label.is_empty());
-    let length = problem.span.end - problem.span.start;
-    let severity = match problem.severity {
-        Severity::Error => miette::Severity::Error,
-        Severity::Warning => miette::Severity::Warning,
-    };
-    let mut diagnostic = MietteDiagnostic::new(problem.message.clone())
-        .with_code(problem.code)
-        .with_severity(severity)
-        .with_label(LabeledSpan::new(label.or_else(|| Some("here".to_owned())), problem.span.start, length));
-    diagnostic.help.clone_from(&problem.help);
-    let theme = match std::io::stderr().is_terminal() {
-        true => GraphicalTheme::unicode(),
-        false => GraphicalTheme::unicode_nocolor(),
-    };
-    let report = Report::new(diagnostic).with_source_code(NamedSource::new(name, source.to_owned()));
-    let mut text = String::new();
-    let handler = GraphicalReportHandler::new_themed(theme).with_context_lines(0).with_width(100);
-    let _ = handler.render_report(&mut text, report.as_ref());
-    text
-}
-
-/// One problem as programs read it.
-#[derive(Serialize)]
-pub(crate) struct Placed<'a> {
-    file: &'a str,
-    line: usize,
-    column: usize,
-    #[serde(flatten)]
-    problem: &'a Diagnostic,
-}
-
-/// The problems of a file with line and column.
-pub(crate) fn placed<'a>(file: &'a str, source: &str, problems: &'a [Diagnostic]) -> Vec<Placed<'a>> {
-    let place = |problem: &'a Diagnostic| {
-        let (line, column) = line_and_column(source, problem.span.start);
-        Placed { file, line, column, problem }
-    };
-    problems.iter().map(place).collect()
 }

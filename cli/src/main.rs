@@ -2,8 +2,10 @@
 
 mod conformance;
 mod console;
+mod embedded;
 mod failure;
 mod input;
+mod render;
 mod verbs;
 
 use clap::{Parser, Subcommand};
@@ -28,6 +30,12 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
+    Release(verbs::release::Args),
+    Regenerate(verbs::regenerate::Args),
+    Verify(verbs::verify::Args),
+    Validate(verbs::validate::Args),
+    Run(verbs::run::Args),
+    Fmt(verbs::fmt::Args),
     Conformance(verbs::conformance::Args),
 }
 
@@ -43,6 +51,12 @@ fn main() -> ExitCode {
     };
     let console = Console::new(cli.json, cli.quiet);
     let answer = match cli.verb {
+        Verb::Release(args) => verbs::release::run(&args, &console),
+        Verb::Regenerate(args) => verbs::regenerate::run(&args, &console),
+        Verb::Verify(args) => verbs::verify::run(&args, &console),
+        Verb::Validate(args) => verbs::validate::run(&args, &console),
+        Verb::Run(args) => verbs::run::run(&args, &console),
+        Verb::Fmt(args) => verbs::fmt::run(&args, &console),
         Verb::Conformance(args) => verbs::conformance::run(&args, &console),
     };
     match answer {

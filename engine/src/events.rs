@@ -84,8 +84,7 @@ impl Step<'_> {
             let mut slot = self.state.group(stype).head;
             while slot != NONE && self.state.sprite(slot).id < newborn {
                 hits.clear();
-                self.state.overlapping(self.rules, second, self.state.sprite(slot).rect, newborn, &mut hits);
-                hits.retain(|hit| *hit != slot);
+                self.state.overlapping(self.rules, second, slot, newborn, &mut hits);
                 if hits.len() > 1 {
                     hits.sort_unstable_by_key(|&hit| self.rank(second, hit));
                 }
@@ -114,8 +113,8 @@ impl Step<'_> {
         for &stype in &second.tree {
             for slot in self.state.slots(stype) {
                 hits.clear();
-                self.state.overlapping(self.rules, first, self.state.sprite(slot).rect, newborn, &mut hits);
-                pairs.extend(hits.iter().filter(|&&hit| hit != slot).map(|&hit| (hit, slot)));
+                self.state.overlapping(self.rules, first, slot, newborn, &mut hits);
+                pairs.extend(hits.iter().map(|&hit| (hit, slot)));
             }
         }
         if pairs.len() > 1 {

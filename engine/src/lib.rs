@@ -26,6 +26,7 @@
 //! # Ok::<(), engine::Diagnostics>(())
 //! ```
 
+pub mod analysis;
 mod chance;
 mod compile;
 mod diagnostic;
@@ -45,6 +46,7 @@ mod state;
 mod step;
 pub mod syntax;
 
+pub use analysis::Analysis;
 pub use chance::Chance;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, Span, line_and_column, nearest};
 pub use digest::{Digest, NotHex};

@@ -34,8 +34,10 @@ pub(crate) mod flag {
     pub(crate) const STALE: u16 = 512;
     /// The slot is free.
     pub(crate) const GONE: u16 = 1024;
+    /// Not aligned to one cell.
+    pub(crate) const LOOSE: u16 = 2048;
     /// Book-keeping that two equal states may differ in.
-    pub(crate) const TRANSIENT: u16 = MOVED | STALE;
+    pub(crate) const TRANSIENT: u16 = MOVED | STALE | LOOSE;
 }
 
 /// One sprite.
@@ -67,7 +69,9 @@ pub(crate) struct Sprite {
     /// The chain of the cell.
     pub(crate) cell_next: Slot,
     pub(crate) cell_previous: Slot,
-    pub(crate) cell: u32,
+    /// The cell's column and row, counted with the ring around the board.
+    pub(crate) column: i16,
+    pub(crate) row: i16,
 }
 
 impl Sprite {

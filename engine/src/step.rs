@@ -301,7 +301,8 @@ impl Step<'_> {
             previous: NONE,
             cell_next: NONE,
             cell_previous: NONE,
-            cell: 0,
+            column: 0,
+            row: 0,
         };
         if order.is_some_and(|order| order == self.updating) {
             self.stop(Limit::SpawnIntoUpdatedType);

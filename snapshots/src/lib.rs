@@ -1,1 +1,76 @@
-//! Placeholder.
+//! Releases: minted from a recipe, frozen into a folder, read back without trust, minted again from their seed.
+//!
+//! A release folder holds files and one `MANIFEST.json`. The [`Manifest`] lists every file with its size and
+//! [`Digest`], and states the root of a [`merkle`] tree over them, so that one file can be proved without the
+//! rest and each release can name the root of the one before. A [`Draft`] writes a folder that is complete or
+//! absent; [`check_integrity`] reads one and reports every [`Problem`] at once.
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let home = tempfile::tempdir()?;
+//! # let out = home.path().join("example");
+//! use engine::Digest;
+//! use snapshots::{Draft, Item, Kind, MANIFEST_FILE, Manifest, canary, check_integrity};
+//!
+//! let text: &[u8] = b"BasicGame\n";
+//! let recipe = serde_json::json!({ "name": "example", "seed": 7 });
+//! let mut manifest = Manifest {
+//!     format: snapshots::FORMAT,
+//!     name: "example".into(),
+//!     kind: Kind::Open,
+//!     semantics: 1,
+//!     generation: 1,
+//!     parent: None,
+//!     canary: canary(&Digest::of(recipe.to_string().as_bytes())),
+//!     commitment: None,
+//!     lockfile: Digest::of(b"the bytes of Cargo.lock"),
+//!     recipe,
+//!     items: vec![Item::of("games/maze/game.vgdl", text)],
+//!     root: Digest::of(b""), // replaced by `seal_root`
+//! };
+//! manifest.seal_root()?;
+//!
+//! let draft = Draft::create(&out)?;
+//! draft.write("games/maze/game.vgdl", text)?;
+//! draft.write(MANIFEST_FILE, &manifest.to_bytes()?)?;
+//! draft.commit()?;
+//!
+//! assert!(check_integrity(&out)?.is_sound());
+//! # Ok(())
+//! # }
+//! ```
+
+mod canary;
+pub mod canonical;
+pub mod card;
+mod corpus;
+mod draft;
+mod error;
+pub mod folder;
+mod integrity;
+mod manifest;
+pub mod merkle;
+pub mod mint;
+mod path;
+mod problem;
+mod recipe;
+mod regenerate;
+mod shape;
+mod verify;
+mod witness;
+
+pub use canary::canary;
+pub use corpus::{Corpus, CorpusCard, CorpusGame, Intent};
+pub use draft::Draft;
+pub use error::SnapshotError;
+pub use integrity::{Integrity, check_integrity};
+pub use manifest::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+pub use path::{MAX_PATH, PathProblem, check_path};
+pub use problem::{Flaw, Problem};
+pub use recipe::{Board, MAX_RECIPE, Part, Recipe, RecipeError};
+pub use regenerate::{RegenerateError, Regenerated, regenerate};
+pub use shape::shape;
+pub use verify::{Verification, Witnesses, verify};
+pub use witness::Witness;
+
+use engine::Digest;

@@ -32,7 +32,7 @@ impl Default for Criteria {
     fn default() -> Criteria {
         Criteria {
             decision: 500,
-            budget: 1_500_000,
+            budget: 3_000_000,
             depths: vec![10, 20, 40],
             idle_plays: 8,
             random_plays: 40,

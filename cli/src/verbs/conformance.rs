@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 /// Game and path of every trace, sorted.
 fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
-    let mut names = entries(&args.traces)?;
+    let mut names = input::sorted_entries(&args.traces)?;
     names.retain(|path| path.is_dir());
     let name_of = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     for wanted in &args.only {
@@ -109,7 +109,7 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
     for folder in names {
         let game = name_of(&folder);
         if args.only.is_empty() || args.only.contains(&game) {
-            let mut files = entries(&folder)?;
+            let mut files = input::sorted_entries(&folder)?;
             files.retain(|path| [".jsonl.gz", ".jsonl"].iter().any(|end| name_of(path).ends_with(end)));
             traces.extend(files.into_iter().map(|path| (game.clone(), path)));
         }
@@ -119,21 +119,6 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
         return Err(Failure::malformed(format!("{folder}: no trace in it; expected <game>/*.jsonl.gz")));
     }
     Ok(traces)
-}
-
-fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let failed = |error: std::io::Error| match error.kind() {
-        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
-            Failure::malformed(format!("{}: there is no such folder", folder.display()))
-        }
-        _ => Failure::surroundings(error, folder.display()),
-    };
-    let mut paths = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        paths.push(entry.map_err(failed)?.path());
-    }
-    paths.sort();
-    Ok(paths)
 }
 
 /// The compiled game, or why it does not compile.

@@ -1,3 +1,9 @@
 //! One file per verb: its flags, what it does, what it prints.
 
 pub(crate) mod conformance;
+pub(crate) mod fmt;
+pub(crate) mod regenerate;
+pub(crate) mod release;
+pub(crate) mod run;
+pub(crate) mod validate;
+pub(crate) mod verify;

@@ -1,1 +1,29 @@
 //! Game generators: rules, mapping and fiction.
+//!
+//! A game is composed of typed patterns: a way of moving, a goal, threats, obstacles and boons ([`ConstructiveGames`]). A
+//! pattern (`pattern.rs`) adds sprite types and rules to a draft (`draft.rs`) and says what it brings, needs and rules
+//! out. What stops whom follows from the bodies of the sprite types (`body.rs`); what they are called from a fiction
+//! (`theme.rs`, `themes/`). The draft is laid out as a syntax tree (`assemble.rs`): no text is pasted together.
+
+mod assemble;
+mod body;
+mod boons;
+mod composition;
+mod constructive;
+mod draft;
+mod effect;
+mod english;
+mod goals;
+mod kind;
+mod movement;
+mod naming;
+mod obstacles;
+mod palette;
+mod pattern;
+mod role;
+mod theme;
+mod themes;
+mod threats;
+
+pub use constructive::{ConstructiveGames, GameConfig, GeneratedGame};
+pub use kind::Kind;

@@ -1,1 +1,25 @@
-//! Level generators: they work on any valid game.
+//! Level generators that work on any game: what blocks, harms, is collected, opens or spawns is derived from the rules.
+
+mod adventure;
+mod board;
+mod builder;
+mod config;
+mod constructive;
+mod crossing;
+mod family;
+mod gallery;
+mod grid;
+mod inspection;
+mod jobs;
+mod layout;
+mod palette;
+mod plan;
+mod pulls;
+mod vault;
+mod warehouse;
+
+#[cfg(test)]
+mod tests;
+
+pub use config::LevelConfig;
+pub use constructive::{ConstructiveLevels, Solved};

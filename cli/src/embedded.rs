@@ -1,0 +1,44 @@
+//! What the binary carries: the corpus and the recipes, so that an installed `arcade` works in an empty directory.
+
+use crate::failure::Failure;
+use engine::Digest;
+use include_dir::{Dir, include_dir};
+use snapshots::{Corpus, CorpusGame};
+
+static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../corpora");
+static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../seeds");
+static LOCKFILE: &[u8] = include_bytes!("../../Cargo.lock");
+
+/// The corpus games, by name.
+pub(crate) fn corpus() -> Result<Corpus, Failure> {
+    let mut games = Vec::new();
+    for folder in CORPORA.dirs() {
+        let name = folder.path().to_string_lossy().into_owned();
+        let text = |file: &str| folder.get_file(folder.path().join(file))?.contents_utf8();
+        let (Some(source), Some(card)) = (text("game.vgdl"), text("CARD.toml")) else { continue };
+        let card = toml::from_str(card)
+            .map_err(|error| Failure::malformed(format!("corpora/{name}/CARD.toml in this binary: {error}")))?;
+        let levels = (0..).map_while(|number| text(&format!("lvl{number}.txt"))).map(str::to_owned).collect();
+        games.push(CorpusGame { name, source: source.to_owned(), levels, card });
+    }
+    games.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(Corpus { games })
+}
+
+/// The text of a recipe of `seeds/`, by name.
+pub(crate) fn recipe(name: &str) -> Option<&'static str> {
+    SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
+}
+
+/// The names of the recipes of `seeds/`.
+pub(crate) fn recipe_names() -> Vec<String> {
+    let name = |file: &include_dir::File<'_>| Some(file.path().file_stem()?.to_string_lossy().into_owned());
+    let mut names: Vec<String> = SEEDS.files().filter_map(name).collect();
+    names.sort();
+    names
+}
+
+/// Digest of the Cargo.lock that this binary was built with.
+pub(crate) fn lockfile() -> Digest {
+    Digest::of(LOCKFILE)
+}

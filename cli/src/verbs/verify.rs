@@ -1,0 +1,48 @@
+//! `arcade verify`: is this snapshot what it claims to be?
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use snapshots::{SnapshotError, Verification, Witnesses, verify};
+use std::path::PathBuf;
+
+/// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
+///
+/// Exit status 0: sound. 1: not, with every problem named. 2: not a snapshot.
+///
+/// Example: arcade verify releases/starter
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The snapshot's folder
+    #[arg(value_name = "SNAPSHOT")]
+    snapshot: PathBuf,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let verification = verify(&args.snapshot).map_err(failure)?;
+    let Verification { name, root, files, games, levels, witnesses, problems } = &verification;
+    console.document(&verification)?;
+    for problem in problems {
+        console.say(problem);
+    }
+    if !problems.is_empty() {
+        console.say(format_args!("{name}: does NOT verify, {} problems", problems.len()));
+        return Ok(false);
+    }
+    let replays = match witnesses {
+        Witnesses::Replayed(count) => format!("{count} witnesses replayed to a win"),
+        Witnesses::NotReplayed { semantics } => {
+            format!("integrity: ok, witnesses: not replayed (needs an arcade of semantics {semantics})")
+        }
+    };
+    console.say(format_args!("{name}: verified; {files} files, {games} games, {levels} levels, {replays}"));
+    console.say(format_args!("root {root}"));
+    Ok(true)
+}
+
+/// A folder that is no snapshot is a malformed question; a disk that fails is not.
+pub(crate) fn failure(error: SnapshotError) -> Failure {
+    match error {
+        SnapshotError::Io { .. } => Failure::Surroundings(error.into()),
+        _ => Failure::Malformed(error.into()),
+    }
+}

@@ -1,0 +1,35 @@
+//! Running the binary as a user does.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The binary under test, in a folder of its own.
+pub(crate) fn arcade(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_arcade"));
+    command.current_dir(folder);
+    command
+}
+
+/// Runs with these arguments and expects this exit status; what it printed is shown if it is another.
+#[track_caller]
+pub(crate) fn run(folder: &Path, args: &[&str], status: i32) -> Output {
+    let output = arcade(folder).args(args).output().expect("the binary starts");
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(status), "arcade {args:?}\n--- stdout\n{out}\n--- stderr\n{err}");
+    output
+}
+
+pub(crate) fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The reference's games and traces, which are not part of the repository; None (and a note) where they are missing.
+#[allow(dead_code, reason = "not every test file plays the reference's games")]
+pub(crate) fn reference() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/gvgai");
+    let found = folder.is_dir();
+    if !found {
+        println!("skipped: no golden traces at {}", folder.display());
+    }
+    found.then_some(folder)
+}

@@ -1,0 +1,184 @@
+//! Minting, verifying and minting again: what a release promises.
+
+mod arcade;
+
+use arcade::{arcade, run, text};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+use std::sync::LazyLock;
+use tempfile::TempDir;
+
+/// One mint of `tiny`, shared by the tests that only read it or a copy of it.
+static TINY: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &["release", "tiny", "--out", "tiny", "--jobs", "2"], 0);
+    folder
+});
+
+/// Every file below a folder with its content, by path.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                let name = path.strip_prefix(folder).unwrap().display().to_string();
+                found.push((name, fs::read(&path).unwrap()));
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// A copy of the shared mint, to be tampered with.
+fn copy() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("tiny");
+    for (name, content) in files(&TINY.path().join("tiny")) {
+        let path = root.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+    (folder, root)
+}
+
+#[test]
+fn a_release_verifies_and_regenerates() {
+    let folder = TINY.path();
+    let output = run(folder, &["verify", "tiny"], 0);
+    assert!(text(&output.stdout).contains("witnesses replayed to a win"), "{}", text(&output.stdout));
+    let output = run(folder, &["regenerate", "tiny", "--out", "again"], 0);
+    assert!(text(&output.stdout).starts_with("identical"), "{}", text(&output.stdout));
+    assert_eq!(files(&folder.join("tiny")), files(&folder.join("again")));
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &["release", "tiny", "--out", "one", "--jobs", "1"], 0);
+    assert_eq!(files(&folder.path().join("one")), files(&TINY.path().join("tiny")));
+}
+
+/// If this digest moves without a change of `seeds/tiny.toml`, GENERATION (or SEMANTICS) must be bumped.
+#[test]
+fn the_root_of_tiny_is_the_one_in_the_repository() {
+    let output = run(TINY.path(), &["--json", "verify", "tiny"], 0);
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["root"].as_str().unwrap(), include_str!("tiny.root").trim());
+}
+
+#[test]
+fn any_flipped_byte_is_named() {
+    let (folder, root) = copy();
+    for (name, content) in files(&root) {
+        for place in [0, content.len() / 2, content.len() - 1] {
+            let mut altered = content.clone();
+            altered[place] ^= 1;
+            fs::write(root.join(&name), &altered).unwrap();
+            let output = arcade(folder.path()).args(["verify", "tiny"]).output().unwrap();
+            // A manifest that is no longer one is a malformed question, and named as well.
+            let expected: &[i32] = if name == "MANIFEST.json" { &[1, 2] } else { &[1] };
+            assert!(expected.contains(&output.status.code().unwrap()), "{name} byte {place}");
+            let said = text(&output.stdout) + &text(&output.stderr);
+            assert!(said.contains(&name), "{name} byte {place}: {said}");
+        }
+        fs::write(root.join(&name), content).unwrap();
+    }
+    run(folder.path(), &["verify", "tiny"], 0);
+}
+
+#[test]
+fn a_file_removed_added_or_linked_is_named() {
+    let (folder, root) = copy();
+    let level = files(&root).into_iter().map(|(name, _)| name).find(|name| name.ends_with("lvl0.txt")).unwrap();
+    let content = fs::read(root.join(&level)).unwrap();
+
+    fs::remove_file(root.join(&level)).unwrap();
+    let output = run(folder.path(), &["verify", "tiny"], 1);
+    assert!(text(&output.stdout).contains(&level), "{}", text(&output.stdout));
+    let output = run(folder.path(), &["regenerate", "tiny"], 1);
+    assert!(text(&output.stdout).contains(&level), "{}", text(&output.stdout));
+
+    let elsewhere = folder.path().join("elsewhere.txt");
+    fs::write(&elsewhere, &content).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&elsewhere, root.join(&level)).unwrap();
+        let output = run(folder.path(), &["verify", "tiny"], 1);
+        assert!(text(&output.stdout).contains(&level), "{}", text(&output.stdout));
+        fs::remove_file(root.join(&level)).unwrap();
+    }
+    fs::write(root.join(&level), &content).unwrap();
+
+    fs::write(root.join("games/stowaway.txt"), "x").unwrap();
+    let output = run(folder.path(), &["verify", "tiny"], 1);
+    assert!(text(&output.stdout).contains("games/stowaway.txt"), "{}", text(&output.stdout));
+}
+
+#[test]
+fn a_place_that_is_taken_is_refused_before_minting() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("mine")).unwrap();
+    fs::write(folder.path().join("mine/thesis.txt"), "x").unwrap();
+    let output = run(folder.path(), &["release", "tiny", "--out", "mine"], 2);
+    assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
+    assert_eq!(fs::read(folder.path().join("mine/thesis.txt")).unwrap(), b"x");
+}
+
+/// Killed at any moment, a mint leaves nothing that verifies.
+#[cfg(unix)]
+#[test]
+fn a_killed_mint_leaves_nothing_that_verifies() {
+    for milliseconds in [1, 20, 100, 400] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut child = arcade(folder.path())
+            .args(["release", "starter", "--out", "out", "--jobs", "1"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert!(!folder.path().join("out").exists());
+        for place in ["out", "out.partial", "out.partial/tree"] {
+            let output = arcade(folder.path()).args(["verify", place]).output().unwrap();
+            assert_ne!(output.status.code(), Some(0), "{place} after {milliseconds} ms");
+        }
+    }
+}
+
+/// A folder that is complete but was never published is no release.
+#[test]
+fn an_unpublished_tree_does_not_verify() {
+    let (folder, root) = copy();
+    fs::create_dir(folder.path().join("new.partial")).unwrap();
+    fs::rename(&root, folder.path().join("new.partial/tree")).unwrap();
+    let output = run(folder.path(), &["verify", "new.partial/tree"], 2);
+    assert!(text(&output.stderr).contains("unfinished"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn bad_recipes_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = "name = 'mine'\ndescription = 'x'\nseed = 'x'\n[generated]\ngames = 1\n";
+    for (recipe, words) in [
+        (good.replace("games", "gamse"), "gamse"),
+        (good.replace("= 1", "= 0"), "nothing to mint"),
+        (format!("{good}[corpus]\ngames = 1000\n"), "corpus.games"),
+        ("name".to_owned(), "expected"),
+    ] {
+        fs::write(folder.path().join("mine.toml"), recipe).unwrap();
+        let output = run(folder.path(), &["release", "mine.toml"], 2);
+        assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
+    }
+    fs::write(folder.path().join("mine.toml"), good).unwrap();
+    let output = run(folder.path(), &["release", "mine.toml", "--dry-run"], 0);
+    assert!(text(&output.stdout).contains("would mint 1 new games"), "{}", text(&output.stdout));
+    assert!(!folder.path().join("releases").exists());
+}

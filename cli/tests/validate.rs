@@ -1,0 +1,185 @@
+//! `arcade validate` and `arcade fmt` on good, bad and hostile files.
+
+mod arcade;
+
+use arcade::{run, text};
+use serde_json::Value;
+use std::fs;
+use tempfile::TempDir;
+
+const GAME: &str = "\
+BasicGame
+    SpriteSet
+        wall > Immovable color=BROWN
+        floor > Immovable hidden=True
+        nectar > Immovable color=ORANGE
+        thorn > Immovable color=DARKGREEN
+        avatar > MovingAvatar color=YELLOW
+    LevelMapping
+        w > wall
+        . > floor
+        n > floor nectar
+        t > floor thorn
+        A > floor avatar
+    InteractionSet
+        avatar wall > stepBack
+        avatar thorn > killSprite scoreChange=-1
+        nectar avatar > killSprite scoreChange=1
+    TerminationSet
+        SpriteCounter stype=nectar limit=0 win=True
+        SpriteCounter stype=avatar limit=0 win=False
+        Timeout limit=300 win=False
+";
+
+const LEVEL: &str = "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n";
+
+/// A folder with a game and a level.
+fn folder(game: &str, level: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("game.vgdl"), game).unwrap();
+    fs::write(folder.path().join("lvl0.txt"), level).unwrap();
+    folder
+}
+
+/// Expects exit status 2, and a message that names the file and line and says these words.
+#[track_caller]
+fn malformed(game: &str, level: &str, place: &str, words: &[&str]) {
+    let folder = folder(game, level);
+    let output = run(folder.path(), &["validate", "."], 2);
+    let message = text(&output.stderr);
+    for part in words.iter().chain([&place]) {
+        assert!(message.contains(part), "`{part}` is not in\n{message}");
+    }
+}
+
+#[test]
+fn a_good_level_passes_and_its_witness_replays() {
+    let folder = folder(GAME, LEVEL);
+    let output = run(folder.path(), &["validate", ".", "--witness", "win.json"], 0);
+    assert!(text(&output.stdout).contains("1 of 1 levels meet every criterion"));
+    let witness: engine::Episode =
+        serde_json::from_slice(&fs::read(folder.path().join("win.json")).unwrap()).unwrap();
+    let game = engine::Game::from_source(GAME).unwrap();
+    let level = game.level(LEVEL).unwrap();
+    assert_eq!(witness.replay(&game, &level).unwrap().outcome(), engine::Outcome::Won);
+    // By file, too, and the same answer twice.
+    let args = ["--json", "validate", "game.vgdl", "lvl0.txt"];
+    let (one, two) = (run(folder.path(), &args, 0), run(folder.path(), &args, 0));
+    assert_eq!(one.stdout, two.stdout);
+    let document: Value = serde_json::from_slice(&one.stdout).unwrap();
+    assert_eq!(document["passes"], true);
+}
+
+#[test]
+fn a_goal_walled_in_never_passes() {
+    let walled = "wwwwwwwwww\nwA.t...t.w\nw.....twww\nw.t....wnw\nwn...t.www\nwwwwwwwwww\n";
+    let folder = folder(GAME, walled);
+    let output = run(folder.path(), &["--json", "validate", ".", "--budget", "200000"], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let judgements = document["levels"][0]["judgements"].as_array().unwrap();
+    let winnable = judgements.iter().find(|judgement| judgement["criterion"] == "winnable").unwrap();
+    assert_eq!(winnable["verdict"], "unknown");
+    assert!(winnable["spent"].as_u64().unwrap() >= 200_000, "{winnable}");
+}
+
+#[test]
+fn a_win_for_nothing_is_no_pass() {
+    let folder = folder(&GAME.replace("limit=300 win=False", "limit=30 win=True"), LEVEL);
+    let output = run(folder.path(), &["validate", "."], 1);
+    assert!(text(&output.stdout).contains("doing nothing wins"), "{}", text(&output.stdout));
+}
+
+#[test]
+fn malformed_games_are_named_with_line_and_help() {
+    malformed(&GAME.replace("stepBack", "stepBakc"), LEVEL, "game.vgdl:15:", &["unknown-effect", "`stepBack`?"]);
+    malformed(&GAME.replace("avatar thorn >", "avatar thron >"), LEVEL, "game.vgdl:16:", &["`thorn`?"]);
+    let (head, _) = GAME.split_once("    TerminationSet").unwrap();
+    malformed(head, LEVEL, "game.vgdl:1:", &["missing-section", "TerminationSet"]);
+    malformed(&GAME.replace("MovingAvatar", "MovnigAvatar"), LEVEL, "game.vgdl:7:", &["`MovingAvatar`?"]);
+    malformed(&GAME.replace("limit=300", "limt=300"), LEVEL, "game.vgdl:21:", &["`limit`?"]);
+    malformed("", LEVEL, "game.vgdl", &["holds no game"]);
+    malformed("\u{1}\u{2}ELF", LEVEL, "game.vgdl", &["control character"]);
+}
+
+#[test]
+fn malformed_levels_are_named_with_line_and_help() {
+    malformed(GAME, &LEVEL.replace("..w\nww", "Q.w\nww"), "lvl0.txt:5:8", &["undefined-character", "`Q`"]);
+    malformed(GAME, &LEVEL.replace("wn", "wA"), "lvl0.txt:5:2", &["extra-avatars", "2 avatars"]);
+    malformed(GAME, &LEVEL.replace('A', "."), "lvl0.txt:1:1", &["no-avatar", "put `A`"]);
+    malformed(GAME, "", "lvl0.txt", &["empty"]);
+}
+
+#[test]
+fn all_problems_of_a_file_come_in_one_run() {
+    let broken = GAME.replace("stepBack", "stepBakc").replace("stype=nectar", "stype=necta").replace("BROWN", "BRWN");
+    let folder = folder(&broken, LEVEL);
+    let output = run(folder.path(), &["--json", "validate", "."], 2);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let lines: Vec<u64> =
+        document["problems"].as_array().unwrap().iter().map(|problem| problem["line"].as_u64().unwrap()).collect();
+    assert_eq!(lines, [3, 15, 19]);
+}
+
+#[test]
+fn hostile_files_get_a_limit_message_promptly() {
+    let folder = folder(GAME, LEVEL);
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("binary.vgdl"), [0x7f, 0x45, 0x4c, 0x46, 0xff, 0xfe, 0x00]).unwrap();
+    let output = run(folder.path(), &["validate", "binary.vgdl", "lvl0.txt"], 2);
+    assert!(text(&output.stderr).contains("not a text file"));
+    fs::File::create(path("huge.vgdl")).unwrap().set_len(50 << 20).unwrap();
+    let output = run(folder.path(), &["validate", "huge.vgdl", "lvl0.txt"], 2);
+    assert!(text(&output.stderr).contains("larger than"));
+    fs::write(path("wide.txt"), format!("{}\n", "w".repeat(5000)).repeat(5000)).unwrap();
+    let output = run(folder.path(), &["validate", "game.vgdl", "wide.txt"], 2);
+    assert!(text(&output.stderr).contains("larger than"), "{}", text(&output.stderr));
+    fs::write(path("tall.txt"), "A\n".repeat(5000)).unwrap();
+    let output = run(folder.path(), &["validate", "game.vgdl", "tall.txt"], 2);
+    assert!(text(&output.stderr).contains("5000 rows"), "{}", text(&output.stderr));
+    let deep: String = (0..400).map(|depth| format!("{}a{depth} > Passive\n", " ".repeat(depth + 2))).collect();
+    fs::write(path("deep.vgdl"), format!("BasicGame\n SpriteSet\n{deep}")).unwrap();
+    let output = run(folder.path(), &["validate", "deep.vgdl", "lvl0.txt"], 2);
+    assert!(text(&output.stderr).contains("nested"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn bad_questions_name_the_next_move() {
+    let folder = folder(GAME, LEVEL);
+    let says = |args: &[&str], status, words: &str| {
+        let output = run(folder.path(), args, status);
+        assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
+    };
+    says(&["validate", "nowhere.vgdl"], 2, "there is no such file");
+    says(&["validate", ".", "7"], 2, "has 1 levels, numbered from 0");
+    says(&["validate"], 2, "GAME");
+    says(&["validat", "."], 2, "validate");
+    says(&["release", "stater"], 2, "did you mean `starter`?");
+    says(&["run", ".", "--planner", "mtcs"], 2, "do-nothing, random and mcts");
+    says(&["verify", "."], 2, "has no MANIFEST.json");
+    says(&["verify", "nowhere"], 2, "nowhere");
+}
+
+#[test]
+fn fmt_is_idempotent_and_checks() {
+    let folder = folder(GAME, LEVEL);
+    run(folder.path(), &["fmt", "game.vgdl", "--check"], 0);
+    fs::write(folder.path().join("loose.vgdl"), GAME.replace(" > ", "  >  ").replace("    TerminationSet", "  TerminationSet")).unwrap();
+    run(folder.path(), &["fmt", "loose.vgdl", "--check"], 1);
+    let output = run(folder.path(), &["fmt", "loose.vgdl"], 0);
+    assert_eq!(text(&output.stdout), GAME);
+    fs::write(folder.path().join("broken.vgdl"), GAME.replace("n > floor", "n floor")).unwrap();
+    let output = run(folder.path(), &["fmt", "broken.vgdl"], 2);
+    assert!(text(&output.stderr).contains("broken.vgdl:11:"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn planners_play_and_report() {
+    let folder = folder(GAME, LEVEL);
+    let args = ["run", ".", "--planner", "random,mcts", "--budget", "200", "--runs", "3", "--csv", "runs.csv"];
+    let output = run(folder.path(), &args, 0);
+    assert!(text(&output.stdout).contains("mcts"), "{}", text(&output.stdout));
+    let csv = fs::read_to_string(folder.path().join("runs.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 7, "{csv}");
+    run(folder.path(), &args, 0);
+    assert_eq!(fs::read_to_string(folder.path().join("runs.csv")).unwrap(), csv);
+}

@@ -1,0 +1,242 @@
+//! Interactions in a neutral form: who meets whom, what happens, under which condition.
+
+use crate::game::{Rules, SpriteType};
+use crate::ontology::effects::Effect;
+use smallvec::{SmallVec, smallvec};
+
+/// One side of an interaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The sprite that is named first: the one acted upon.
+    First,
+    /// Its partner.
+    Second,
+}
+
+/// One thing that an interaction does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Deed {
+    /// The sprite of that side goes away.
+    Kill(Side),
+    /// Every sprite of exactly this type goes away.
+    KillAll(SpriteType),
+    /// The first sprite turns into one of this type.
+    Become(SpriteType),
+    /// The first sprite turns into one of these types, by chance.
+    BecomeAny(Box<[SpriteType]>),
+    /// Every sprite of exactly the one type turns into one of the other.
+    BecomeAll(SpriteType, SpriteType),
+    /// The first sprite goes back to where it came from: the second one blocks it.
+    Stop,
+    /// Everything that moved goes back, sprites of these types apart.
+    Undo(Box<[SpriteType]>),
+    /// The first sprite faces another way.
+    Turn,
+    /// The first sprite is pushed along by the second.
+    Push,
+    /// The first sprite is carried along by the second, or put in its place.
+    Carry,
+    /// The first sprite appears where the second one leads to.
+    Teleport,
+    /// The first sprite comes in again at the opposite edge.
+    Wrap,
+    /// Sprites of this type (with its relatives), or the first sprite alone, change their speed.
+    Speed(Option<SpriteType>),
+    /// A sprite of this type appears.
+    Make(SpriteType),
+    /// Another sprite like the first appears.
+    Clone,
+    /// The second sprite takes the first one as a resource: as many as the first one's `value`, up to its limit.
+    Collect,
+    /// The sprite of that side has so many more (or fewer) of a resource.
+    Change {
+        /// Whose holdings change.
+        who: Side,
+        /// Which resource.
+        resource: SpriteType,
+        /// By how many.
+        by: i32,
+    },
+    /// Health points change, and a sprite that has too few dies.
+    Health {
+        /// The type whose sprite is meant; none: the first sprite.
+        of: Option<SpriteType>,
+        /// By how many.
+        by: i32,
+        /// It dies with so many or fewer.
+        dies_at: i32,
+    },
+    /// For the rest of the tick, one keyword's interactions with sprites of this type leave the first one's type alone.
+    Shield {
+        /// The partner that is kept off.
+        from: SpriteType,
+        /// The keyword that is switched off, as in VGDL.
+        keyword: &'static str,
+    },
+}
+
+/// When an interaction does its deeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Provided {
+    /// At every meeting.
+    Always,
+    /// If the sprite of that side holds at least so many of the resource.
+    Holds(Side, SpriteType, i32),
+    /// If the sprite of that side holds at most so many of the resource.
+    HoldsAtMost(Side, SpriteType, i32),
+    /// With that probability.
+    Chance(f64),
+    /// Depending on how the two move: from above, head-on, leaving a place behind.
+    Way,
+}
+
+/// One interaction line with one of its partners, neutrally put.
+#[derive(Clone, Debug)]
+pub struct Encounter {
+    /// The type named first, as written: the rule holds for its whole tree (see [`Analysis::applies`](super::Analysis::applies)).
+    pub first: SpriteType,
+    /// The partner, as written; none: the edge of the screen.
+    pub second: Option<SpriteType>,
+    /// What happens, in order.
+    pub deeds: SmallVec<[Deed; 2]>,
+    /// When.
+    pub provided: Provided,
+    /// What the score changes by, if it happens.
+    pub score: i32,
+    /// Index of the line in [`Description::interactions`](crate::Description).
+    pub line: usize,
+}
+
+impl Encounter {
+    /// Whether the deeds include one that `wanted` accepts.
+    pub fn does(&self, wanted: impl Fn(&Deed) -> bool) -> bool {
+        self.deeds.iter().any(wanted)
+    }
+
+    /// Whether the first sprite is held up: it, or everything, goes back.
+    pub fn blocks(&self) -> bool {
+        self.does(|deed| matches!(deed, Deed::Stop | Deed::Undo(_)))
+    }
+
+    /// Whether the sprite of that side goes away or turns into another type.
+    pub fn ends(&self, side: Side) -> bool {
+        self.does(|deed| match deed {
+            Deed::Kill(who) => *who == side,
+            Deed::Become(_) | Deed::BecomeAny(_) => side == Side::First,
+            Deed::Health { of: None, by, .. } => side == Side::First && *by < 0,
+            _ => false,
+        })
+    }
+}
+
+/// All interactions, those with the edge first, in the order in which a tick goes through them, repeats left out.
+pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
+    let mut seen: Vec<(SpriteType, Option<SpriteType>, u16)> = Vec::new();
+    let edge = rules.edge.iter().map(|&(stype, effect)| (stype, None, effect));
+    let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect));
+    for key in edge.chain(pairs) {
+        // Repeats of a pass, and of an edge effect, stand close together.
+        if !seen.iter().rev().take(64).any(|other| *other == key) {
+            seen.push(key);
+        }
+    }
+    let encounter = |(first, second, effect): (SpriteType, Option<SpriteType>, u16)| {
+        let info = &rules.effects[usize::from(effect)];
+        let (deeds, provided) = neutral(&info.effect);
+        let score = match info.effect {
+            Effect::SubtractHealthPoints { score_if_killed, .. } if score_if_killed != 0 => score_if_killed,
+            _ if info.apply_score => info.score_change,
+            _ => 0,
+        };
+        Encounter { first, second, deeds, provided, score, line: info.line }
+    };
+    seen.into_iter().map(encounter).collect()
+}
+
+/// What an effect does and when, without its fine print.
+fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
+    use Side::{First, Second};
+    let always = |deeds: SmallVec<[Deed; 2]>| (deeds, Provided::Always);
+    // A second deed that a flag of the effect asks for.
+    let with = |deed: Deed, flag: bool, more: Deed| {
+        let mut deeds: SmallVec<[Deed; 2]> = smallvec![deed];
+        deeds.extend(flag.then_some(more));
+        deeds
+    };
+    let chance = |prob: f64| if prob < 1.0 { Provided::Chance(prob) } else { Provided::Always };
+    match *effect {
+        Effect::KillSprite | Effect::KillIfAlive => always(smallvec![Deed::Kill(First)]),
+        Effect::KillBoth => always(smallvec![Deed::Kill(First), Deed::Kill(Second)]),
+        Effect::KillAll { stype } => always(smallvec![Deed::KillAll(stype)]),
+        Effect::KillIfFromAbove | Effect::KillIfFrontal { .. } => {
+            (smallvec![Deed::Kill(First)], Provided::Way)
+        }
+        Effect::KillIfHasLess { resource, limit } => {
+            (smallvec![Deed::Kill(First)], Provided::HoldsAtMost(First, resource, limit))
+        }
+        Effect::KillIfHasMore { resource, limit } => {
+            (smallvec![Deed::Kill(First)], Provided::Holds(First, resource, limit))
+        }
+        Effect::KillIfOtherHasMore { resource, limit, subtract } => {
+            let spend = Deed::Change { who: Second, resource, by: limit.saturating_neg() };
+            (with(Deed::Kill(First), subtract, spend), Provided::Holds(Second, resource, limit))
+        }
+        Effect::AddHealthPoints { value, kill_second, .. } => {
+            let health = Deed::Health { of: None, by: value, dies_at: i32::MIN };
+            always(with(health, kill_second, Deed::Kill(Second)))
+        }
+        Effect::SubtractHealthPoints { value, limit, stype, .. } => {
+            always(smallvec![Deed::Health { of: stype, by: value.saturating_neg(), dies_at: limit }])
+        }
+        Effect::StepBack { .. } => always(smallvec![Deed::Stop]),
+        Effect::UndoAll { ref spare } => always(smallvec![Deed::Undo(spare.clone())]),
+        Effect::TurnAround => always(smallvec![Deed::Stop, Deed::Turn]),
+        Effect::ReverseDirection | Effect::FlipDirection => always(smallvec![Deed::Turn]),
+        Effect::AttractGaze { prob, .. } => (smallvec![Deed::Turn], chance(prob)),
+        Effect::HalfSpeed => always(smallvec![Deed::Speed(None)]),
+        Effect::ChangeSpeed { stype, .. } => always(smallvec![Deed::Speed(Some(stype))]),
+        Effect::WrapAround { .. } => always(smallvec![Deed::Wrap]),
+        Effect::Align { .. } | Effect::PullWithIt { .. } => always(smallvec![Deed::Carry]),
+        Effect::BounceForward => always(smallvec![Deed::Push]),
+        Effect::TeleportToExit => always(smallvec![Deed::Teleport]),
+        Effect::Spawn { stype, prob } => (smallvec![Deed::Make(stype)], chance(prob)),
+        Effect::SpawnBeside { stype, step_back, prob, .. } => {
+            (smallvec![Deed::Make(stype)], if step_back { Provided::Way } else { chance(prob) })
+        }
+        Effect::SpawnBehind { stype, .. } => (smallvec![Deed::Make(stype)], Provided::Way),
+        Effect::SpawnIf { resource, limit, stype, spend, more, .. } => {
+            let spends = Deed::Change { who: First, resource, by: spend.saturating_neg() };
+            let provided = if more {
+                Provided::Holds(First, resource, limit)
+            } else {
+                Provided::HoldsAtMost(First, resource, limit)
+            };
+            (with(Deed::Make(stype), more && spend != 0, spends), provided)
+        }
+        Effect::CloneSprite => always(smallvec![Deed::Clone]),
+        Effect::TransformTo { stype, kill_second, .. } => {
+            always(with(Deed::Become(stype), kill_second, Deed::Kill(Second)))
+        }
+        Effect::TransformToAll { stype, to, kill_second, .. } => {
+            always(with(Deed::BecomeAll(stype, to), kill_second, Deed::Kill(Second)))
+        }
+        Effect::TransformToRandomChild { ref options, kill_second, .. } => {
+            always(with(Deed::BecomeAny(options.clone()), kill_second, Deed::Kill(Second)))
+        }
+        Effect::CollectResource { kill_resource } => {
+            always(with(Deed::Collect, kill_resource, Deed::Kill(First)))
+        }
+        Effect::CollectResourceIfHeld { held, value, kill_resource } => {
+            let deeds = with(Deed::Collect, kill_resource, Deed::Kill(First));
+            (deeds, Provided::Holds(Second, held, value))
+        }
+        Effect::ChangeResource { resource, value, kill_resource } => {
+            let change = Deed::Change { who: First, resource, by: value };
+            always(with(change, kill_resource, Deed::Kill(Second)))
+        }
+        Effect::ShieldFrom { stype, keyword } => {
+            let keyword = crate::ontology::effects::NAMES[usize::from(keyword)];
+            always(smallvec![Deed::Shield { from: stype, keyword }])
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! What a sprite type is by itself: how it moves, what it makes, whether it can occur.
+
+use super::encounter::{Deed, Encounter, Provided};
+use crate::game::{Rules, SpriteType};
+use crate::geometry::Direction;
+use crate::ontology::class::SpriteClass;
+
+/// How sprites of a type move by themselves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// Not at all.
+    Still,
+    /// Always ahead; [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is given later.
+    Straight(Direction),
+    /// By chance.
+    Wandering,
+    /// Towards the closest sprite of a type.
+    Chasing(SpriteType),
+    /// Away from the closest sprite of a type.
+    Fleeing(SpriteType),
+    /// By the player.
+    Steered,
+}
+
+/// How the player moves an avatar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Steering {
+    /// Up, left, down, right.
+    FourWay,
+    /// Left and right only.
+    Horizontal,
+    /// Up and down only.
+    Vertical,
+    /// It always moves ahead; the player turns it.
+    Ongoing,
+    /// It always moves ahead; the player cannot turn it.
+    Unsteered,
+}
+
+/// An avatar type that can occur.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Avatar {
+    /// The type.
+    pub stype: SpriteType,
+    /// How the player moves it.
+    pub steering: Steering,
+    /// What the use key makes: the first kind for which there is ammunition.
+    pub shots: Vec<SpriteType>,
+    /// The resources that its shots cost, by kind of shot.
+    pub ammo: Vec<SpriteType>,
+    /// Whether a level can place it; the others come about by transformation.
+    pub starts: bool,
+}
+
+/// What a sprite type is by itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// It has a class, so there can be sprites of it.
+    pub concrete: bool,
+    /// Such sprites can be on the board at some time: placed by a level, or made from what is.
+    pub possible: bool,
+    /// The level characters that place it: those that place the fewest sprites first, then by code.
+    pub symbols: Vec<u8>,
+    /// How it moves.
+    pub motion: Motion,
+    /// How fast it moves, as it starts, in cells per tick; 0 for what does not.
+    pub pace: f64,
+    /// What it makes by itself; for avatars, by the use key.
+    pub makes: Vec<SpriteType>,
+    /// It lives for a few ticks only.
+    pub fleeting: bool,
+    /// At most one at a time (with its singleton relatives).
+    pub singleton: bool,
+    /// It can be held.
+    pub is_resource: bool,
+    /// Players do not see it.
+    pub hidden: bool,
+}
+
+pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
+    let mut facts: Vec<Facts> = rules
+        .types
+        .iter()
+        .map(|info| {
+            let traits = &info.traits;
+            let path = info.path.iter();
+            Facts {
+                concrete: info.class.is_some(),
+                possible: false,
+                symbols: Vec::new(),
+                motion: info.class.map_or(Motion::Still, |class| motion(class, traits)),
+                pace: info.class.map_or(0.0, |class| pace(class, traits)),
+                makes: info.class.map_or(Vec::new(), |class| makes(class, traits)),
+                fleeting: info.class.is_some_and(|c| c.is_a(SpriteClass::Flicker))
+                    || traits.time_to_live >= 0,
+                singleton: path.clone().any(|stype| rules.types[stype.index()].singleton),
+                is_resource: traits.is_resource,
+                hidden: traits.hidden || traits.invisible,
+            }
+        })
+        .collect();
+    for (symbol, types) in (0u8..).zip(&rules.mapping) {
+        if is_idle_default(rules, encounters, symbol) {
+            continue;
+        }
+        for stype in types {
+            let symbols = &mut facts[stype.index()].symbols;
+            if !symbols.contains(&symbol) {
+                symbols.push(symbol);
+            }
+        }
+    }
+    for fact in &mut facts {
+        fact.symbols.sort_by_key(|&symbol| (rules.mapping[usize::from(symbol)].len(), symbol));
+    }
+    occur(rules, encounters, &mut facts);
+    facts
+}
+
+/// Whether the character has a meaning only because every game maps `w` and `A`, and this game does without it: it has
+/// no such interaction, or another avatar.
+fn is_idle_default(rules: &Rules, encounters: &[Encounter], symbol: u8) -> bool {
+    let stype = match symbol {
+        b'w' => SpriteType(0),
+        b'A' => SpriteType(1),
+        _ => return false,
+    };
+    if rules.description.mapping.iter().any(|line| line.symbol == char::from(symbol)) {
+        return false;
+    }
+    let others = rules.mapping.iter().zip(0u8..).filter(|(_, other)| *other != symbol);
+    let mut others = others.flat_map(|(types, _)| types);
+    let is_avatar = |stype: SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
+    if is_avatar(stype) && (!rules.types[stype.index()].leaf || others.any(|&other| is_avatar(other))) {
+        return true;
+    }
+    let touched = |encounter: &Encounter| encounter.first == stype || encounter.second == Some(stype);
+    !is_avatar(stype) && !encounters.iter().any(touched)
+}
+
+fn motion(class: SpriteClass, traits: &crate::ontology::traits::Traits) -> Motion {
+    use SpriteClass as C;
+    let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
+    match class {
+        class if class.is_avatar() => Motion::Steered,
+        _ if traits.stationary => Motion::Still,
+        C::RandomNPC | C::RandomBomber => Motion::Wandering,
+        C::Chaser | C::Fleeing => match traits.stypes.first() {
+            Some(&target) if traits.fleeing => Motion::Fleeing(target),
+            Some(&target) => Motion::Chasing(target),
+            None => Motion::Wandering,
+        },
+        C::SpriteProducer => Motion::Still,
+        // What has no direction of its own moves only if it is given one.
+        _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
+        _ => Motion::Still,
+    }
+}
+
+fn pace(class: SpriteClass, traits: &crate::ontology::traits::Traits) -> f64 {
+    if motion(class, traits) == Motion::Still {
+        return 0.0;
+    }
+    // Active movement takes a speed of 0 for 1, passive movement one of −1.
+    let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
+    speed / f64::from(traits.cooldown.max(1))
+}
+
+fn makes(class: SpriteClass, traits: &crate::ontology::traits::Traits) -> Vec<SpriteType> {
+    use SpriteClass as C;
+    let producer = class.is_a(C::SpawnPoint) || class == C::Spreader;
+    let shoots = class.is_a(C::ShootAvatar) || class == C::FlakAvatar;
+    if producer || shoots { traits.stypes.to_vec() } else { Vec::new() }
+}
+
+/// Marks what can be on the board: a fixed point over what is placed and what that makes.
+fn occur(rules: &Rules, encounters: &[Encounter], facts: &mut [Facts]) {
+    for fact in facts.iter_mut() {
+        fact.possible = !fact.symbols.is_empty();
+    }
+    let some = |facts: &[Facts], written: SpriteType| {
+        rules.types[written.index()].tree.iter().any(|stype| facts[stype.index()].possible)
+    };
+    loop {
+        let mut new: Vec<SpriteType> = Vec::new();
+        for fact in facts.iter().filter(|fact| fact.possible) {
+            new.extend(&fact.makes);
+        }
+        for encounter in encounters {
+            if !some(facts, encounter.first) || encounter.second.is_some_and(|second| !some(facts, second)) {
+                continue;
+            }
+            for deed in &encounter.deeds {
+                match deed {
+                    Deed::Become(to) | Deed::Make(to) => new.push(*to),
+                    Deed::BecomeAll(from, to) if facts[from.index()].possible => new.push(*to),
+                    Deed::BecomeAny(options) => new.extend(options.iter()),
+                    _ => {}
+                }
+            }
+        }
+        new.retain(|stype| facts[stype.index()].concrete && !facts[stype.index()].possible);
+        if new.is_empty() {
+            return;
+        }
+        for stype in new {
+            facts[stype.index()].possible = true;
+        }
+    }
+}
+
+/// The avatar types that can occur: those that levels place first, then by type.
+pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
+    use SpriteClass as C;
+    let mut avatars: Vec<Avatar> = Vec::new();
+    for (info, (fact, at)) in rules.types.iter().zip(facts.iter().zip(0u16..)) {
+        let Some(class) = info.class.filter(|class| class.is_avatar() && fact.possible) else { continue };
+        let steering = match class {
+            C::HorizontalAvatar | C::FlakAvatar => Steering::Horizontal,
+            C::VerticalAvatar => Steering::Vertical,
+            C::OngoingAvatar | C::OngoingShootAvatar => Steering::Ongoing,
+            C::MissileAvatar => Steering::Unsteered,
+            _ => Steering::FourWay,
+        };
+        let (shots, ammo) = (fact.makes.clone(), info.traits.ammo.to_vec());
+        avatars.push(Avatar {
+            stype: SpriteType(at),
+            steering,
+            shots,
+            ammo,
+            starts: !fact.symbols.is_empty(),
+        });
+    }
+    avatars.sort_by_key(|avatar| (!avatar.starts, avatar.stype));
+    avatars
+}
+
+/// Whether an interaction happens whatever the avatar holds and however things move.
+pub(super) fn is_certain(encounter: &Encounter) -> bool {
+    matches!(encounter.provided, Provided::Always | Provided::Chance(_))
+}

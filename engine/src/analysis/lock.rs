@@ -1,0 +1,269 @@
+//! Locks and keys, resources, and things that are pushed.
+
+use super::encounter::{Deed, Encounter, Provided, Side};
+use super::facts::{Avatar, Facts, Motion, Steering};
+use super::touch::{Harm, Removal, Touch};
+use crate::game::{Rules, SpriteType};
+
+/// What the avatar needs for a locked thing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// So many of a resource; `spent`: opening uses them up.
+    Resource {
+        /// Which.
+        resource: SpriteType,
+        /// How many at once.
+        amount: i32,
+        /// Whether they are used up.
+        spent: bool,
+    },
+    /// To be of this avatar type.
+    Avatar(SpriteType),
+    /// To have touched a sprite of the one type, or pushed one of the second type onto one of the first.
+    Switch(SpriteType, Option<SpriteType>),
+}
+
+/// A type that the avatar cannot pass or remove as it starts, but can later.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Lock {
+    /// The locked type.
+    pub stype: SpriteType,
+    /// What opens it.
+    pub key: Key,
+    /// Until then it blocks the way or hurts: it can guard what lies behind it.
+    pub guards: bool,
+    /// Opening removes it; else the avatar passes it.
+    pub vanishes: bool,
+    /// Types that give the key on contact, and how much of it each.
+    pub givers: Vec<(SpriteType, i32)>,
+}
+
+/// A resource that an avatar can hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Resource {
+    /// The resource's type.
+    pub stype: SpriteType,
+    /// How many an avatar can hold.
+    pub limit: i32,
+    /// Types that give it on contact, and how much each.
+    pub givers: Vec<(SpriteType, i32)>,
+    /// The most that an interaction asks for at once; 0 if none asks.
+    pub needed: i32,
+    /// Whether shots cost it.
+    pub is_ammunition: bool,
+}
+
+/// What becomes of a pushed sprite on a partner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// Nothing; it lies there too.
+    Stays,
+    /// It turns into this type.
+    Becomes(SpriteType),
+    /// It goes away.
+    Goes,
+}
+
+/// A meeting of a pushed sprite and a partner that ends or changes one of them, or opens something.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sink {
+    /// The partner: something that lies there, or another pushed thing.
+    pub partner: SpriteType,
+    /// What becomes of the pushed sprite.
+    pub fate: Fate,
+    /// Whether the partner goes away or changes.
+    pub fills: bool,
+    /// Types whose sprites all go away or change by it.
+    pub opens: Vec<SpriteType>,
+}
+
+/// A type that avatars push.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pushable {
+    /// The type.
+    pub stype: SpriteType,
+    /// Types that it cannot be pushed onto.
+    pub blocked_by: Vec<SpriteType>,
+    /// Types that end or change it.
+    pub sinks: Vec<Sink>,
+}
+
+/// The touches of every avatar type with every type, by avatar, then by type.
+pub(super) type Touches = Vec<Vec<Touch>>;
+
+pub(super) fn pushables(
+    rules: &Rules,
+    encounters: &[Encounter],
+    facts: &[Facts],
+    avatars: &[Avatar],
+    touches: &Touches,
+) -> Vec<Pushable> {
+    let types = || (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible);
+    let is_avatar = |stype: SpriteType| avatars.iter().any(|avatar| avatar.stype == stype);
+    let pushed = |stype: SpriteType| touches.iter().any(|row| row[stype.index()].pushes);
+    let mut list = Vec::new();
+    for (stype, _) in types().filter(|&(stype, _)| pushed(stype)) {
+        let mut pushable = Pushable { stype, blocked_by: Vec::new(), sinks: Vec::new() };
+        for (partner, _) in types().filter(|&(partner, _)| !is_avatar(partner)) {
+            match meeting(rules, encounters, stype, partner) {
+                Meeting::Nothing => {}
+                Meeting::Blocked => pushable.blocked_by.push(partner),
+                Meeting::Sink(sink) => pushable.sinks.push(sink),
+            }
+        }
+        list.push(pushable);
+    }
+    list
+}
+
+/// What happens when a pushed sprite comes to a partner.
+enum Meeting {
+    Nothing,
+    Blocked,
+    Sink(Sink),
+}
+
+fn meeting(rules: &Rules, encounters: &[Encounter], stype: SpriteType, partner: SpriteType) -> Meeting {
+    let is = |stype: SpriteType, written: SpriteType| rules.types[written.index()].in_tree(stype);
+    let mut sink = Sink { partner, fate: Fate::Stays, fills: false, opens: Vec::new() };
+    for encounter in encounters {
+        let Some(second) = encounter.second else { continue };
+        let (own, theirs) = if is(stype, encounter.first) && is(partner, second) {
+            (Side::First, Side::Second)
+        } else if is(partner, encounter.first) && is(stype, second) {
+            (Side::Second, Side::First)
+        } else {
+            continue;
+        };
+        let stops = encounter.does(|deed| match deed {
+            Deed::Stop => own == Side::First,
+            Deed::Undo(spare) => !spare.contains(&stype),
+            // A row of pushed things moves together; that is too subtle to count on.
+            Deed::Push => true,
+            _ => false,
+        });
+        if stops {
+            return Meeting::Blocked;
+        }
+        sink.fills |= encounter.ends(theirs);
+        for deed in &encounter.deeds {
+            match deed {
+                Deed::Become(to) if own == Side::First => sink.fate = Fate::Becomes(*to),
+                Deed::KillAll(other) | Deed::BecomeAll(other, _) => sink.opens.push(*other),
+                _ if encounter.ends(own) && sink.fate == Fate::Stays => sink.fate = Fate::Goes,
+                _ => {}
+            }
+        }
+    }
+    let idle = sink.fate == Fate::Stays && !sink.fills && sink.opens.is_empty();
+    if idle { Meeting::Nothing } else { Meeting::Sink(sink) }
+}
+
+pub(super) fn resources(
+    rules: &Rules,
+    encounters: &[Encounter],
+    facts: &[Facts],
+    avatars: &[Avatar],
+    touches: &Touches,
+) -> Vec<Resource> {
+    let types = (0u16..).map(SpriteType).zip(facts);
+    let resources = types.filter(|(_, fact)| fact.is_resource).map(|(stype, _)| {
+        let asks = encounters.iter().map(|encounter| match encounter.provided {
+            Provided::Holds(_, resource, amount) if resource == stype => amount,
+            Provided::HoldsAtMost(_, resource, amount) if resource == stype => amount.saturating_add(1),
+            _ => 0,
+        });
+        Resource {
+            stype,
+            limit: rules.types[stype.index()].resource_limit,
+            givers: givers(facts, touches, stype),
+            needed: asks.max().unwrap_or(0),
+            is_ammunition: avatars.iter().any(|avatar| avatar.ammo.contains(&stype)),
+        }
+    });
+    resources
+        .filter(|resource| resource.needed > 0 || resource.is_ammunition || !resource.givers.is_empty())
+        .collect()
+}
+
+/// The types whose touch gives a resource, with the largest amount that one gives.
+fn givers(facts: &[Facts], touches: &Touches, resource: SpriteType) -> Vec<(SpriteType, i32)> {
+    let mut list = Vec::new();
+    for (stype, fact) in (0u16..).map(SpriteType).zip(facts) {
+        let gives = touches.iter().flat_map(|row| &row[stype.index()].gives);
+        let amount = gives.filter(|(given, _)| *given == resource).map(|&(_, amount)| amount).max();
+        if let Some(amount) = amount.filter(|&amount| amount > 0 && fact.possible) {
+            list.push((stype, amount));
+        }
+    }
+    list
+}
+
+/// The types whose touch turns some avatar into another one.
+fn turners(facts: &[Facts], touches: &Touches, avatar: SpriteType) -> Vec<(SpriteType, i32)> {
+    let turns = |stype: SpriteType| touches.iter().any(|row| row[stype.index()].becomes == Some(avatar));
+    let types = (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible);
+    types.filter(|&(stype, _)| turns(stype)).map(|(stype, _)| (stype, 1)).collect()
+}
+
+/// Everything that starts locked. Cost: O(types × avatars).
+pub(super) fn locks(
+    facts: &[Facts],
+    avatars: &[Avatar],
+    touches: &Touches,
+    pushables: &[Pushable],
+) -> Vec<Lock> {
+    let mut locks = Vec::new();
+    let Some(start) = avatars.iter().position(|avatar| avatar.starts) else { return locks };
+    for (stype, fact) in (0u16..).map(SpriteType).zip(facts) {
+        let still = fact.motion == Motion::Still;
+        if !fact.possible || avatars.iter().any(|avatar| avatar.stype == stype) {
+            continue;
+        }
+        let first = &touches[start][stype.index()];
+        let guards = first.blocks || first.harm != Harm::None;
+        if let Removal::IfHolds(resource, amount) = first.removal {
+            let spends = |&(given, by): &(SpriteType, i32)| given == resource && by < 0;
+            let spent = first.gives.iter().any(spends);
+            let key = Key::Resource { resource, amount, spent };
+            let givers = givers(facts, touches, resource);
+            locks.push(Lock { stype, key, guards, vanishes: true, givers });
+        } else if let (Some((resource, amount)), true, false) = (first.safe_with, still, first.blocks) {
+            let key = Key::Resource { resource, amount, spent: false };
+            let givers = givers(facts, touches, resource);
+            locks.push(Lock { stype, key, guards: true, vanishes: false, givers });
+        } else if still {
+            let later = avatars.iter().zip(touches).skip(1).find_map(|(avatar, row)| {
+                let then = &row[stype.index()];
+                // What flies on by itself, or is turned by the touch, has not passed.
+                let settled = avatar.steering != Steering::Unsteered && then.becomes.is_none();
+                let opens = then.ends_other() && !first.ends_other() && then.harm == Harm::None;
+                let passes = guards && then.lets_pass() && !first.ends_other();
+                (settled && (opens || passes)).then_some((avatar.stype, opens))
+            });
+            let lock = later
+                .map(|(avatar, vanishes)| (Key::Avatar(avatar), vanishes, turners(facts, touches, avatar)));
+            let lock = lock.filter(|(_, _, givers)| !givers.is_empty());
+            let switched = || {
+                switch(stype, touches, pushables).map(|key| {
+                    let Key::Switch(by, _) = key else { return (key, true, Vec::new()) };
+                    (key, true, vec![(by, 1)])
+                })
+            };
+            if let Some((key, vanishes, givers)) = lock.or_else(|| guards.then(switched).flatten()) {
+                locks.push(Lock { stype, key, guards, vanishes, givers });
+            }
+        }
+    }
+    locks
+}
+
+/// What, touched or filled, removes a type everywhere.
+fn switch(stype: SpriteType, touches: &Touches, pushables: &[Pushable]) -> Option<Key> {
+    let filled = pushables.iter().find_map(|pushable| {
+        let sink = pushable.sinks.iter().find(|sink| sink.opens.contains(&stype))?;
+        Some(Key::Switch(sink.partner, Some(pushable.stype)))
+    });
+    let touched = touches.iter().find_map(|row| row.iter().position(|touch| touch.opens.contains(&stype)));
+    filled.or(touched.map(|at| Key::Switch(SpriteType(at as u16), None)))
+}

@@ -1,0 +1,310 @@
+//! What the rules of a game mean: derived once, from the compiled rules, for every generator, validator and text.
+//!
+//! Nothing here plays. The answers are about sprite types: goals with a sign, what blocks, harms, is taken, opens,
+//! turns, makes and pushes; resources and how many are needed; and one [`Role`] for every type. A rule that names a
+//! parent holds for all its subtypes; every answer here is already spelled out for them.
+
+mod encounter;
+mod facts;
+mod goal;
+mod lock;
+mod requirement;
+mod role;
+mod touch;
+
+pub use encounter::{Deed, Encounter, Provided, Side};
+pub use facts::{Avatar, Facts, Motion, Steering};
+pub use goal::{Aims, Condition, Goal};
+pub use lock::{Fate, Key, Lock, Pushable, Resource, Sink};
+pub use requirement::{Reason, Requirement};
+pub use role::Role;
+pub use touch::{Harm, Removal, Touch};
+
+use crate::game::{Game, SpriteType};
+use crate::geometry::Direction;
+use lock::Touches;
+use role::Basis;
+
+/// What the rules of one game mean. Immutable; the same game always gives the same analysis.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    game: Game,
+    encounters: Vec<Encounter>,
+    facts: Vec<Facts>,
+    goals: Vec<Goal>,
+    aims: Aims,
+    avatars: Vec<Avatar>,
+    touches: Touches,
+    harm: Vec<Harm>,
+    source: Vec<bool>,
+    pushables: Vec<Pushable>,
+    resources: Vec<Resource>,
+    locks: Vec<Lock>,
+    roles: Vec<Role>,
+    requirements: Vec<Requirement>,
+}
+
+impl Analysis {
+    /// Analyses a game. Cost: O(avatars × types × interactions); well below a millisecond for usual games.
+    pub fn of(game: &Game) -> Analysis {
+        let rules = &*game.0;
+        let encounters = encounter::encounters(rules);
+        let facts = facts::facts(rules, &encounters);
+        let goals = goal::goals(rules);
+        let aims = goal::aims(rules, &goals);
+        let avatars = facts::avatars(rules, &facts);
+        let types = || game.sprite_types();
+        let row = |avatar: &Avatar| {
+            types().map(|other| touch::touch(rules, &encounters, &aims, avatar.stype, other)).collect()
+        };
+        let touches: Touches = avatars.iter().map(row).collect();
+        let worst = |stype: SpriteType| {
+            touches.iter().map(|row: &Vec<Touch>| row[stype.index()].harm).max().unwrap_or_default()
+        };
+        let harm: Vec<Harm> = types().map(worst).collect();
+        let pushables = lock::pushables(rules, &encounters, &facts, &avatars, &touches);
+        let resources = lock::resources(rules, &encounters, &facts, &avatars, &touches);
+        let locks = lock::locks(&facts, &avatars, &touches, &pushables);
+        let threat = |stype| role::is_threat(rules, &encounters, &facts, &aims, stype);
+        let threat: Vec<bool> = types().map(threat).collect();
+        let bad = |stype: SpriteType| {
+            harm[stype.index()] != Harm::None || threat[stype.index()] || aims.prevent.contains(&stype)
+        };
+        let source = sources(game, &encounters, &facts, &types().map(bad).collect::<Vec<bool>>());
+        let basis = Basis {
+            rules,
+            encounters: &encounters,
+            facts: &facts,
+            avatars: &avatars,
+            aims: &aims,
+            touches: &touches,
+            pushables: &pushables,
+            locks: &locks,
+            harm: &harm,
+            threat: &threat,
+            source: &source,
+        };
+        let roles: Vec<Role> = types().map(|stype| basis.role(stype)).collect();
+        let mut analysis = Analysis {
+            game: game.clone(),
+            encounters,
+            facts,
+            goals,
+            aims,
+            avatars,
+            touches,
+            harm,
+            source,
+            pushables,
+            resources,
+            locks,
+            roles,
+            requirements: Vec::new(),
+        };
+        analysis.requirements = requirement::requirements(&analysis);
+        analysis
+    }
+
+    /// The analysed game.
+    pub fn game(&self) -> &Game {
+        &self.game
+    }
+
+    /// All interactions, in the order in which a tick goes through them.
+    pub fn encounters(&self) -> &[Encounter] {
+        &self.encounters
+    }
+
+    /// Whether a rule on `written` holds for sprites of `stype`: the two are related in the SpriteSet.
+    pub fn applies(&self, written: SpriteType, stype: SpriteType) -> bool {
+        self.game.0.types[written.index()].in_tree(stype)
+    }
+
+    /// The interactions in which a sprite of `first` is acted upon by one of `second`. Cost: O(encounters).
+    pub fn between(&self, first: SpriteType, second: SpriteType) -> impl Iterator<Item = &Encounter> {
+        self.encounters.iter().filter(move |encounter| {
+            self.applies(encounter.first, first)
+                && encounter.second.is_some_and(|written| self.applies(written, second))
+        })
+    }
+
+    /// The interactions of a sprite with the edge of the screen. Cost: O(encounters).
+    pub fn at_edge(&self, stype: SpriteType) -> impl Iterator<Item = &Encounter> {
+        self.encounters
+            .iter()
+            .filter(move |encounter| encounter.second.is_none() && self.applies(encounter.first, stype))
+    }
+
+    /// What a type is by itself.
+    pub fn facts(&self, stype: SpriteType) -> &Facts {
+        &self.facts[stype.index()]
+    }
+
+    /// What a type is for in a level.
+    pub fn role(&self, stype: SpriteType) -> Role {
+        self.roles[stype.index()]
+    }
+
+    /// The types of a role that can occur, in registry order.
+    pub fn of_role(&self, role: Role) -> impl Iterator<Item = SpriteType> + '_ {
+        self.game.sprite_types().filter(move |&stype| self.role(stype) == role && self.facts(stype).possible)
+    }
+
+    /// The avatar types that can occur, those that levels can place first.
+    pub fn avatars(&self) -> &[Avatar] {
+        &self.avatars
+    }
+
+    /// The avatar that episodes start with (the first, if levels can place several); none: no level has one.
+    pub fn start_avatar(&self) -> Option<&Avatar> {
+        self.avatars.first().filter(|avatar| avatar.starts)
+    }
+
+    /// What happens when an avatar of that type touches a sprite of the other type.
+    ///
+    /// # Panics
+    /// If `avatar` is not among [`Analysis::avatars`].
+    pub fn touch(&self, avatar: SpriteType, other: SpriteType) -> &Touch {
+        let at = self.avatars.iter().position(|known| known.stype == avatar);
+        &self.touches[at.expect("one of the avatar types")][other.index()]
+    }
+
+    /// What contact with a type means for the avatar, at worst, over all avatar types.
+    pub fn harm(&self, stype: SpriteType) -> Harm {
+        self.harm[stype.index()]
+    }
+
+    /// Whether sprites of the type make, by themselves and perhaps in several steps, what harms the avatar or a goal:
+    /// such a type kills at a distance.
+    pub fn makes_harm(&self, stype: SpriteType) -> bool {
+        self.source[stype.index()]
+    }
+
+    /// Whether a sprite of `mover` is held up by one of `obstacle`: it, or everything, goes back. Cost: O(encounters).
+    pub fn blocks(&self, obstacle: SpriteType, mover: SpriteType) -> bool {
+        let undone = |encounter: &Encounter| {
+            encounter.does(|deed| matches!(deed, Deed::Undo(spare) if !spare.contains(&mover)))
+        };
+        self.between(mover, obstacle).any(Encounter::blocks) || self.between(obstacle, mover).any(undone)
+    }
+
+    /// What a type turns into, and by whom it is met then; edges left out. Cost: O(encounters).
+    pub fn turns(&self, stype: SpriteType) -> Vec<(SpriteType, SpriteType)> {
+        let mut list = Vec::new();
+        for encounter in self.encounters.iter().filter(|encounter| self.applies(encounter.first, stype)) {
+            for deed in &encounter.deeds {
+                if let (Deed::Become(to), Some(by)) = (deed, encounter.second) {
+                    list.push((*to, by));
+                }
+            }
+        }
+        list
+    }
+
+    /// Where touching a portal of this type leads.
+    pub fn leads_to(&self, stype: SpriteType) -> Option<SpriteType> {
+        self.game.0.types[stype.index()].leads_to()
+    }
+
+    /// What a maker sends out, and in which direction, if that goes straight ahead.
+    pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
+        let made = *self.facts(maker).makes.first()?;
+        let Motion::Straight(own) = self.facts(made).motion else { return None };
+        let traits = &self.game.0.types[maker.index()].traits;
+        let unset = |direction: Direction| direction == Direction::NONE || direction == Direction::NIL;
+        let direction = if traits.spawn_orientation != Direction::NONE {
+            traits.spawn_orientation
+        } else if unset(own) {
+            traits.orientation
+        } else {
+            own
+        };
+        (!unset(direction)).then_some((made, direction))
+    }
+
+    /// Types that avatars push.
+    pub fn pushables(&self) -> &[Pushable] {
+        &self.pushables
+    }
+
+    /// Resources that occur in rules or can be gained.
+    pub fn resources(&self) -> &[Resource] {
+        &self.resources
+    }
+
+    /// Everything that starts locked, by type.
+    pub fn locks(&self) -> &[Lock] {
+        &self.locks
+    }
+
+    /// How many of what a level should place.
+    pub fn requirements(&self) -> &[Requirement] {
+        &self.requirements
+    }
+
+    /// Whether chance plays no part.
+    pub fn is_deterministic(&self) -> bool {
+        self.game.is_deterministic()
+    }
+
+    /// Whether nothing moves unless the player acts: what the player's own shots do apart.
+    pub fn is_turn_based(&self) -> bool {
+        let idle = |stype: SpriteType| {
+            let facts = self.facts(stype);
+            !facts.possible
+                || self.role(stype) == Role::Shot
+                || match facts.motion {
+                    Motion::Still => facts.makes.is_empty(),
+                    Motion::Steered => {
+                        let avatar = self.avatars.iter().find(|avatar| avatar.stype == stype);
+                        avatar.is_none_or(|avatar| {
+                            !matches!(avatar.steering, Steering::Ongoing | Steering::Unsteered)
+                        })
+                    }
+                    _ => false,
+                }
+        };
+        self.game.sprite_types().all(idle)
+    }
+
+    /// Whether the player sees everything that takes part in an interaction.
+    pub fn is_fully_observable(&self) -> bool {
+        self.game.sprite_types().all(|stype| {
+            let facts = self.facts(stype);
+            let takes_part = |encounter: &Encounter| {
+                self.applies(encounter.first, stype)
+                    || encounter.second.is_some_and(|second| self.applies(second, stype))
+            };
+            !facts.possible || !facts.hidden || !self.encounters.iter().any(takes_part)
+        })
+    }
+}
+
+/// Which types make harm: a fixed point over what makes what, from what is bad in itself.
+fn sources(game: &Game, encounters: &[Encounter], facts: &[Facts], bad: &[bool]) -> Vec<bool> {
+    let types = &game.0.types;
+    let mut source = vec![false; facts.len()];
+    loop {
+        let mut changed = false;
+        for (at, fact) in facts.iter().enumerate() {
+            let made_by_rule =
+                encounters.iter().filter(|e| types[e.first.index()].in_tree(SpriteType(at as u16)));
+            let made_by_rule =
+                made_by_rule.flat_map(|encounter| &encounter.deeds).filter_map(|deed| match deed {
+                    Deed::Make(to) => Some(*to),
+                    _ => None,
+                });
+            let steered = fact.motion == Motion::Steered;
+            let mut made = fact.makes.iter().copied().chain(made_by_rule);
+            let makes = !steered && made.any(|to| bad[to.index()] || source[to.index()]);
+            changed |= makes && !source[at];
+            source[at] |= makes;
+        }
+        if !changed {
+            return source;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

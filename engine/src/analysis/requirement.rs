@@ -1,0 +1,151 @@
+//! What a level must hold so that playing it makes sense.
+
+use super::Analysis;
+use super::encounter::Deed;
+use super::goal::Condition;
+use super::lock::{Fate, Key, Sink};
+use super::role::Role;
+use crate::game::SpriteType;
+
+/// Why a level needs something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// The player needs an avatar.
+    Avatar,
+    /// The termination of this index must not hold at the start.
+    Goal(usize),
+    /// The termination of this index could never be met otherwise.
+    Means(usize),
+    /// Locks of this type need so many of their key.
+    Lock(SpriteType),
+    /// Portals of this type need somewhere to lead to.
+    Portal(SpriteType),
+}
+
+/// How many sprites of some types, together, a level should place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Requirement {
+    /// Types that a level can place. Empty: no level can meet the requirement.
+    pub types: Vec<SpriteType>,
+    /// At least so many of them together.
+    pub at_least: u32,
+    /// At most so many of them together.
+    pub at_most: Option<u32>,
+    /// Why.
+    pub reason: Reason,
+}
+
+pub(super) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
+    let mut list = Vec::new();
+    let placeable = |types: &[SpriteType]| -> Vec<SpriteType> {
+        let mut types: Vec<SpriteType> =
+            types.iter().copied().filter(|stype| !analysis.facts(*stype).symbols.is_empty()).collect();
+        types.sort_unstable();
+        types.dedup();
+        types
+    };
+    let count = |number: i32| u32::try_from(number).unwrap_or(0);
+    let starts: Vec<SpriteType> = analysis.avatars.iter().map(|avatar| avatar.stype).collect();
+    let (types, reason) = (placeable(&starts), Reason::Avatar);
+    list.push(Requirement { types, at_least: 1, at_most: Some(1), reason });
+    for (at, goal) in analysis.goals.iter().enumerate() {
+        let types = placeable(goal.condition.types());
+        let only_avatars = types.iter().all(|&stype| analysis.role(stype) == Role::Avatar);
+        if only_avatars && !types.is_empty() {
+            continue;
+        }
+        let (at_least, at_most) = match goal.condition {
+            Condition::AtMost(_, limit) if limit >= 0 => (count(limit) + 1, None),
+            Condition::Exactly(_, 0) => (1, None),
+            Condition::AtLeast(_, limit) | Condition::Exactly(_, limit) if limit >= 1 => {
+                (0, Some(count(limit) - 1))
+            }
+            _ => continue,
+        };
+        if !types.is_empty() || at_least > 0 {
+            list.push(Requirement { types, at_least, at_most, reason: Reason::Goal(at) });
+        }
+        if goal.win {
+            list.extend(means(analysis, at));
+        }
+    }
+    list.extend(keys(analysis));
+    list.extend(portals(analysis));
+    let mut seen: Vec<Requirement> = Vec::new();
+    list.retain(|requirement| {
+        let new = !seen.contains(requirement);
+        seen.extend(new.then(|| requirement.clone()));
+        new
+    });
+    list
+}
+
+/// What makes the sprites that a win asks for, or ends those that it wants gone where the avatar's touch does not.
+fn means(analysis: &Analysis, at: usize) -> Vec<Requirement> {
+    let condition = &analysis.goals[at].condition;
+    let wants_more = match condition {
+        Condition::AtLeast(_, limit) => *limit > 0,
+        Condition::Exactly(_, limit) => *limit > 0,
+        Condition::AtMost(..) | Condition::Tick(_) => false,
+    };
+    let mut list = Vec::new();
+    let single = |stype: SpriteType, at_least: u32| {
+        let types = vec![stype];
+        Requirement { types, at_least, at_most: None, reason: Reason::Means(at) }
+    };
+    if wants_more {
+        for &wanted in condition.types() {
+            let makes = |deed: &Deed| matches!(deed, Deed::Become(to) | Deed::Make(to) if *to == wanted);
+            let Some(encounter) = analysis.encounters.iter().find(|encounter| encounter.does(makes)) else {
+                continue;
+            };
+            for written in [Some(encounter.first), encounter.second].into_iter().flatten() {
+                let tree = &analysis.game.0.types[written.index()].tree;
+                let placed = |stype: &&SpriteType| {
+                    !analysis.facts(**stype).symbols.is_empty() && analysis.role(**stype) != Role::Avatar
+                };
+                list.extend(tree.iter().find(placed).map(|&stype| single(stype, 1)));
+            }
+        }
+        return list;
+    }
+    for pushable in analysis.pushables.iter().filter(|pushable| condition.types().contains(&pushable.stype)) {
+        let placed = |partner: SpriteType| !analysis.facts(partner).symbols.is_empty();
+        // One that lies there rather than another thing to push.
+        let spoils =
+            |sink: &&Sink| matches!(sink.fate, Fate::Becomes(to) if analysis.aims.prevent.contains(&to));
+        let sinks = pushable.sinks.iter().filter(|sink| placed(sink.partner) && !spoils(sink));
+        let sink = sinks.min_by_key(|sink| analysis.role(sink.partner) == Role::Pushable);
+        list.extend(sink.map(|sink| single(sink.partner, 1)));
+    }
+    list
+}
+
+/// Enough of the key for one lock of each kind.
+fn keys(analysis: &Analysis) -> Vec<Requirement> {
+    let mut list = Vec::new();
+    for lock in &analysis.locks {
+        let placed = |giver: &&(SpriteType, i32)| !analysis.facts(giver.0).symbols.is_empty();
+        let types: Vec<SpriteType> = lock.givers.iter().filter(placed).map(|giver| giver.0).collect();
+        let least = lock.givers.iter().filter(placed).map(|giver| giver.1.max(1)).min();
+        let (Some(least), false) = (least, types.is_empty()) else { continue };
+        let at_least = match lock.key {
+            Key::Resource { amount, .. } => u32::try_from((amount.max(1) + least - 1) / least).unwrap_or(1),
+            Key::Avatar(_) | Key::Switch(..) => 1,
+        };
+        list.push(Requirement { types, at_least, at_most: None, reason: Reason::Lock(lock.stype) });
+    }
+    list
+}
+
+fn portals(analysis: &Analysis) -> Vec<Requirement> {
+    let mut list = Vec::new();
+    for stype in analysis.of_role(Role::Portal) {
+        let exit = analysis.leads_to(stype);
+        if let Some(exit) = exit.filter(|&exit| !analysis.facts(exit).symbols.is_empty()) {
+            let reason = Reason::Portal(stype);
+            list.push(Requirement { types: vec![exit], at_least: 1, at_most: None, reason });
+        }
+    }
+    list
+}

@@ -1,0 +1,94 @@
+//! What helps the hero.
+
+use super::body::Body;
+use super::draft::{AVATAR, Draft, Phase, Stamina, Value, draw};
+use super::effect::Effect;
+use super::pattern::{Feature, Pattern};
+use super::role::Role;
+use engine::{Sampler, SpriteClass};
+
+/// All boons.
+pub(crate) const BOONS: &[Pattern] = &[
+    Pattern {
+        name: "boon/hearts",
+        weight: 4,
+        roles: &[Role::Medicine],
+        gives: &[],
+        needs: &[Feature::Harm, Feature::Four],
+        bars: &[],
+        build: hearts,
+    },
+    Pattern {
+        name: "boon/ward",
+        weight: 3,
+        roles: &[Role::Ward],
+        gives: &[Feature::Wards],
+        needs: &[Feature::Harm, Feature::Four],
+        bars: &[Feature::Precious],
+        build: ward,
+    },
+    Pattern {
+        name: "boon/coins",
+        weight: 3,
+        roles: &[Role::Coin],
+        gives: &[],
+        needs: &[Feature::Four],
+        bars: &[],
+        build: coins,
+    },
+    Pattern {
+        name: "boon/bush",
+        weight: 2,
+        roles: &[Role::Bush, Role::Berry],
+        gives: &[],
+        needs: &[Feature::Four, Feature::Movers],
+        bars: &[],
+        build: bush,
+    },
+];
+
+fn hearts(draft: &mut Draft, sampler: &mut Sampler) {
+    let health = draw(sampler, 2, 4);
+    draft.stamina = Stamina::Hearts(health);
+    draft.give(AVATAR, "healthPoints", Value::Count(health));
+    draft.give(AVATAR, "limitHealthPoints", Value::Count(health + 2));
+    let medicine = draft.place(Role::Medicine, SpriteClass::Immovable, Body::Item, &[]);
+    let heal = Effect::AddHealthPointsToMax { value: draw(sampler, 1, 2) };
+    draft.scored(Phase::Take, AVATAR, &[medicine], heal, 1);
+    let clause = format!(
+        "{} wounds are the end, but {} heals",
+        super::english::number(health),
+        draft.say(medicine)
+    );
+    draft.tell(clause);
+}
+
+fn ward(draft: &mut Draft, _: &mut Sampler) {
+    let ward = draft.place(Role::Ward, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(2))]);
+    draft.stamina = Stamina::Warded(ward);
+    draft.scored(Phase::Take, ward, &[AVATAR], Effect::CollectResource { stays: false }, 1);
+    let clause = format!("{} protects once", draft.one(ward));
+    draft.tell(clause);
+}
+
+fn coins(draft: &mut Draft, _: &mut Sampler) {
+    let coin = draft.place(Role::Coin, SpriteClass::Immovable, Body::Item, &[]);
+    draft.scored(Phase::Take, coin, &[AVATAR], Effect::KillSprite, 1);
+    let clause = format!("{} are worth a point each", draft.many(coin));
+    draft.tell(clause);
+}
+
+/// One at a time ripens, somewhere.
+pub(crate) fn bush(draft: &mut Draft, sampler: &mut Sampler) {
+    let berry =
+        draft.spawn(Role::Berry, SpriteClass::Immovable, Body::Item, &[("singleton", Value::Flag(true))]);
+    let params = [
+        ("stype", Value::Part(berry)),
+        ("cooldown", Value::Count(draw(sampler, 5, 12))),
+        ("prob", Value::Hundredths(10 * draw(sampler, 3, 6))),
+    ];
+    let bush = draft.place(Role::Bush, SpriteClass::SpawnPoint, Body::Spot, &params);
+    draft.scored(Phase::Take, berry, &[AVATAR], Effect::KillSprite, 1);
+    let clause = format!("{} to be had at {} are worth a point each", draft.many(berry), draft.many(bush));
+    draft.tell(clause);
+}

@@ -1,0 +1,193 @@
+//! The constructive generator of games: composes patterns, gives them a fiction, lays the game out.
+
+use super::assemble;
+use super::composition::Composition;
+use super::draft::{Draft, Ending, HERO};
+use super::english;
+use super::kind::Kind;
+use super::pattern::Feature;
+use super::theme::Theme;
+use crate::{GenerateError, Generator};
+use engine::{Description, Game, Seed};
+use serde::{Deserialize, Serialize};
+
+/// Compositions that are drawn for one game: a goal may find no company.
+const DRAWS: u64 = 16;
+/// Ticks of one unit of a goal's time.
+const TIME: u32 = 50;
+/// The same where the hero has to hold out: every tick counts.
+const SIEGE_TIME: u32 = 20;
+
+/// What games may be made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GameConfig {
+    /// The kinds that are drawn from.
+    pub kinds: Vec<Kind>,
+}
+
+impl Default for GameConfig {
+    /// All kinds.
+    fn default() -> GameConfig {
+        GameConfig { kinds: Kind::ALL.to_vec() }
+    }
+}
+
+/// A game and what people should know of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GeneratedGame {
+    /// The rules; they compile without problems or warnings.
+    pub description: Description,
+    /// Title in the game's own fiction.
+    pub title: String,
+    /// What there is, in a few sentences.
+    pub summary: String,
+    /// How to win, in one sentence.
+    pub goal: String,
+    /// What sort of game it is.
+    pub kind: Kind,
+    /// Whether something moves unless the player acts.
+    pub real_time: bool,
+    /// The patterns that were composed, and the fiction.
+    pub patterns: Vec<String>,
+}
+
+/// Composes games from typed patterns. Cost: well under a millisecond a game.
+#[derive(Clone, Debug, Default)]
+pub struct ConstructiveGames {
+    config: GameConfig,
+}
+
+impl ConstructiveGames {
+    /// A generator of these kinds of games.
+    pub fn new(config: GameConfig) -> ConstructiveGames {
+        ConstructiveGames { config }
+    }
+}
+
+impl Generator for ConstructiveGames {
+    type Output = GeneratedGame;
+
+    fn generate(&self, seed: Seed) -> Result<GeneratedGame, GenerateError> {
+        if self.config.kinds.is_empty() {
+            return Err(GenerateError::Unsuitable("no kinds of games are allowed".to_owned()));
+        }
+        let drawn = (0..DRAWS).find_map(|draw| {
+            Composition::draw(&self.config.kinds, &mut seed.child("composition", draw).sampler())
+        });
+        let Some(composition) = drawn else {
+            return Err(GenerateError::Unlucky("no goal found company".to_owned()));
+        };
+        let game = build(&composition, seed);
+        match Game::compile(&game.description) {
+            Ok(compiled) if compiled.warnings().is_empty() => Ok(game),
+            Ok(compiled) => Err(GenerateError::Unlucky(format!("warned of: {}", compiled.warnings()[0].message))),
+            Err(problems) => Err(GenerateError::Unlucky(format!("the rules do not compile: {problems}"))),
+        }
+    }
+}
+
+fn build(composition: &Composition, seed: Seed) -> GeneratedGame {
+    let mut sampler = seed.child("fiction", 0).sampler();
+    let theme = *sampler.choose(Theme::ALL);
+    let mut draft = Draft::new(theme, seed.child("names", 0));
+    for (number, pattern) in composition.patterns.iter().enumerate() {
+        (pattern.build)(&mut draft, &mut seed.child(pattern.name, number as u64).sampler());
+    }
+    time_limit(&mut draft, composition, seed);
+    let kind = composition.goal.kind;
+    let title = draft.title(kind.deed(&mut sampler));
+    GeneratedGame {
+        description: assemble::describe(&draft),
+        title,
+        summary: summary(&draft),
+        goal: format!("{}.", english::capital(&draft.goal)),
+        kind,
+        real_time: composition.gives(Feature::Movers),
+        patterns: composition.patterns.iter().map(|pattern| pattern.name).chain([theme.name]).map(str::to_owned).collect(),
+    }
+}
+
+/// Every game ends: lost when time is up, or won where holding out is the goal.
+fn time_limit(draft: &mut Draft, composition: &Composition, seed: Seed) {
+    let (least, most) = composition.goal.ticks;
+    let units = seed.child("time", 0).sampler().between(least as usize, most as usize) as u32;
+    let waiting = draft.endings.iter_mut().find(|(ending, _)| matches!(ending, Ending::Timeout(_)));
+    match waiting {
+        Some((ending, _)) => *ending = Ending::Timeout(SIEGE_TIME * units),
+        None => draft.endings.push((Ending::Timeout(TIME * units), false)),
+    }
+}
+
+/// Who is where, with what; then what else there is.
+fn summary(draft: &Draft) -> String {
+    let hero = draft.one(HERO);
+    let outfit = match draft.outfit.as_str() {
+        "" => String::new(),
+        outfit => format!(", {outfit},"),
+    };
+    let first = format!("{}{outfit} {}.", english::capital(&hero), draft.setting().place);
+    match draft.clauses[..] {
+        [] => first,
+        _ => format!("{first} {}.", english::capital(&english::series(&draft.clauses))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::{BTreeMap, BTreeSet};
+
+    fn games(count: u64) -> Vec<GeneratedGame> {
+        let generator = ConstructiveGames::default();
+        let seed = Seed::from_text("games");
+        (0..count).map(|number| generator.generate(seed.child("game", number)).unwrap()).collect()
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_game() {
+        assert_eq!(games(20), games(20));
+    }
+
+    #[test]
+    fn games_differ_and_every_pattern_and_kind_occurs() {
+        let games = games(600);
+        let digests: BTreeSet<String> =
+            games.iter().map(|game| Game::compile(&game.description).unwrap().digest().to_string()).collect();
+        assert!(digests.len() > 590, "{} different games", digests.len());
+        let mut uses: BTreeMap<&str, u32> = BTreeMap::new();
+        for pattern in games.iter().flat_map(|game| &game.patterns) {
+            *uses.entry(pattern).or_default() += 1;
+        }
+        let all = super::super::goals::all().into_iter().map(|goal| goal.pattern.name);
+        let rest = [super::super::movement::MOVEMENTS, super::super::threats::THREATS];
+        let more = [super::super::obstacles::OBSTACLES, super::super::boons::BOONS];
+        let names = all.chain(rest.into_iter().chain(more).flatten().map(|pattern| pattern.name));
+        let missing: Vec<&str> = names.filter(|name| !uses.contains_key(name)).collect();
+        assert_eq!(missing, Vec::<&str>::new());
+        let kinds: BTreeSet<Kind> = games.iter().map(|game| game.kind).collect();
+        assert_eq!(kinds.len(), Kind::ALL.len());
+    }
+
+    #[test]
+    fn a_game_of_each_kind_can_be_asked_for() {
+        for &kind in Kind::ALL {
+            let generator = ConstructiveGames::new(GameConfig { kinds: vec![kind] });
+            for number in 0..10 {
+                let game = generator.generate(Seed::from_text(kind.name()).child("game", number)).unwrap();
+                assert_eq!(game.kind, kind);
+            }
+        }
+    }
+
+    #[test]
+    fn words_for_people_are_sentences() {
+        for game in games(100) {
+            for text in [&game.summary, &game.goal] {
+                assert!(text.ends_with('.') && text.starts_with(|c: char| c.is_uppercase()), "{text}");
+                assert!(!text.contains("  ") && !text.contains(" ,"), "{text}");
+            }
+            assert!(!game.title.is_empty() && game.title.is_ascii(), "{}", game.title);
+        }
+    }
+}

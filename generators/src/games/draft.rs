@@ -1,0 +1,388 @@
+//! A game under construction: sprite types, rules and endings as typed data, before it is laid out as a description.
+
+use super::body::Body;
+use super::effect::Effect;
+use super::english;
+use super::naming::Naming;
+use super::role::Role;
+use super::theme::Theme;
+use engine::{Sampler, Seed, SpriteClass};
+
+/// A sprite type of the draft.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Part(usize);
+
+/// The type under everything.
+pub(crate) const FLOOR: Part = Part(0);
+/// The parent of the wall.
+pub(crate) const WALL: Part = Part(1);
+/// The parent of all states of the hero.
+pub(crate) const AVATAR: Part = Part(2);
+/// The hero as it starts.
+pub(crate) const HERO: Part = Part(3);
+
+/// The value of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Value {
+    /// A number of things, ticks, points.
+    Count(u32),
+    /// Points, which may be negative.
+    Score(i32),
+    /// A share of one, in hundredths.
+    Hundredths(u32),
+    /// `True` or `False`.
+    Flag(bool),
+    /// A constant.
+    Word(&'static str),
+    /// A sprite type.
+    Part(Part),
+}
+
+/// A sprite type.
+#[derive(Debug)]
+pub(crate) struct Sprite {
+    pub(crate) name: String,
+    pub(crate) role: Role,
+    /// None: as the parent.
+    pub(crate) class: Option<SpriteClass>,
+    pub(crate) params: Vec<(&'static str, Value)>,
+    pub(crate) parent: Option<Part>,
+    pub(crate) body: Body,
+    /// Whether levels can place it; else it comes into being during play.
+    pub(crate) placed: bool,
+}
+
+/// When in a tick a rule has its turn: the order of the InteractionSet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Phase {
+    /// What carries moves what it carries.
+    Carry,
+    /// What is pushed moves.
+    Push,
+    /// What can be opened opens, before it stops anyone.
+    Open,
+    /// What cannot pass goes back.
+    Block,
+    /// What was hit falls.
+    Strike,
+    /// Sprites that meet change each other.
+    Meet,
+    /// The hero takes things.
+    Take,
+    /// The hero is harmed.
+    Harm,
+    /// The hero arrives.
+    Arrive,
+}
+
+/// An interaction.
+#[derive(Clone, Debug)]
+pub(crate) struct Rule {
+    pub(crate) phase: Phase,
+    pub(crate) first: Part,
+    pub(crate) second: Vec<Part>,
+    pub(crate) effect: Effect,
+    pub(crate) score: i32,
+}
+
+/// A termination.
+#[derive(Clone, Debug)]
+pub(crate) enum Ending {
+    /// None of these is left.
+    Gone(Vec<Part>),
+    /// There are so many of these.
+    Many(Part, u32),
+    /// Time is up.
+    Timeout(u32),
+}
+
+/// What touching a sprite does to it, besides harming the hero, when the hero survives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Harm {
+    /// Nothing.
+    Lasting,
+    /// It is gone.
+    Spent,
+}
+
+/// What the hero can take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stamina {
+    /// One touch is the end.
+    Fragile,
+    /// So many touches are.
+    Hearts(u32),
+    /// A touch is the end unless one of these wards it off.
+    Warded(Part),
+}
+
+/// What the hero strikes with: the part that hits, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Weapon {
+    /// Strikes close by, and stays.
+    Blade(Part),
+    /// Flies, and is gone when it hits.
+    Bolt(Part),
+    /// Goes off, and hits all around.
+    Blast(Part),
+}
+
+/// A game under construction.
+pub(crate) struct Draft {
+    pub(crate) sprites: Vec<Sprite>,
+    pub(crate) rules: Vec<Rule>,
+    /// In the order of the TerminationSet, each with whether it is a win.
+    pub(crate) endings: Vec<(Ending, bool)>,
+    pub(crate) harms: Vec<(Part, Harm)>,
+    /// Pairs whose meeting a pattern has settled: no rule of movement is made for them.
+    pub(crate) settled: Vec<(Part, Part)>,
+    pub(crate) weapon: Option<Weapon>,
+    pub(crate) stamina: Stamina,
+    /// How to win, in words.
+    pub(crate) goal: String,
+    /// What the hero has, in words.
+    pub(crate) outfit: String,
+    /// What else there is, in words.
+    pub(crate) clauses: Vec<String>,
+    naming: Naming,
+}
+
+impl Draft {
+    /// Floor, wall and hero.
+    pub(crate) fn new(theme: &'static Theme, names: Seed) -> Draft {
+        let mut draft = Draft {
+            sprites: Vec::new(),
+            rules: Vec::new(),
+            endings: Vec::new(),
+            harms: Vec::new(),
+            settled: Vec::new(),
+            weapon: None,
+            stamina: Stamina::Fragile,
+            goal: String::new(),
+            outfit: String::new(),
+            clauses: Vec::new(),
+            naming: Naming::new(theme, names.sampler()),
+        };
+        let floor = draft.place(Role::Floor, SpriteClass::Immovable, Body::Floor, &[]);
+        let wall = draft.group("wall", Role::Wall, Some(SpriteClass::Immovable), Body::Wall);
+        let avatar = draft.group("avatar", Role::Hero, None, Body::Hero);
+        let hero = draft.child(avatar, Role::Hero);
+        draft.child(wall, Role::Wall);
+        assert!((floor, wall, avatar, hero) == (FLOOR, WALL, AVATAR, HERO), "the constants say so");
+        draft.sprites[FLOOR.0].params.push(("hidden", Value::Word("True")));
+        draft
+    }
+
+    /// A sprite type that levels place.
+    pub(crate) fn place(
+        &mut self,
+        role: Role,
+        class: SpriteClass,
+        body: Body,
+        params: &[(&'static str, Value)],
+    ) -> Part {
+        let name = self.naming.word(role);
+        self.add(Sprite {
+            name,
+            role,
+            class: Some(class),
+            params: params.to_vec(),
+            parent: None,
+            body,
+            placed: true,
+        })
+    }
+
+    /// A sprite type that comes into being during play.
+    pub(crate) fn spawn(
+        &mut self,
+        role: Role,
+        class: SpriteClass,
+        body: Body,
+        params: &[(&'static str, Value)],
+    ) -> Part {
+        let part = self.place(role, class, body, params);
+        self.sprites[part.0].placed = false;
+        part
+    }
+
+    /// Another state of a sprite type, that comes into being during play: `lit` and a lamp make a `litLamp`.
+    pub(crate) fn state(
+        &mut self,
+        of: Part,
+        adjective: &str,
+        class: SpriteClass,
+        body: Body,
+        params: &[(&'static str, Value)],
+    ) -> Part {
+        let name = format!("{adjective}{}", english::capital(self.name(of)));
+        let role = self.sprites[of.0].role;
+        self.add(Sprite {
+            name,
+            role,
+            class: Some(class),
+            params: params.to_vec(),
+            parent: None,
+            body,
+            placed: false,
+        })
+    }
+
+    /// Another state of the hero.
+    pub(crate) fn hero_state(&mut self, adjective: &str) -> Part {
+        let name = format!("{adjective}{}", english::capital(self.name(HERO)));
+        self.add(Sprite {
+            name,
+            role: Role::Hero,
+            class: None,
+            params: Vec::new(),
+            parent: Some(AVATAR),
+            body: Body::Hero,
+            placed: false,
+        })
+    }
+
+    fn group(&mut self, name: &str, role: Role, class: Option<SpriteClass>, body: Body) -> Part {
+        let name = name.to_owned();
+        self.add(Sprite { name, role, class, params: Vec::new(), parent: None, body, placed: false })
+    }
+
+    fn child(&mut self, parent: Part, role: Role) -> Part {
+        let (name, body) = (self.naming.word(role), self.sprites[parent.0].body);
+        let parent = Some(parent);
+        self.add(Sprite { name, role, class: None, params: Vec::new(), parent, body, placed: true })
+    }
+
+    fn add(&mut self, sprite: Sprite) -> Part {
+        self.sprites.push(sprite);
+        Part(self.sprites.len() - 1)
+    }
+
+    /// The class and the parameters of the hero, in all its states.
+    pub(crate) fn set_hero(&mut self, class: SpriteClass, params: &[(&'static str, Value)]) {
+        let avatar = &mut self.sprites[AVATAR.0];
+        avatar.class = Some(class);
+        avatar.params.extend_from_slice(params);
+    }
+
+    /// One more parameter, for types that refer to each other.
+    pub(crate) fn give(&mut self, part: Part, key: &'static str, value: Value) {
+        self.sprites[part.0].params.push((key, value));
+    }
+
+    /// Levels place it, though it is a state of something else.
+    pub(crate) fn show(&mut self, part: Part) {
+        self.sprites[part.0].placed = true;
+    }
+
+    /// All parts, in the order of their making.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Part> + use<> {
+        (0..self.sprites.len()).map(Part)
+    }
+
+    pub(crate) fn sprite(&self, part: Part) -> &Sprite {
+        &self.sprites[part.0]
+    }
+
+    /// The name as VGDL has it.
+    pub(crate) fn name(&self, part: Part) -> &str {
+        &self.sprites[part.0].name
+    }
+
+    /// A rule that scores nothing.
+    pub(crate) fn rule(&mut self, phase: Phase, first: Part, second: &[Part], effect: Effect) {
+        self.scored(phase, first, second, effect, 0);
+    }
+
+    /// A rule that scores.
+    pub(crate) fn scored(&mut self, phase: Phase, first: Part, second: &[Part], effect: Effect, score: i32) {
+        self.rules.push(Rule { phase, first, second: second.to_vec(), effect, score });
+    }
+
+    /// Touching it harms the hero.
+    pub(crate) fn harm(&mut self, part: Part, harm: Harm) {
+        self.harms.push((part, harm));
+    }
+
+    /// A pattern has seen to what happens when these meet.
+    pub(crate) fn settle(&mut self, first: Part, second: Part) {
+        self.settled.push((first, second));
+    }
+
+    /// The hero's weapon, if there is one, fells it.
+    pub(crate) fn prey(&mut self, part: Part, score: i32) {
+        match self.weapon {
+            None => {}
+            Some(Weapon::Bolt(bolt)) => {
+                self.settle(bolt, part);
+                self.scored(Phase::Strike, part, &[bolt], Effect::KillBoth, score);
+            }
+            Some(Weapon::Blade(hit) | Weapon::Blast(hit)) => {
+                self.settle(hit, part);
+                self.scored(Phase::Strike, part, &[hit], Effect::KillSprite, score);
+            }
+        }
+    }
+
+    /// The hero's weapon turns it into something else.
+    pub(crate) fn prey_leaves(&mut self, part: Part, stype: Part, score: i32) {
+        let (hit, kill_second) = match self.weapon {
+            None => return,
+            Some(Weapon::Bolt(bolt)) => (bolt, true),
+            Some(Weapon::Blade(hit) | Weapon::Blast(hit)) => (hit, false),
+        };
+        self.settle(hit, part);
+        self.scored(Phase::Strike, part, &[hit], Effect::TransformTo { stype, kill_second }, score);
+    }
+
+    /// The game is won when none of these is left.
+    pub(crate) fn win_without(&mut self, parts: &[Part]) {
+        self.endings.push((Ending::Gone(parts.to_vec()), true));
+    }
+
+    /// The game is lost when none of these is left.
+    pub(crate) fn lose_without(&mut self, part: Part) {
+        self.endings.push((Ending::Gone(vec![part]), false));
+    }
+
+    /// The game is lost when there are so many of these.
+    pub(crate) fn lose_with(&mut self, part: Part, count: u32) {
+        self.endings.push((Ending::Many(part, count), false));
+    }
+
+    /// In English: "sea glass".
+    pub(crate) fn say(&self, part: Part) -> String {
+        english::spaced(self.name(part))
+    }
+
+    /// More than one: "sea glasses".
+    pub(crate) fn many(&self, part: Part) -> String {
+        english::plural(&self.say(part))
+    }
+
+    /// With its article: "a sea glass".
+    pub(crate) fn one(&self, part: Part) -> String {
+        english::one(&self.say(part))
+    }
+
+    /// Adds to what there is to know.
+    pub(crate) fn tell(&mut self, clause: String) {
+        self.clauses.push(clause);
+    }
+
+    /// Draws from the words of the fiction are over; what remains draws on.
+    pub(crate) fn title(&mut self, deed: &str) -> String {
+        let hero = english::headline(&self.say(HERO));
+        self.naming.title(&hero, deed)
+    }
+
+    /// Where the game takes place.
+    pub(crate) fn setting(&self) -> &'static Theme {
+        self.naming.theme()
+    }
+}
+
+/// A number from a range, for parameters.
+pub(crate) fn draw(sampler: &mut Sampler, low: u32, high: u32) -> u32 {
+    sampler.between(low as usize, high as usize) as u32
+}

@@ -1,0 +1,113 @@
+//! What a rule does: the effects that the patterns use, with the parameters they need and no others.
+
+use super::draft::{Part, Value};
+
+/// An effect of an interaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Effect {
+    /// Kills the first.
+    KillSprite,
+    /// Kills both.
+    KillBoth,
+    /// Kills all of a type.
+    KillAll { stype: Part },
+    /// Kills the first if the second holds so much; the second pays or not.
+    KillIfOtherHasMore { resource: Part, limit: u32, subtract: bool },
+    /// Kills the first unless it holds more than that.
+    KillIfHasLess { resource: Part, limit: u32 },
+    /// Sends the first back.
+    StepBack,
+    /// Turns the first round.
+    ReverseDirection,
+    /// Lets the second push the first.
+    BounceForward,
+    /// Lets the second carry the first.
+    PullWithIt,
+    /// Sends the first to where the second leads.
+    TeleportToExit,
+    /// Makes the first another type, at the cost of the second or not.
+    TransformTo { stype: Part, kill_second: bool },
+    /// Makes all of one type another.
+    TransformToAll { stype: Part, into: Part },
+    /// Makes a sprite where the first is, if it holds so much, which it pays.
+    SpawnIfHasMore { resource: Part, limit: u32, stype: Part },
+    /// Makes a sprite where the second was.
+    SpawnBehind { stype: Part },
+    /// The second takes the first, which stays or not.
+    CollectResource { stays: bool },
+    /// Takes one of a resource from the first, and kills the second.
+    Spend { resource: Part },
+    /// Takes a health point from the first; it dies of the last one, for another score.
+    SubtractHealthPoints { score_if_killed: i32 },
+    /// Gives health points to the first, at the cost of the second.
+    AddHealthPointsToMax { value: u32 },
+}
+
+impl Effect {
+    /// The keyword.
+    pub(crate) fn keyword(self) -> &'static str {
+        match self {
+            Effect::KillSprite => "killSprite",
+            Effect::KillBoth => "killBoth",
+            Effect::KillAll { .. } => "killAll",
+            Effect::KillIfOtherHasMore { .. } => "killIfOtherHasMore",
+            Effect::KillIfHasLess { .. } => "killIfHasLess",
+            Effect::StepBack => "stepBack",
+            Effect::ReverseDirection => "reverseDirection",
+            Effect::BounceForward => "bounceForward",
+            Effect::PullWithIt => "pullWithIt",
+            Effect::TeleportToExit => "teleportToExit",
+            Effect::TransformTo { .. } => "transformTo",
+            Effect::TransformToAll { .. } => "transformToAll",
+            Effect::SpawnIfHasMore { .. } => "spawnIfHasMore",
+            Effect::SpawnBehind { .. } => "spawnBehind",
+            Effect::CollectResource { .. } => "collectResource",
+            Effect::Spend { .. } => "changeResource",
+            Effect::SubtractHealthPoints { .. } => "subtractHealthPoints",
+            Effect::AddHealthPointsToMax { .. } => "addHealthPointsToMax",
+        }
+    }
+
+    /// The parameters, besides the score.
+    pub(crate) fn params(self) -> Vec<(&'static str, Value)> {
+        let flag = |key: &'static str, on: bool| on.then_some((key, Value::Flag(true)));
+        match self {
+            Effect::KillAll { stype } | Effect::SpawnBehind { stype } => vec![("stype", Value::Part(stype))],
+            Effect::KillIfOtherHasMore { resource, limit, subtract } => {
+                let wants = [("resource", Value::Part(resource)), ("limit", Value::Count(limit))];
+                wants.into_iter().chain(flag("subtract", subtract)).collect()
+            }
+            Effect::KillIfHasLess { resource, limit } => {
+                vec![("resource", Value::Part(resource)), ("limit", Value::Count(limit))]
+            }
+            Effect::TransformTo { stype, kill_second } => {
+                [("stype", Value::Part(stype))].into_iter().chain(flag("killSecond", kill_second)).collect()
+            }
+            Effect::TransformToAll { stype, into } => {
+                vec![("stype", Value::Part(stype)), ("stypeTo", Value::Part(into))]
+            }
+            Effect::SpawnIfHasMore { resource, limit, stype } => vec![
+                ("resource", Value::Part(resource)),
+                ("limit", Value::Count(limit)),
+                ("stype", Value::Part(stype)),
+                ("spend", Value::Count(limit)),
+            ],
+            Effect::CollectResource { stays } => {
+                stays.then_some(("killResource", Value::Flag(false))).into_iter().collect()
+            }
+            Effect::Spend { resource } => vec![
+                ("resource", Value::Part(resource)),
+                ("value", Value::Score(-1)),
+                ("killResource", Value::Flag(true)),
+            ],
+            Effect::SubtractHealthPoints { score_if_killed } => {
+                let score = ("scoreChangeIfKilled", Value::Score(score_if_killed));
+                (score_if_killed != 0).then_some(score).into_iter().collect()
+            }
+            Effect::AddHealthPointsToMax { value } => {
+                vec![("value", Value::Count(value)), ("killSecond", Value::Flag(true))]
+            }
+            _ => Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! How games are won: one file for each sort of thing to do.
+
+mod arrive;
+mod carry;
+mod fight;
+mod friends;
+mod gather;
+mod hold;
+mod push;
+mod tend;
+mod unlock;
+
+use super::body::Body;
+use super::draft::{Draft, Part};
+use super::kind::Kind;
+use super::pattern::{Feature, Goal, Pattern};
+use super::role::Role;
+use engine::{Sampler, SpriteClass};
+
+/// All goals.
+pub(crate) fn all() -> Vec<&'static Goal> {
+    let families: [&'static [Goal]; 9] = [
+        arrive::GOALS,
+        gather::GOALS,
+        unlock::GOALS,
+        fight::GOALS,
+        push::GOALS,
+        friends::GOALS,
+        carry::GOALS,
+        tend::GOALS,
+        hold::GOALS,
+    ];
+    families.into_iter().flatten().collect()
+}
+
+/// A goal of a four-way hero with the usual company; what differs is written over it.
+const fn goal(
+    name: &'static str,
+    kind: Kind,
+    roles: &'static [Role],
+    gives: &'static [Feature],
+    build: fn(&mut Draft, &mut Sampler),
+) -> Goal {
+    Goal {
+        pattern: Pattern { name, weight: 4, roles, gives, needs: &[], bars: &[], build },
+        kind,
+        hero: &[Feature::Four],
+        threats: (1, 2),
+        obstacles: (0, 1),
+        ticks: (6, 12),
+    }
+}
+
+/// The way out.
+fn exit(draft: &mut Draft, body: Body) -> Part {
+    draft.place(Role::Exit, SpriteClass::Door, body, &[])
+}
+
+/// A way out that is shut until something opens it: shut, and open.
+fn shut_exit(draft: &mut Draft) -> (Part, Part) {
+    let open = draft.spawn(Role::Exit, SpriteClass::Door, Body::Spot, &[]);
+    let shut = draft.state(open, "sealed", SpriteClass::Immovable, Body::Solid, &[]);
+    draft.show(shut);
+    (shut, open)
+}

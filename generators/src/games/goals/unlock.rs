@@ -1,0 +1,97 @@
+//! Goals of opening what is locked.
+
+use super::{exit, goal};
+use crate::games::body::Body;
+use crate::games::draft::{AVATAR, Draft, HERO, Harm, Part, Phase, Value, draw};
+use crate::games::effect::Effect;
+use crate::games::english;
+use crate::games::kind::Kind;
+use crate::games::pattern::{Feature, Goal, Pattern};
+use crate::games::role::Role;
+use crate::games::threats;
+use engine::{Sampler, SpriteClass};
+
+const WARDEN: &[Feature] =
+    &[Feature::States, Feature::Movers, Feature::Harm, Feature::Prey, Feature::Precious];
+
+pub(super) const GOALS: &[Goal] = &[
+    Goal {
+        obstacles: (0, 2),
+        ..goal("goal/key", Kind::KeyAndDoor, &[Role::Key, Role::Exit], &[Feature::States], key)
+    },
+    warden("goal/stray-warden", &[Role::Key, Role::Exit, Role::Wanderer], stray_warden),
+    warden("goal/keen-warden", &[Role::Key, Role::Exit, Role::Chaser], keen_warden),
+    goal("goal/chests", Kind::KeyAndDoor, &[Role::Key, Role::Chest], &[], chests),
+];
+
+const fn warden(
+    name: &'static str,
+    roles: &'static [Role],
+    build: fn(&mut Draft, &mut Sampler),
+) -> Goal {
+    let goal = goal(name, Kind::KeyAndDoor, roles, WARDEN, build);
+    Goal {
+        hero: &[Feature::Four, Feature::Strikes],
+        threats: (0, 1),
+        pattern: Pattern { bars: &[Feature::Scarce], weight: 2, ..goal.pattern },
+        ..goal
+    }
+}
+
+/// A way out that only the hero with the key can take.
+fn locked_exit(draft: &mut Draft, key: Part) -> Part {
+    let exit = exit(draft, Body::Spot);
+    let holder = draft.hero_state("keyed");
+    draft.scored(Phase::Take, HERO, &[key], Effect::TransformTo { stype: holder, kill_second: true }, 3);
+    draft.rule(Phase::Block, HERO, &[exit], Effect::StepBack);
+    draft.scored(Phase::Arrive, exit, &[holder], Effect::KillSprite, 10);
+    draft.win_without(&[exit]);
+    exit
+}
+
+fn key(draft: &mut Draft, _: &mut Sampler) {
+    let key = draft.place(Role::Key, SpriteClass::Immovable, Body::Item, &[]);
+    let exit = locked_exit(draft, key);
+    draft.goal = format!("find the {} and bring it to the {}", draft.say(key), draft.say(exit));
+}
+
+fn stray_warden(draft: &mut Draft, sampler: &mut Sampler) {
+    let params = threats::straying(sampler);
+    let warden = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &params);
+    robbed(draft, warden);
+}
+
+fn keen_warden(draft: &mut Draft, sampler: &mut Sampler) {
+    let params = threats::pursuing(AVATAR, sampler);
+    let warden = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    robbed(draft, warden);
+}
+
+/// The warden leaves the key when it falls.
+fn robbed(draft: &mut Draft, warden: Part) {
+    let key = draft.spawn(Role::Key, SpriteClass::Immovable, Body::Item, &[]);
+    draft.prey_leaves(warden, key, 3);
+    draft.harm(warden, Harm::Lasting);
+    let exit = locked_exit(draft, key);
+    draft.goal = format!(
+        "strike down {} for its {}, which opens the {}",
+        draft.one(warden),
+        draft.say(key),
+        draft.say(exit)
+    );
+}
+
+/// One key for all, or several to each.
+fn chests(draft: &mut Draft, sampler: &mut Sampler) {
+    let keys = draw(sampler, 1, 3);
+    let key = draft.place(Role::Key, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(keys + 1))]);
+    let chest = draft.place(Role::Chest, SpriteClass::Door, Body::Solid, &[]);
+    draft.scored(Phase::Take, key, &[AVATAR], Effect::CollectResource { stays: false }, 1);
+    let open = Effect::KillIfOtherHasMore { resource: key, limit: keys, subtract: false };
+    draft.scored(Phase::Open, chest, &[AVATAR], open, 4);
+    draft.win_without(&[chest]);
+    draft.goal = match keys {
+        1 => format!("open every {} with {}", draft.say(chest), draft.one(key)),
+        _ => format!("find {} {} and open every {}", english::number(keys), draft.many(key), draft.say(chest)),
+    };
+}

@@ -1,0 +1,125 @@
+//! What is in the hero's way, and how it is overcome.
+
+use super::body::Body;
+use super::draft::{AVATAR, Draft, Phase, Value, draw};
+use super::effect::Effect;
+use super::pattern::{Feature, Pattern};
+use super::role::Role;
+use engine::{Sampler, SpriteClass};
+
+const fn obstacle(
+    name: &'static str,
+    weight: u32,
+    roles: &'static [Role],
+    build: fn(&mut Draft, &mut Sampler),
+) -> Pattern {
+    Pattern { name, weight, roles, gives: &[], needs: &[Feature::Four], bars: &[], build }
+}
+
+/// All obstacles.
+pub(crate) const OBSTACLES: &[Pattern] = &[
+    obstacle("obstacle/lock", 4, &[Role::Key, Role::Door], lock),
+    obstacle("obstacle/dig", 3, &[Role::Soil], dig),
+    Pattern {
+        needs: &[Feature::Four, Feature::Strikes],
+        ..obstacle("obstacle/break", 4, &[Role::Soil], break_through)
+    },
+    obstacle("obstacle/lever", 3, &[Role::Lever, Role::Gate], lever),
+    obstacle("obstacle/dark", 3, &[Role::Torch, Role::Dark], dark),
+    obstacle("obstacle/portal", 3, &[Role::PortalIn, Role::PortalOut], portal),
+    Pattern {
+        bars: &[Feature::Errands, Feature::Crates, Feature::Followers],
+        ..obstacle("obstacle/collapse", 3, &[Role::Archway, Role::Rubble], collapse)
+    },
+    Pattern {
+        gives: &[Feature::Movers],
+        bars: &[Feature::Crates],
+        ..obstacle("obstacle/cart", 2, &[Role::Cart], cart)
+    },
+    Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/crates", 3, &[Role::Crate], crates) },
+];
+
+/// Doors that open to the key: it is used up, or opens them all.
+fn lock(draft: &mut Draft, sampler: &mut Sampler) {
+    let subtract = sampler.ratio(1, 2);
+    let key = draft.place(Role::Key, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(3))]);
+    let door = draft.place(Role::Door, SpriteClass::Door, Body::Solid, &[]);
+    draft.scored(Phase::Take, key, &[AVATAR], Effect::CollectResource { stays: false }, 1);
+    let open = Effect::KillIfOtherHasMore { resource: key, limit: 1, subtract };
+    draft.scored(Phase::Open, door, &[AVATAR], open, 2);
+    let clause = if subtract {
+        format!("every {} takes {} to open", draft.say(door), draft.one(key))
+    } else {
+        format!("whoever has {} can open every {}", draft.one(key), draft.say(door))
+    };
+    draft.tell(clause);
+}
+
+fn dig(draft: &mut Draft, _: &mut Sampler) {
+    let soil = draft.place(Role::Soil, SpriteClass::Immovable, Body::Soft, &[]);
+    draft.rule(Phase::Meet, soil, &[AVATAR], Effect::KillSprite);
+    let clause = format!("{} can be dug away", draft.say(soil));
+    draft.tell(clause);
+}
+
+fn break_through(draft: &mut Draft, _: &mut Sampler) {
+    let soil = draft.place(Role::Soil, SpriteClass::Immovable, Body::Solid, &[]);
+    draft.prey(soil, 0);
+    let clause = format!("{} can be broken", draft.say(soil));
+    draft.tell(clause);
+}
+
+fn lever(draft: &mut Draft, _: &mut Sampler) {
+    let lever = draft.place(Role::Lever, SpriteClass::Immovable, Body::Item, &[]);
+    let gate = draft.place(Role::Gate, SpriteClass::Door, Body::Solid, &[]);
+    draft.rule(Phase::Take, lever, &[AVATAR], Effect::KillAll { stype: gate });
+    draft.scored(Phase::Take, lever, &[AVATAR], Effect::KillSprite, 2);
+    let clause = format!("{} opens every {}", draft.one(lever), draft.say(gate));
+    draft.tell(clause);
+}
+
+fn dark(draft: &mut Draft, _: &mut Sampler) {
+    let torch = draft.place(Role::Torch, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(3))]);
+    let dark = draft.place(Role::Dark, SpriteClass::Immovable, Body::Solid, &[]);
+    draft.scored(Phase::Take, torch, &[AVATAR], Effect::CollectResource { stays: false }, 1);
+    let open = Effect::KillIfOtherHasMore { resource: torch, limit: 1, subtract: true };
+    draft.scored(Phase::Open, dark, &[AVATAR], open, 1);
+    let clause = format!("each patch of {} uses up {}", draft.say(dark), draft.one(torch));
+    draft.tell(clause);
+}
+
+fn portal(draft: &mut Draft, _: &mut Sampler) {
+    let exit = draft.place(Role::PortalOut, SpriteClass::Immovable, Body::Spot, &[]);
+    let entry =
+        draft.place(Role::PortalIn, SpriteClass::Portal, Body::Spot, &[("stype", Value::Part(exit))]);
+    draft.rule(Phase::Meet, AVATAR, &[entry], Effect::TeleportToExit);
+    let clause = format!("{} leads to {}", draft.one(entry), draft.one(exit));
+    draft.tell(clause);
+}
+
+fn collapse(draft: &mut Draft, _: &mut Sampler) {
+    let arch = draft.place(Role::Archway, SpriteClass::Immovable, Body::Spot, &[]);
+    let rubble = draft.spawn(Role::Rubble, SpriteClass::Immovable, Body::Solid, &[]);
+    draft.rule(Phase::Meet, arch, &[AVATAR], Effect::SpawnBehind { stype: rubble });
+    let clause =
+        format!("{} closes the way behind whoever enters {}", draft.say(rubble), draft.one(arch));
+    draft.tell(clause);
+}
+
+fn cart(draft: &mut Draft, sampler: &mut Sampler) {
+    let orientation = *sampler.choose(&["RIGHT", "DOWN"]);
+    let params =
+        [("orientation", Value::Word(orientation)), ("cooldown", Value::Count(draw(sampler, 1, 2)))];
+    let cart = draft.place(Role::Cart, SpriteClass::Missile, Body::Carrier, &params);
+    draft.rule(Phase::Carry, AVATAR, &[cart], Effect::PullWithIt);
+    let clause = format!("{} carries whoever boards it", draft.one(cart));
+    draft.tell(clause);
+}
+
+/// Something that the hero can push, but that nothing else can pass.
+fn crates(draft: &mut Draft, _: &mut Sampler) {
+    let block = draft.place(Role::Crate, SpriteClass::Passive, Body::Crate, &[]);
+    draft.rule(Phase::Push, block, &[AVATAR], Effect::BounceForward);
+    let clause = format!("{} can be pushed", draft.many(block));
+    draft.tell(clause);
+}

@@ -1,0 +1,16 @@
+//! The fictions: one file each, data only.
+//!
+//! Within a fiction no word serves two roles, so that any patterns can meet in one game.
+
+pub(crate) mod bakery;
+pub(crate) mod beehive;
+pub(crate) mod caravan;
+pub(crate) mod cellar;
+pub(crate) mod glacier;
+pub(crate) mod harbour;
+pub(crate) mod library;
+pub(crate) mod observatory;
+pub(crate) mod railyard;
+pub(crate) mod swamp;
+pub(crate) mod theatre;
+pub(crate) mod tidepool;

@@ -1,0 +1,389 @@
+//! Furnishing levels that the avatar walks through: exits, keys, goods, dangers.
+
+use super::builder::{Builder, back};
+use super::grid::FAR;
+use super::plan::{self, Wish};
+use engine::analysis::{Key, Motion, Role};
+use engine::{Direction, SpriteType};
+
+impl Builder<'_> {
+    /// Furnishes a board that has walls and nothing else.
+    pub(crate) fn adventure(&mut self) {
+        let start = self.choose_start();
+        self.put_avatar(start);
+        let gates = self.gates();
+        self.furnish(&gates);
+    }
+
+    /// Everything but the avatar, the gates and what has been placed already.
+    pub(crate) fn furnish(&mut self, gates: &[SpriteType]) {
+        let area = self.board.area();
+        let difficulty = self.difficulty();
+        let wishes = plan::wishes(self.analysis, self.palette, area, difficulty, &mut self.sampler);
+        let done: Vec<SpriteType> = self.log.iter().map(|(_, stype)| *stype).collect();
+        let (exits, rest): (Vec<Wish>, Vec<Wish>) = wishes
+            .into_iter()
+            .filter(|wish| !done.contains(&wish.stype))
+            .partition(|wish| wish.role == Role::Exit);
+        for wish in exits {
+            self.fulfil(wish);
+        }
+        self.keys(gates);
+        for wish in rest.iter().filter(|wish| wish.role != Role::Collectable) {
+            self.fulfil(*wish);
+        }
+        self.other_walls();
+        self.fuel();
+        for wish in rest.iter().filter(|wish| wish.role == Role::Collectable) {
+            self.fulfil(*wish);
+        }
+        self.soil();
+    }
+
+    /// Puts as many as it can of what is wished.
+    pub(crate) fn fulfil(&mut self, wish: Wish) {
+        let before = self.board.count(self.analysis, wish.stype);
+        let mut tries = 0;
+        while self.board.count(self.analysis, wish.stype) < before + wish.count && tries < wish.count {
+            tries += 1;
+            if self.place(wish.stype, wish.role).is_none() {
+                return;
+            }
+        }
+    }
+
+    /// Puts one sprite where its role wants it: first as it should be, then as it may be.
+    pub(crate) fn place(&mut self, stype: SpriteType, role: Role) -> Option<usize> {
+        let steps = self.steps();
+        let radius = self.radius(&steps);
+        let strict = self.put_where(stype, |builder, cell| builder.weigh(cell, stype, role, &steps, radius));
+        if strict.is_some() {
+            return strict;
+        }
+        self.put_where(stype, |builder, cell| {
+            let harmful = builder.analysis.harm(stype) != engine::analysis::Harm::None;
+            let close = builder.board.grid.manhattan(cell, builder.board.start) < if harmful { 3 } else { 1 };
+            u32::from(!close && steps[cell] != FAR && !builder.cuts(cell, stype))
+        })
+    }
+
+    /// How well a cell suits a sprite; 0: not at all.
+    fn weigh(&self, cell: usize, stype: SpriteType, role: Role, steps: &[u32], radius: u32) -> u32 {
+        let zone = self.board.zone[cell];
+        let reached = steps[cell] != FAR;
+        let from_start = self.board.grid.manhattan(cell, self.board.start);
+        if self.cuts(cell, stype) || (!reached && zone == 0) {
+            return 0;
+        }
+        let share = if reached { steps[cell] * 100 / radius } else { 100 };
+        let own_kind = self.apart(cell, |other| other == stype).min(8) as u32;
+        let walls = self.board.walls_around(cell) as u32;
+        match role {
+            Role::Exit => {
+                // Behind the first gate if there is one; else far away, farther where it is hard.
+                let wanted = u8::from(self.board.zone.contains(&1));
+                let far = share >= 55 + (30.0 * self.difficulty()) as u32;
+                if zone != wanted || !(far || zone > 0) { 0 } else { (1 + walls) * share / 10 }
+            }
+            Role::Enemy | Role::Boulder if from_start < self.respect(stype) => 0,
+            Role::Enemy | Role::Prey | Role::Spawner if self.apart_from(cell, Role::Ward) < 4 => 0,
+            Role::Enemy => self.weigh_mover(cell, stype, share),
+            Role::Prey if from_start < 3 => 0,
+            Role::Prey => own_kind * (2 + share / 20),
+            Role::Spawner => self.weigh_spawner(cell, stype, walls),
+            Role::Hazard if from_start < 3 || self.apart_from(cell, Role::Exit) < 2 => 0,
+            Role::Hazard | Role::Cover | Role::Refuge | Role::Breakable => {
+                if from_start < 2 {
+                    0
+                } else {
+                    // In little groups.
+                    match self.apart(cell, |other| other == stype) {
+                        1 if self.crowd(cell, stype) <= 2 => 12,
+                        1 => 0,
+                        2 => 1,
+                        _ => 2,
+                    }
+                }
+            }
+            Role::Boulder => u32::from(own_kind > 0),
+            // Near to each other, so that there is room for what threatens them.
+            Role::Ward => 1 + 12 / (1 + own_kind),
+            Role::Pushable | Role::Socket => {
+                if walls == 0 && from_start > 1 {
+                    own_kind
+                } else {
+                    0
+                }
+            }
+            Role::Portal | Role::PortalExit => {
+                let pair = self.apart_from(cell, Role::Portal).min(self.apart_from(cell, Role::PortalExit));
+                if from_start < 3 || pair < 5 { 0 } else { share }
+            }
+            Role::Key => {
+                // Not on the way to the exit, nor where one stumbles over it.
+                let apart = self.apart_from(cell, Role::Exit).min(8) as u32;
+                if from_start < 3 { 0 } else { own_kind * apart * (1 + share) / 16 }
+            }
+            Role::Collectable => {
+                let nook = if walls >= 5 { 3 } else { 1 };
+                if from_start < 2 { 0 } else { own_kind * nook * (2 + share / 25) }
+            }
+            _ => u32::from(from_start >= 2) * own_kind,
+        }
+    }
+
+    /// For what moves by itself: room to move, and not straight at the avatar.
+    fn weigh_mover(&self, cell: usize, stype: SpriteType, share: u32) -> u32 {
+        let others = self.apart_from(cell, Role::Enemy).min(6) as u32;
+        let spread = 1 + others + share / 20;
+        let Some(way) = self.heading(stype) else { return spread };
+        let room = self.run(cell, way) + self.run(cell, back(way));
+        if room < 2 || self.aims_at_start(cell, way) || self.aims_at_start(cell, back(way)) {
+            return 0;
+        }
+        // One to a lane.
+        let lane = self.log.iter().any(|&(other, kind)| {
+            let grid = self.board.grid;
+            let same = if way.0 != 0 { grid.y(other) == grid.y(cell) } else { grid.x(other) == grid.x(cell) };
+            same && self.heading(kind).is_some() && self.analysis.role(kind) == Role::Enemy
+        });
+        if lane { 0 } else { spread * room.min(12) as u32 }
+    }
+
+    /// For what makes others: at a wall or the edge, with a free line of fire that does not meet the avatar.
+    fn weigh_spawner(&self, cell: usize, stype: SpriteType, walls: u32) -> u32 {
+        let from_start = self.board.grid.manhattan(cell, self.board.start);
+        let others = self.apart_from(cell, Role::Spawner).min(8) as u32;
+        match self.heading(stype) {
+            Some(way) => {
+                let ahead = self.run(cell, way);
+                if ahead < 3 || self.aims_at_start(cell, way) || from_start < 3 {
+                    return 0;
+                }
+                let backed = self.run(cell, back(way)) == 0;
+                others * if backed { 20 } else { 1 }
+            }
+            None if from_start < self.spawn_respect(stype) => 0,
+            None => others * (1 + walls),
+        }
+    }
+
+    /// What comes out should not reach the avatar at once.
+    fn spawn_respect(&self, stype: SpriteType) -> usize {
+        let made = self.analysis.facts(stype).makes.iter().map(|&made| self.respect(made));
+        made.max().unwrap_or(2).max(4)
+    }
+
+    /// How many sprites of a type stand right around a cell.
+    fn crowd(&self, cell: usize, stype: SpriteType) -> usize {
+        let around = self.board.grid.around(cell).into_iter().flatten();
+        around.filter(|&next| self.log.contains(&(next, stype))).count()
+    }
+
+    /// Where the avatar starts: near an end of the longest way, or in the middle if the aim is to survive.
+    fn choose_start(&mut self) -> usize {
+        let grid = self.board.grid;
+        let cells: Vec<usize> = self.board.free().collect();
+        let open = |cell: usize| !self.board.wall[cell];
+        let survives = self.analysis.aims().remove.is_empty() && self.analysis.aims().create.is_empty();
+        let centre = grid.at(grid.columns / 2, grid.rows / 2);
+        let some = *self.sampler.choose(&cells);
+        let target = if survives {
+            centre
+        } else {
+            let steps = grid.flood(&[some], open);
+            let far = cells.iter().copied().max_by_key(|&cell| (steps[cell], cell));
+            far.unwrap_or(some)
+        };
+        // Not the very end, and not a dead end with a thing to be dodged.
+        let near: Vec<usize> = cells.into_iter().filter(|&cell| grid.manhattan(cell, target) <= 1).collect();
+        if near.is_empty() { some } else { *self.sampler.choose(&near) }
+    }
+
+    /// As many keys as the locks that were placed need, each before its lock.
+    fn keys(&mut self, gates: &[SpriteType]) {
+        let placed = self.log.iter().map(|(_, stype)| *stype);
+        let exits: Vec<SpriteType> = placed.filter(|&stype| self.role(stype) == Role::Exit).collect();
+        let keyed = plan::furnishable(self.analysis, self.palette, Role::Key);
+        // Keys that are locked themselves, and what is opened from afar, count as locked things too.
+        let chained: Vec<SpriteType> = self
+            .analysis
+            .locks()
+            .iter()
+            .map(|lock| lock.stype)
+            .filter(|stype| self.analysis.facts(*stype).is_resource || self.role(*stype) == Role::Spawner)
+            .collect();
+        let mut needs: Vec<(Vec<(SpriteType, i32)>, i32)> = Vec::new();
+        for &stype in gates.iter().chain(&exits).chain(&chained) {
+            let Some(lock) = self.lock_of(stype).cloned() else { continue };
+            let amount = match lock.key {
+                Key::Resource { amount, .. } => amount.max(1),
+                Key::Avatar(_) | Key::Switch(..) => 1,
+            };
+            let adds = matches!(lock.key, Key::Resource { spent: true, .. });
+            match needs.iter_mut().find(|(givers, _)| *givers == lock.givers) {
+                Some((_, total)) if adds => *total += amount,
+                Some((_, total)) => *total = (*total).max(amount),
+                None => needs.push((lock.givers, amount)),
+            }
+        }
+        for (givers, needed) in needs {
+            let givers: Vec<(SpriteType, i32)> = givers
+                .into_iter()
+                .filter(|(giver, _)| {
+                    self.palette.symbol(*giver).is_some() && !self.palette.ground.contains(giver)
+                })
+                .collect();
+            if givers.is_empty() {
+                continue;
+            }
+            let spare = if needed > 3 {
+                3.0 * (1.0 - self.difficulty()) + 1.0
+            } else {
+                0.8 * (1.0 - self.difficulty())
+            };
+            let spare = plan::round(spare, &mut self.sampler) as i32;
+            let mut left = needed + if keyed.is_empty() { 0 } else { spare };
+            while left > 0 {
+                let (giver, amount) = *self.sampler.choose(&givers);
+                let held = self.board.count(self.analysis, giver);
+                if self.analysis.facts(giver).singleton && held > 0 || self.place_key(giver).is_none() {
+                    break;
+                }
+                left -= amount.max(1);
+            }
+        }
+    }
+
+    /// A key goes before the gates that it opens: into zone 0, or behind a gate of another kind.
+    fn place_key(&mut self, giver: SpriteType) -> Option<usize> {
+        let steps = self.steps();
+        let radius = self.radius(&steps);
+        // The zones of gates that this key opens, and those placed before them, whose keys may lie behind.
+        let own = self.log.iter().filter_map(|&(cell, stype)| {
+            let opened = self.lock_of(stype)?.givers.iter().any(|(key, _)| *key == giver);
+            (opened && self.role(stype) == Role::Gate).then_some(self.board.zone[cell])
+        });
+        let first = own.min().unwrap_or(u8::MAX);
+        self.put_where(giver, |builder, cell| {
+            let zone = builder.board.zone[cell];
+            // Zones are numbered outwards: what lies behind a later gate is opened with a later gate's key.
+            let before = zone == 0 || (zone > first && first != u8::MAX);
+            let weight = builder.weigh(cell, giver, Role::Key, &steps, radius);
+            if !before {
+                0
+            } else if zone > 0 {
+                4 * weight.max(1)
+            } else {
+                weight
+            }
+        })
+    }
+
+    /// Walls of other kinds than the structure: a few, as obstacles.
+    pub(crate) fn other_walls(&mut self) {
+        let structure = self.palette.wall;
+        let types = plan::furnishable(self.analysis, self.palette, Role::Wall);
+        for stype in types {
+            let symbol = self.palette.symbol(stype);
+            if symbol == structure {
+                continue;
+            }
+            let count = plan::round(self.board.area() as f64 * 0.03, &mut self.sampler);
+            for _ in 0..count {
+                let steps = self.steps();
+                let placed = self.put_where(stype, |builder, cell| {
+                    let near = builder.board.grid.manhattan(cell, builder.board.start) < 2;
+                    let free = !near && steps[cell] != FAR && !builder.cuts(cell, stype);
+                    if !free {
+                        0
+                    } else if builder.apart(cell, |other| other == stype) == 1 {
+                        6
+                    } else {
+                        1
+                    }
+                });
+                if placed.is_none() {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Where the ground itself eats up a resource, refills lie so close that no way is longer than the supply.
+    fn fuel(&mut self) {
+        let Some(start) = self.analysis.start_avatar() else { return };
+        for resource in self.analysis.resources() {
+            let drains = self.palette.ground.iter().map(|&under| {
+                let touch = self.analysis.touch(start.stype, under);
+                let gives = touch.gives.iter().filter(|(given, _)| *given == resource.stype);
+                gives.map(|(_, by)| -by).sum::<i32>()
+            });
+            let drain: i32 = drains.sum();
+            if drain <= 0 {
+                continue;
+            }
+            let range = (resource.limit.max(1) / drain) as f64 * (0.45 - 0.15 * self.difficulty());
+            let givers: Vec<SpriteType> = resource
+                .givers
+                .iter()
+                .map(|(giver, _)| *giver)
+                .filter(|giver| self.palette.symbol(*giver).is_some())
+                .collect();
+            for _ in 0..12 {
+                let open = |cell: usize| self.board.is_walkable(self.palette, cell);
+                let wells = |cell: &usize| {
+                    let symbol = self.board.placed[*cell];
+                    symbol.is_some_and(|symbol| {
+                        self.analysis.game().places(symbol).iter().any(|stype| givers.contains(stype))
+                    }) || *cell == self.board.start
+                };
+                let wells: Vec<usize> = (0..self.board.grid.len()).filter(wells).collect();
+                let steps = self.board.grid.flood(&wells, open);
+                let dry: Vec<usize> = self
+                    .board
+                    .free()
+                    .filter(|&cell| steps[cell] != FAR && f64::from(steps[cell]) > range)
+                    .collect();
+                if dry.is_empty() || givers.is_empty() {
+                    break;
+                }
+                let giver = *self.sampler.choose(&givers);
+                let cell = *self.sampler.choose(&dry);
+                self.put(cell, giver);
+            }
+        }
+    }
+
+    /// Fills most of what is left with soil, leaving burrows around what moves.
+    fn soil(&mut self) {
+        let types = plan::furnishable(self.analysis, self.palette, Role::Soil);
+        let Some(&stype) = types.first() else { return };
+        let burrow = |builder: &Self, cell: usize| {
+            builder.log.iter().any(|&(other, kind)| {
+                let moves =
+                    matches!(builder.analysis.facts(kind).motion, Motion::Wandering | Motion::Chasing(_));
+                moves && builder.board.grid.manhattan(cell, other) <= 2
+            })
+        };
+        let cells: Vec<usize> = self.board.free().collect();
+        for cell in cells {
+            if !burrow(self, cell) && self.sampler.ratio(78, 100) {
+                self.put(cell, stype);
+            }
+        }
+        // Nothing hangs over the avatar, or has nothing under it, from the start.
+        let falls: Vec<usize> = self
+            .log
+            .iter()
+            .filter(|(_, kind)| self.analysis.facts(*kind).motion == Motion::Straight(Direction::DOWN))
+            .map(|(cell, _)| *cell)
+            .collect();
+        for cell in falls {
+            let Some(under) = self.board.grid.shift(cell, (0, 1)) else { continue };
+            if self.board.is_free(under) && self.sampler.ratio(4, 5) {
+                self.put(under, stype);
+            }
+        }
+    }
+}

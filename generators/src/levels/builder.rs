@@ -1,0 +1,148 @@
+//! The tools for furnishing a board: putting sprites down where they make sense.
+
+use super::board::Board;
+use super::config::LevelConfig;
+use super::grid::{FAR, WAYS};
+use super::palette::{Palette, Walk};
+use engine::analysis::{Motion, Role};
+use engine::{Analysis, Direction, Sampler, SpriteType};
+
+/// A level in the making, with everything that a decision about it needs.
+pub(crate) struct Builder<'a> {
+    pub(crate) analysis: &'a Analysis,
+    pub(crate) palette: &'a Palette,
+    pub(crate) config: &'a LevelConfig,
+    pub(crate) sampler: Sampler,
+    pub(crate) board: Board,
+    /// What has been put where, in order.
+    pub(crate) log: Vec<(usize, SpriteType)>,
+}
+
+impl Builder<'_> {
+    /// Puts a sprite of the type on a cell.
+    pub(crate) fn put(&mut self, cell: usize, stype: SpriteType) {
+        self.board.placed[cell] = self.palette.symbol(stype);
+        self.log.push((cell, stype));
+    }
+
+    /// Puts the avatar down, one of those that levels can start with.
+    pub(crate) fn put_avatar(&mut self, cell: usize) {
+        let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
+        self.board.placed[cell] = Some(symbol);
+        self.board.start = cell;
+        self.log.push((cell, stype));
+    }
+
+    /// Draws a free cell by weight and puts the sprite there.
+    pub(crate) fn put_where(
+        &mut self,
+        stype: SpriteType,
+        weight: impl Fn(&Self, usize) -> u32,
+    ) -> Option<usize> {
+        let cells: Vec<usize> = self.board.free().collect();
+        let weights: Vec<u32> = cells.iter().map(|&cell| weight(self, cell)).collect();
+        let cell = cells[self.sampler.weighted(&weights)?];
+        self.put(cell, stype);
+        Some(cell)
+    }
+
+    pub(crate) fn difficulty(&self) -> f64 {
+        self.config.difficulty
+    }
+
+    pub(crate) fn role(&self, stype: SpriteType) -> Role {
+        self.analysis.role(stype)
+    }
+
+    /// Steps from the avatar's start.
+    pub(crate) fn steps(&self) -> Vec<u32> {
+        self.board.steps(self.palette)
+    }
+
+    /// Cells without obstacles to the nearest sprite that `like` accepts; large if there is none.
+    pub(crate) fn apart(&self, cell: usize, like: impl Fn(SpriteType) -> bool) -> usize {
+        let distances = self.log.iter().filter(|(_, stype)| like(*stype));
+        distances.map(|(other, _)| self.board.grid.manhattan(cell, *other)).min().unwrap_or(99)
+    }
+
+    /// The same for sprites of a role.
+    pub(crate) fn apart_from(&self, cell: usize, role: Role) -> usize {
+        self.apart(cell, |stype| self.analysis.role(stype) == role)
+    }
+
+    /// Whether a sprite of the type, put here, would stand in the way and cut off cells.
+    pub(crate) fn cuts(&self, cell: usize, stype: SpriteType) -> bool {
+        let in_the_way = self
+            .palette
+            .symbol(stype)
+            .is_some_and(|symbol| !matches!(self.palette.walk(symbol), Walk::Open | Walk::Breakable));
+        in_the_way && self.board.would_cut(self.palette, cell)
+    }
+
+    /// Cells ahead of `cell` in a direction, up to the next wall or obstacle.
+    pub(crate) fn run(&self, cell: usize, way: (i32, i32)) -> usize {
+        let mut length = 0;
+        let mut at = cell;
+        while let Some(next) = self.board.grid.shift(at, way) {
+            let blocked = self.board.wall[next]
+                || self.board.placed[next].is_some_and(|symbol| {
+                    matches!(self.palette.walk(symbol), Walk::Blocked | Walk::Locked(_) | Walk::Pushed)
+                });
+            if blocked {
+                break;
+            }
+            length += 1;
+            at = next;
+        }
+        length
+    }
+
+    /// Whether nothing stands between `cell` and the avatar's start, ahead in a direction.
+    pub(crate) fn aims_at_start(&self, cell: usize, way: (i32, i32)) -> bool {
+        let grid = self.board.grid;
+        let (dx, dy) = (
+            grid.x(self.board.start) as i32 - grid.x(cell) as i32,
+            grid.y(self.board.start) as i32 - grid.y(cell) as i32,
+        );
+        let ahead = if way.0 != 0 { dy == 0 && dx * way.0 > 0 } else { dx == 0 && dy * way.1 > 0 };
+        ahead && self.run(cell, way) >= (dx.abs() + dy.abs()) as usize
+    }
+
+    /// Where a type moves or shoots by itself, straight ahead.
+    pub(crate) fn heading(&self, stype: SpriteType) -> Option<(i32, i32)> {
+        if let Motion::Straight(direction) = self.analysis.facts(stype).motion {
+            return way(direction);
+        }
+        self.analysis.launches(stype).and_then(|(_, direction)| way(direction))
+    }
+
+    /// How far from the avatar's start something that can harm it should stand, in cells.
+    pub(crate) fn respect(&self, stype: SpriteType) -> usize {
+        let facts = self.analysis.facts(stype);
+        let near = match facts.motion {
+            Motion::Still => 2.0,
+            Motion::Chasing(_) => 3.0 + 11.0 * facts.pace,
+            Motion::Straight(_) => 4.0,
+            _ => 3.0 + 4.0 * facts.pace,
+        };
+        // Hard levels are not unfair ones: the distance shrinks by a fifth at most.
+        let near = near * (1.1 - 0.2 * self.difficulty());
+        let room = (self.board.grid.columns + self.board.grid.rows) as f64 * 0.45;
+        near.min(room) as usize
+    }
+
+    /// The farthest steps that are reached.
+    pub(crate) fn radius(&self, steps: &[u32]) -> u32 {
+        steps.iter().copied().filter(|&steps| steps != FAR).max().unwrap_or(0).max(1)
+    }
+}
+
+/// A direction along an axis as a step.
+pub(crate) fn way(direction: Direction) -> Option<(i32, i32)> {
+    WAYS.into_iter().find(|&(x, y)| direction == Direction { x: f64::from(x), y: f64::from(y) })
+}
+
+/// The other way round.
+pub(crate) fn back((x, y): (i32, i32)) -> (i32, i32) {
+    (-x, -y)
+}

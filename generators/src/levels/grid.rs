@@ -1,0 +1,170 @@
+//! The board as a graph of cells. A cell is its row-major index.
+
+use std::collections::VecDeque;
+
+/// One step up, left, down or right: (columns, rows).
+pub(crate) const WAYS: [(i32, i32); 4] = [(0, -1), (-1, 0), (0, 1), (1, 0)];
+/// The eight cells around a cell, clockwise from the top.
+const AROUND: [(i32, i32); 8] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
+/// Not reached.
+pub(crate) const FAR: u32 = u32::MAX;
+
+/// The size of a board.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Grid {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+}
+
+impl Grid {
+    pub(crate) fn len(self) -> usize {
+        self.columns * self.rows
+    }
+
+    pub(crate) fn at(self, x: usize, y: usize) -> usize {
+        y * self.columns + x
+    }
+
+    pub(crate) fn x(self, cell: usize) -> usize {
+        cell % self.columns
+    }
+
+    pub(crate) fn y(self, cell: usize) -> usize {
+        cell / self.columns
+    }
+
+    /// The cell so far away, if it is on the board.
+    pub(crate) fn shift(self, cell: usize, (dx, dy): (i32, i32)) -> Option<usize> {
+        let x = usize::try_from(self.x(cell) as i32 + dx).ok().filter(|&x| x < self.columns)?;
+        let y = usize::try_from(self.y(cell) as i32 + dy).ok().filter(|&y| y < self.rows)?;
+        Some(self.at(x, y))
+    }
+
+    /// The up to four cells beside a cell.
+    pub(crate) fn beside(self, cell: usize) -> impl Iterator<Item = usize> {
+        WAYS.into_iter().filter_map(move |way| self.shift(cell, way))
+    }
+
+    /// The eight cells around a cell, clockwise from the top; none: off the board.
+    pub(crate) fn around(self, cell: usize) -> [Option<usize>; 8] {
+        AROUND.map(|shift| self.shift(cell, shift))
+    }
+
+    pub(crate) fn on_border(self, cell: usize) -> bool {
+        let (x, y) = (self.x(cell), self.y(cell));
+        x == 0 || y == 0 || x + 1 == self.columns || y + 1 == self.rows
+    }
+
+    /// Steps between two cells without obstacles.
+    pub(crate) fn manhattan(self, one: usize, two: usize) -> usize {
+        self.x(one).abs_diff(self.x(two)) + self.y(one).abs_diff(self.y(two))
+    }
+
+    /// Steps from the nearest of `from` to every cell through open cells; [`FAR`] where there is no way. The cells of
+    /// `from` need not be open. Cost: O(cells).
+    pub(crate) fn flood(self, from: &[usize], open: impl Fn(usize) -> bool) -> Vec<u32> {
+        let mut steps = vec![FAR; self.len()];
+        let mut queue: VecDeque<usize> = from.iter().copied().collect();
+        for &cell in from {
+            steps[cell] = 0;
+        }
+        while let Some(cell) = queue.pop_front() {
+            for next in self.beside(cell) {
+                if steps[next] == FAR && open(next) {
+                    steps[next] = steps[cell] + 1;
+                    queue.push_back(next);
+                }
+            }
+        }
+        steps
+    }
+
+    /// A shortest way from `from` to `to` through open cells, both ends included. Cost: O(cells).
+    pub(crate) fn way(self, from: usize, to: usize, open: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
+        let steps = self.flood(&[to], |cell| cell == from || open(cell));
+        let mut way = vec![from];
+        let mut cell = from;
+        while cell != to {
+            if steps[cell] == FAR {
+                return None;
+            }
+            cell = self.beside(cell).find(|&next| steps[next] < steps[cell])?;
+            way.push(cell);
+        }
+        Some(way)
+    }
+
+    /// The open cells in groups that hang together, largest first (by their first cells if equal). Cost: O(cells).
+    pub(crate) fn regions(self, open: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+        let mut seen = vec![false; self.len()];
+        let mut regions: Vec<Vec<usize>> = Vec::new();
+        for start in 0..self.len() {
+            if seen[start] || !open(start) {
+                continue;
+            }
+            seen[start] = true;
+            let mut region = vec![start];
+            let mut next = 0;
+            while next < region.len() {
+                for beside in self.beside(region[next]) {
+                    if !seen[beside] && open(beside) {
+                        seen[beside] = true;
+                        region.push(beside);
+                    }
+                }
+                next += 1;
+            }
+            region.sort_unstable();
+            regions.push(region);
+        }
+        regions.sort_by_key(|region| std::cmp::Reverse(region.len()));
+        regions
+    }
+
+    /// Whether the open cells beside `cell` would fall apart without it. Cost: O(1) mostly, else O(cells).
+    pub(crate) fn is_cut(self, cell: usize, open: impl Fn(usize) -> bool) -> bool {
+        let beside: Vec<usize> = self.beside(cell).filter(|&next| open(next)).collect();
+        if beside.len() < 2 {
+            return false;
+        }
+        // Runs of open cells around the cell that touch it with a side: with one run, all are connected around it.
+        let around = self.around(cell).map(|next| next.is_some_and(&open));
+        let runs = (0..8).filter(|&at| around[at] && !around[(at + 7) % 8]).filter(|&at| {
+            let run = (0..8).map(|more| (at + more) % 8).take_while(|&place| around[place]);
+            run.into_iter().any(|place| place % 2 == 0)
+        });
+        if runs.count() < 2 {
+            return false;
+        }
+        let steps = self.flood(&beside[..1], |next| next != cell && open(next));
+        beside.iter().any(|&next| steps[next] == FAR)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn open(text: &str) -> (Grid, Vec<bool>) {
+        let columns = text.split('\n').next().map_or(0, str::len);
+        let cells: Vec<bool> = text.bytes().filter(|&c| c != b'\n').map(|c| c == b'.').collect();
+        (Grid { columns, rows: cells.len() / columns }, cells)
+    }
+
+    #[test]
+    fn a_cell_cuts_if_there_is_no_other_way() {
+        let (grid, cells) = open("...\n#.#\n...");
+        assert!(grid.is_cut(grid.at(1, 1), |cell| cells[cell]));
+        assert!(!grid.is_cut(grid.at(0, 0), |cell| cells[cell]));
+        let (ring, cells) = open("...\n.#.\n...");
+        assert!(!ring.is_cut(ring.at(1, 0), |cell| cells[cell]));
+    }
+
+    #[test]
+    fn ways_are_shortest() {
+        let (grid, cells) = open("...\n.#.\n...");
+        let way = grid.way(0, 8, |cell| cells[cell]).unwrap();
+        assert_eq!((way.len(), way[0], way[4]), (5, 0, 8));
+        assert_eq!(grid.regions(|cell| !cells[cell]), [vec![4]]);
+    }
+}

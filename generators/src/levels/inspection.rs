@@ -1,0 +1,123 @@
+//! The last look at a board, and the playing through of puzzles.
+
+use super::board::Board;
+use super::constructive::{ConstructiveLevels, Made};
+use engine::analysis::{Reason, Role, Steering};
+use engine::{Action, Level, Outcome, Seed, State};
+
+/// Ticks that a player who does nothing should live through.
+const GRACE: usize = 12;
+/// Futures in which that is tried.
+const FUTURES: u64 = 3;
+
+impl ConstructiveLevels<'_> {
+    /// Whether a board makes a level; and whether the player has time to look around.
+    pub(super) fn inspect(&self, made: &Made, seed: Seed) -> Result<(Level, bool), String> {
+        let board = &made.board;
+        let text = board.text(&self.palette);
+        let level = self.game.level(&text).map_err(|problems| problems.to_string())?;
+        let state = self.game.start(&level, seed);
+        if let Some(goal) = self.analysis.goal_met(&state) {
+            return Err(format!("termination {} holds at the start", goal.line + 1));
+        }
+        if made.played {
+            return Ok((level, self.is_survivable(&state, seed)));
+        }
+        let cells = board.grid.len();
+        let reach = board.reach(&self.analysis, &self.palette);
+        let near = |cell: usize| reach[cell] || board.grid.beside(cell).any(|next| reach[next]);
+        let missing = (0..cells).find(|&cell| {
+            let goal = board.placed[cell].is_some_and(|symbol| self.is_goal(symbol));
+            goal && !near(cell)
+        });
+        if let Some(cell) = missing {
+            return Err(format!("what is at row {} cannot be reached", board.grid.y(cell) + 1));
+        }
+        let short = self.analysis.requirements().iter().any(|requirement| {
+            let count = |stype: &engine::SpriteType| board.count(&self.analysis, *stype);
+            let lock = match requirement.reason {
+                Reason::Lock(stype) => {
+                    let locks = matches!(self.analysis.role(stype), Role::Gate | Role::Exit);
+                    locks && board.count(&self.analysis, stype) > 0
+                }
+                Reason::Portal(stype) => board.count(&self.analysis, stype) > 0,
+                Reason::Means(_) | Reason::Avatar | Reason::Goal(_) => false,
+            };
+            let ground = requirement.types.iter().any(|stype| self.palette.ground.contains(stype));
+            lock && !ground
+                && requirement.types.iter().map(count).sum::<usize>() < requirement.at_least as usize
+        });
+        if short {
+            return Err("there are too few keys for a lock".to_owned());
+        }
+        Ok((level, self.is_survivable(&state, seed)))
+    }
+
+    /// Whether a character places something that a win asks the avatar to touch.
+    fn is_goal(&self, symbol: u8) -> bool {
+        let horizontal = self
+            .analysis
+            .start_avatar()
+            .is_some_and(|avatar| matches!(avatar.steering, Steering::Horizontal | Steering::Vertical));
+        !horizontal
+            && self.game.places(symbol).iter().any(|&stype| {
+                let role = self.analysis.role(stype);
+                let wanted = self.analysis.aims().remove.contains(&stype);
+                role == Role::Exit || (wanted && matches!(role, Role::Collectable | Role::Prey))
+            })
+    }
+
+    /// Whether doing nothing loses in none of a few futures before the grace is over.
+    fn is_survivable(&self, state: &State, seed: Seed) -> bool {
+        (0..FUTURES).all(|future| {
+            let mut state = state.fork(seed.child("future", future));
+            (0..GRACE).all(|_| {
+                !matches!(self.game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_))
+            })
+        })
+    }
+
+    /// Plays steps of the avatar on a board; the actions, if they win, or can be played at all if they need not win. An
+    /// avatar that turns before it moves gets the time.
+    pub(super) fn play(
+        &self,
+        board: &Board,
+        ways: &[(i32, i32)],
+        wins: bool,
+        seed: Seed,
+    ) -> Option<Vec<Action>> {
+        let level = self.game.level(&board.text(&self.palette)).ok()?;
+        let mut state = self.game.start(&level, seed);
+        let mut actions = Vec::new();
+        let place = |state: &State| {
+            let avatar = state.avatar_id()?;
+            let record = self.game.records(state).into_iter().find(|record| record.id == avatar)?;
+            Some((record.rect.x, record.rect.y))
+        };
+        for &step in ways {
+            let action = match step {
+                (0, -1) => Action::Up,
+                (-1, 0) => Action::Left,
+                (0, 1) => Action::Down,
+                _ => Action::Right,
+            };
+            let before = place(&state)?;
+            let aim = (before.0 + step.0 * state.block(), before.1 + step.1 * state.block());
+            for _ in 0..4 {
+                actions.push(action);
+                match self.game.step(&mut state, action) {
+                    Outcome::Won => return Some(actions),
+                    Outcome::Ongoing => {}
+                    _ => return None,
+                }
+                if place(&state)? == aim {
+                    break;
+                }
+            }
+            if place(&state)? != aim {
+                return None;
+            }
+        }
+        (!wins).then_some(actions)
+    }
+}

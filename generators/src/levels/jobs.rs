@@ -1,0 +1,194 @@
+//! What is to be done with pushed things in a game: which go where, what that opens, what then remains to be visited.
+
+use super::palette::{Palette, Walk};
+use super::plan::{furnishable, round};
+use engine::analysis::{Fate, Key, Pushable, Role, Sink, Steering};
+use engine::{Analysis, Sampler, SpriteType};
+
+/// Push a sprite onto a partner.
+#[derive(Clone, Debug)]
+pub(crate) struct Job {
+    pub(crate) pushed: SpriteType,
+    pub(crate) partner: SpriteType,
+    /// The partner is pushed too, and both go.
+    pub(crate) merges: bool,
+    /// The pushed sprite, or what it turns into, remains there.
+    pub(crate) stays: bool,
+    /// The partner goes.
+    pub(crate) fills: bool,
+    /// The avatar can walk over the partner.
+    pub(crate) walkable: bool,
+}
+
+/// The plan of a level with pushed things.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Jobs {
+    /// What to push onto what, in order.
+    pub(crate) jobs: Vec<Job>,
+    /// The last job bridges the way to what is to be visited.
+    pub(crate) bridge: bool,
+    /// A door that the last job opens.
+    pub(crate) door: Option<SpriteType>,
+    /// Things to push that are merely in the way, with their types.
+    pub(crate) loose: Vec<SpriteType>,
+    /// What the avatar has to touch at last, in order: keys, then exits and goods.
+    pub(crate) visits: Vec<SpriteType>,
+    /// Nothing else is needed for a win.
+    pub(crate) is_all: bool,
+}
+
+impl Jobs {
+    /// None if pushed things play no such part in the game.
+    pub(crate) fn draw(
+        analysis: &Analysis,
+        palette: &Palette,
+        area: usize,
+        difficulty: f64,
+        sampler: &mut Sampler,
+    ) -> Option<Jobs> {
+        let start = analysis.start_avatar()?;
+        palette.wall?;
+        let pushed = |pushable: &&Pushable| {
+            palette.symbol(pushable.stype).is_some() && analysis.touch(start.stype, pushable.stype).pushes
+        };
+        let placed: Vec<&Pushable> = analysis.pushables().iter().filter(pushed).collect();
+        if start.steering != Steering::FourWay || placed.is_empty() {
+            return None;
+        }
+        let mut options: Vec<Job> = Vec::new();
+        for pushable in &placed {
+            let sinks = pushable.sinks.iter().filter(|sink| is_fair(analysis, palette, sink));
+            options.extend(sinks.map(|sink| job(analysis, palette, pushable.stype, sink)));
+        }
+        let remove = &analysis.aims().remove;
+        let counts = |job: &&Job| remove.contains(&job.pushed) || remove.contains(&job.partner);
+        let mut plan = Jobs::default();
+        let wanted: Vec<Job> = options.iter().filter(counts).cloned().collect();
+        let most = (area / 14).clamp(1, 6);
+        if wanted.is_empty() {
+            plan.visits = visits(analysis, palette);
+            if plan.visits.is_empty() || !analysis.is_turn_based() && options.iter().all(|job| !bridges(job))
+            {
+                return None;
+            }
+            let pushed: Vec<SpriteType> = placed.iter().map(|pushable| pushable.stype).collect();
+            plan.bar(analysis, palette, &options, sampler, difficulty);
+            let crowd = if plan.jobs.is_empty() { 0.1 + 0.08 * difficulty } else { 0.03 * difficulty };
+            for _ in 0..round(area as f64 * crowd, sampler) {
+                plan.loose.push(*sampler.choose(&pushed));
+            }
+        } else {
+            let count = (2 + round(0.3 + 2.4 * difficulty, sampler)).min(most.max(2));
+            plan.removals(&wanted, remove, count, sampler);
+            plan.visits = visits(analysis, palette);
+        }
+        let placed = |stype: &&SpriteType| palette.symbol(**stype).is_some();
+        let done = |stype: &SpriteType| {
+            plan.visits.contains(stype)
+                || plan.jobs.iter().any(|job| job.pushed == *stype || job.partner == *stype)
+        };
+        plan.is_all = remove.iter().filter(placed).all(done);
+        Some(plan)
+    }
+
+    /// Every type that must go gets its jobs.
+    fn removals(&mut self, wanted: &[Job], remove: &[SpriteType], count: usize, sampler: &mut Sampler) {
+        let mut types: Vec<SpriteType> = wanted.iter().map(|job| job.pushed).collect();
+        types.sort_unstable();
+        types.dedup();
+        sampler.shuffle(&mut types);
+        for at in 0..count.max(types.len().min(3)) {
+            let stype = types[at % types.len()];
+            let own: Vec<&Job> = wanted.iter().filter(|job| job.pushed == stype).collect();
+            if let Some(job) = own.get(sampler.below(own.len().max(1))) {
+                self.jobs.push((*job).clone());
+            }
+        }
+        // Two that merge are two of what must go: fewer jobs do.
+        let pairs = self.jobs.iter().filter(|job| job.merges && remove.contains(&job.partner)).count();
+        self.jobs.truncate(self.jobs.len() - pairs / 2);
+        sampler.shuffle(&mut self.jobs);
+    }
+
+    /// A door that pushing opens, or a ditch that it fills, bars the way.
+    fn bar(
+        &mut self,
+        analysis: &Analysis,
+        palette: &Palette,
+        options: &[Job],
+        sampler: &mut Sampler,
+        difficulty: f64,
+    ) {
+        let switches: Vec<(SpriteType, &Job)> = analysis
+            .locks()
+            .iter()
+            .filter_map(|lock| {
+                let Key::Switch(partner, Some(pushed)) = lock.key else { return None };
+                palette.symbol(lock.stype)?;
+                let fits = |job: &&Job| job.partner == partner && job.pushed == pushed;
+                options.iter().find(fits).map(|job| (lock.stype, job))
+            })
+            .collect();
+        if !switches.is_empty() {
+            let (door, job) = sampler.choose(&switches);
+            self.door = Some(*door);
+            self.jobs.push((*job).clone());
+        } else {
+            let bridging: Vec<&Job> = options.iter().filter(|job| bridges(job)).collect();
+            if !bridging.is_empty() {
+                let extra = round(1.6 * difficulty, sampler);
+                for _ in 0..=extra {
+                    self.jobs.push((*sampler.choose(&bridging)).clone());
+                }
+                self.bridge = true;
+            }
+        }
+    }
+}
+
+/// The partner can be placed, and pushing onto it spoils nothing.
+fn is_fair(analysis: &Analysis, palette: &Palette, sink: &Sink) -> bool {
+    let aims = analysis.aims();
+    let spoils =
+        matches!(sink.fate, Fate::Becomes(to) if aims.prevent.contains(&to) || aims.remove.contains(&to));
+    let placed = palette.symbol(sink.partner).is_some() && !palette.ground.contains(&sink.partner);
+    let still =
+        matches!(analysis.role(sink.partner), Role::Socket | Role::Pushable | Role::Hazard | Role::Prey);
+    placed && still && !spoils && !aims.protect.contains(&sink.partner)
+}
+
+fn job(analysis: &Analysis, palette: &Palette, pushed: SpriteType, sink: &Sink) -> Job {
+    let walk = palette.symbol(sink.partner).map_or(Walk::Open, |symbol| palette.walk(symbol));
+    Job {
+        pushed,
+        partner: sink.partner,
+        merges: analysis.role(sink.partner) == Role::Pushable,
+        stays: sink.fate != Fate::Goes,
+        fills: sink.fills,
+        walkable: walk == Walk::Open,
+    }
+}
+
+/// Filling the partner makes a way.
+fn bridges(job: &Job) -> bool {
+    job.fills && !job.stays && !job.merges && !job.walkable
+}
+
+/// Keys of locked exits, then exits; else the goods that count for a win.
+fn visits(analysis: &Analysis, palette: &Palette) -> Vec<SpriteType> {
+    let exits = furnishable(analysis, palette, Role::Exit);
+    let mut visits: Vec<SpriteType> = Vec::new();
+    for &exit in exits.iter().take(1) {
+        if let Some(lock) = analysis.locks().iter().find(|lock| lock.stype == exit) {
+            let keys =
+                lock.givers.iter().map(|(giver, _)| *giver).filter(|&giver| palette.symbol(giver).is_some());
+            visits.extend(keys.take(1));
+        }
+        visits.push(exit);
+    }
+    if exits.is_empty() {
+        let goods = furnishable(analysis, palette, Role::Collectable).into_iter();
+        visits.extend(goods.filter(|stype| analysis.aims().remove.contains(stype)).take(1));
+    }
+    visits
+}

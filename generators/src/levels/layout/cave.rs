@@ -1,0 +1,43 @@
+//! Caves by cellular automata (Johnson, Yannakakis and Togelius 2010, "Cellular automata for real-time generation of
+//! infinite cave levels").
+
+use crate::levels::grid::Grid;
+use engine::Sampler;
+
+/// Rounds of smoothing.
+const ROUNDS: usize = 3;
+
+/// Draws caves, ever more open, until one region holds most of the inside.
+pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
+    let border: Vec<bool> = wall.to_vec();
+    let inside = border.iter().filter(|&&wall| !wall).count();
+    for fill in [42, 40, 38, 36, 32, 28, 20, 10] {
+        let mut cells: Vec<bool> = border.iter().map(|&wall| wall || sampler.ratio(fill, 100)).collect();
+        for _ in 0..ROUNDS {
+            let smooth = |cell: usize| {
+                // What lies outside counts as rock only if the board is closed.
+                let rock =
+                    grid.around(cell).iter().filter(|next| next.map_or(ring, |next| cells[next])).count();
+                rock >= 5 || (cells[cell] && rock >= 4)
+            };
+            let next: Vec<bool> = (0..grid.len()).map(|cell| border[cell] || smooth(cell)).collect();
+            cells = next;
+        }
+        roughen(grid, &border, sampler, &mut cells);
+        let regions = grid.regions(|cell| !cells[cell]);
+        if regions.first().is_some_and(|largest| largest.len() * 100 >= inside * 55) {
+            wall.copy_from_slice(&cells);
+            return;
+        }
+    }
+}
+
+/// Single rocks where the cave is widest, so that large halls have something to walk around.
+fn roughen(grid: Grid, border: &[bool], sampler: &mut Sampler, cells: &mut [bool]) {
+    for cell in 0..grid.len() {
+        let clear = grid.around(cell).into_iter().all(|next| next.is_some_and(|next| !cells[next]));
+        if !border[cell] && clear && sampler.ratio(1, 4) {
+            cells[cell] = true;
+        }
+    }
+}

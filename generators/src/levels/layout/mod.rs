@@ -1,0 +1,79 @@
+//! Where the walls are: families of layouts, each connected, each drawn from a sampler.
+
+mod arena;
+mod cave;
+mod maze;
+mod rooms;
+
+use super::grid::Grid;
+use engine::Sampler;
+
+/// A way to lay out walls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Family {
+    /// Nothing but the border.
+    Field,
+    /// Open, with a few pieces of wall, often symmetrical.
+    Arena,
+    /// Single blocks in a loose grid.
+    Pillars,
+    /// Rooms with one door in each wall between them, a few with two.
+    Rooms,
+    /// A cave.
+    Cave,
+    /// Corridors of width 1 with a few loops; for boards of at least 7 by 7 cells.
+    Maze,
+}
+
+/// Draws walls. `ring`: the border is wall; `loops`: from 0.0 to 1.0, how many ways there are round. All cells without
+/// wall hang together.
+pub(crate) fn walls(family: Family, grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler) -> Vec<bool> {
+    let mut wall: Vec<bool> = (0..grid.len()).map(|cell| ring && grid.on_border(cell)).collect();
+    match family {
+        Family::Field => {}
+        Family::Arena => arena::pieces(grid, ring, sampler, &mut wall),
+        Family::Pillars => arena::pillars(grid, ring, sampler, &mut wall),
+        Family::Rooms => rooms::rooms(grid, ring, loops, sampler, &mut wall),
+        Family::Cave => cave::cave(grid, ring, sampler, &mut wall),
+        Family::Maze => maze::maze(grid, ring, loops, sampler, &mut wall),
+    }
+    keep_largest(grid, &mut wall);
+    wall
+}
+
+/// Fills every open region but the largest.
+fn keep_largest(grid: Grid, wall: &mut [bool]) {
+    for region in grid.regions(|cell| !wall[cell]).into_iter().skip(1) {
+        for cell in region {
+            wall[cell] = true;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Seed;
+
+    #[test]
+    fn open_cells_hang_together_and_are_many() {
+        let families =
+            [Family::Field, Family::Arena, Family::Pillars, Family::Rooms, Family::Cave, Family::Maze];
+        for (family, index) in families.into_iter().zip(0..) {
+            for seed in 0..60 {
+                let mut sampler =
+                    Seed::from_text("layout").child("family", index).child("seed", seed).sampler();
+                let least = if family == Family::Maze { 7 } else { 4 };
+                let grid = Grid { columns: sampler.between(least, 20), rows: sampler.between(least, 14) };
+                let ring = sampler.ratio(2, 3);
+                let wall = walls(family, grid, ring, 0.3, &mut sampler);
+                assert_eq!(grid.regions(|cell| !wall[cell]).len(), 1, "{family:?} {grid:?}");
+                let inner = if ring { (grid.columns - 2) * (grid.rows - 2) } else { grid.len() };
+                let open = wall.iter().filter(|&&wall| !wall).count();
+                assert!(open * 10 >= inner * 3, "{family:?} {grid:?} {open} of {inner}");
+                let border = (0..grid.len()).filter(|&cell| grid.on_border(cell));
+                assert!(!ring || border.into_iter().all(|cell| wall[cell]), "{family:?} {grid:?}");
+            }
+        }
+    }
+}

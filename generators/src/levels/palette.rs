@@ -1,0 +1,243 @@
+//! Which level character stands for what: the empty cell, the wall, and one character for every sprite type.
+
+use engine::analysis::{Deed, Harm, Lock, Motion, Removal, Role};
+use engine::{Analysis, SpriteType};
+
+/// What a level character means for walking, to the avatar as it starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Walk {
+    /// It can be entered.
+    Open,
+    /// It cannot.
+    Blocked,
+    /// It can be shot away first.
+    Breakable,
+    /// It is pushed.
+    Pushed,
+    /// It kills or wounds.
+    Deadly,
+    /// It is locked: an index into the analysis' locks.
+    Locked(usize),
+}
+
+/// The characters to build with.
+#[derive(Clone, Debug)]
+pub(crate) struct Palette {
+    /// For cells with nothing in them.
+    pub(crate) base: u8,
+    /// What the empty cell holds.
+    pub(crate) ground: Vec<SpriteType>,
+    /// For walls, if the game has any that structure a board.
+    pub(crate) wall: Option<u8>,
+    /// Without a ring of walls, something could leave the board.
+    pub(crate) ring: bool,
+    /// For avatars: those that place the least beside one.
+    pub(crate) avatars: Vec<(SpriteType, u8)>,
+    /// The best character for each type, without an avatar; by type.
+    symbols: Vec<Option<u8>>,
+    /// By character.
+    walk: Vec<Walk>,
+}
+
+impl Palette {
+    /// None if no character places exactly one avatar.
+    pub(crate) fn of(analysis: &Analysis) -> Option<Palette> {
+        let avatars = avatars(analysis)?;
+        let start = avatars[0].0;
+        let base = base(analysis, start, avatars[0].1);
+        let ground = analysis.game().places(base).to_vec();
+        let symbols: Vec<Option<u8>> =
+            analysis.game().sprite_types().map(|stype| best(analysis, stype, &ground)).collect();
+        let wall_type = wall(analysis, &symbols);
+        let wall = wall_type.and_then(|stype| symbols[stype.index()]);
+        let walk = (0..128).map(|symbol| walk(analysis, start, &ground, symbol)).collect();
+        Some(Palette {
+            base,
+            ground,
+            wall,
+            ring: wall.is_some() && leaves_board(analysis),
+            avatars,
+            symbols,
+            walk,
+        })
+    }
+
+    /// The character that places a type, and little else.
+    pub(crate) fn symbol(&self, stype: SpriteType) -> Option<u8> {
+        self.symbols[stype.index()]
+    }
+
+    /// What a character means for walking.
+    pub(crate) fn walk(&self, symbol: u8) -> Walk {
+        self.walk.get(usize::from(symbol)).copied().unwrap_or(Walk::Open)
+    }
+}
+
+/// The avatar characters, those with the fewest other sprites; several only if they place different avatars.
+fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
+    let game = analysis.game();
+    let is_avatar = |stype: SpriteType| game.class(stype).is_some_and(|class| class.is_avatar());
+    let mut found: Vec<(usize, SpriteType, u8)> = Vec::new();
+    for avatar in analysis.avatars().iter().filter(|avatar| avatar.starts) {
+        for &symbol in &analysis.facts(avatar.stype).symbols {
+            let places = game.places(symbol);
+            if places.iter().filter(|&&stype| is_avatar(stype)).count() == 1 {
+                let others = places.iter().filter(|&&stype| analysis.role(stype) > Role::Avatar);
+                let extra = others.filter(|&&stype| analysis.role(stype) != Role::Floor).count();
+                found.push((extra, avatar.stype, symbol));
+            }
+        }
+    }
+    let least = found.iter().map(|(extra, _, _)| *extra).min()?;
+    let mut list: Vec<(SpriteType, u8)> = Vec::new();
+    for (_, stype, symbol) in found.into_iter().filter(|(extra, _, _)| *extra == least) {
+        if list.iter().all(|(known, _)| *known != stype) {
+            list.push((stype, symbol));
+        }
+    }
+    Some(list)
+}
+
+/// The character of the empty cell. First choice: floor that the avatar stands on too; then `.`, if that is harmless
+/// enough to be walked on; then exactly what the avatar stands on; then a blank.
+fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
+    let game = analysis.game();
+    let under: Vec<SpriteType> =
+        game.places(avatar_symbol).iter().copied().filter(|&stype| stype != avatar).collect();
+    let symbols = (b'!'..=b'~').filter(|&symbol| !game.places(symbol).is_empty());
+    let symbols: Vec<u8> = symbols.filter(|&symbol| !holds_avatar(analysis, symbol)).collect();
+    let inert = |symbol: &&u8| {
+        let mut types = game.places(**symbol).iter();
+        types.all(|&stype| analysis.role(stype) == Role::Floor && under.contains(&stype))
+    };
+    let fewest = |symbol: &&u8| (game.places(**symbol).len(), **symbol != b'.', **symbol);
+    if let Some(&symbol) = symbols.iter().filter(inert).min_by_key(fewest) {
+        return symbol;
+    }
+    let dot = game.places(b'.');
+    let bearable = |stype: &SpriteType| {
+        let touch = analysis.touch(avatar, *stype);
+        let still = analysis.facts(*stype).motion == Motion::Still;
+        let harmless = touch.harm <= Harm::Conditional && !touch.blocks && !touch.pushes;
+        let role = analysis.role(*stype);
+        still && harmless && !matches!(role, Role::Exit | Role::Key | Role::Spawner | Role::Soil)
+    };
+    if !under.is_empty() && !dot.is_empty() && dot.iter().all(bearable) {
+        return b'.';
+    }
+    let same = |symbol: &&u8| {
+        let mut types = game.places(**symbol).to_vec();
+        let mut wanted = under.clone();
+        types.sort_unstable();
+        wanted.sort_unstable();
+        types == wanted && types.iter().all(bearable)
+    };
+    symbols.iter().find(same).copied().unwrap_or(b' ')
+}
+
+pub(crate) fn holds_avatar(analysis: &Analysis, symbol: u8) -> bool {
+    let game = analysis.game();
+    game.places(symbol).iter().any(|&stype| game.class(stype).is_some_and(|class| class.is_avatar()))
+}
+
+/// The character for a type with the fewest other sprites, those of the ground apart.
+fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option<u8> {
+    let cost = |symbol: u8| {
+        let places = analysis.game().places(symbol);
+        let mut own = false;
+        let strange: usize = places
+            .iter()
+            .map(|&other| {
+                // The type itself, once.
+                if other == stype && !std::mem::replace(&mut own, true) {
+                    return 0;
+                }
+                match analysis.role(other) {
+                    _ if ground.contains(&other) => 0,
+                    Role::Floor => 1,
+                    Role::Refuge | Role::Neutral | Role::Cover => 2,
+                    _ => 4,
+                }
+            })
+            .sum();
+        let missing = ground.iter().filter(|under| !places.contains(under)).count();
+        (strange, missing, symbol)
+    };
+    let symbols = analysis.facts(stype).symbols.iter().copied();
+    symbols.filter(|&symbol| !holds_avatar(analysis, symbol)).min_by_key(|&symbol| cost(symbol))
+}
+
+/// The type that structures boards: of those that block the avatar always, the one that holds up the most others.
+fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
+    let moves = |stype: &SpriteType| {
+        let facts = analysis.facts(*stype);
+        let pushed = analysis.role(*stype) == Role::Pushable;
+        facts.possible && (facts.motion != Motion::Still || pushed)
+    };
+    let movers: Vec<SpriteType> = analysis.game().sprite_types().filter(moves).collect();
+    let candidates = analysis.game().sprite_types().filter(|&stype| {
+        let named = stype == SpriteType(0) && analysis.role(stype) == Role::Breakable;
+        symbols[stype.index()].is_some() && (analysis.role(stype) == Role::Wall || named)
+    });
+    let strength = |stype: SpriteType| {
+        let held = |mover: &&SpriteType| {
+            let ends = analysis.between(**mover, stype).any(|encounter| !encounter.deeds.is_empty());
+            analysis.blocks(stype, **mover) || ends
+        };
+        movers.iter().filter(held).count()
+    };
+    candidates.max_by_key(|&stype| (strength(stype), stype == SpriteType(0), std::cmp::Reverse(stype)))
+}
+
+/// Whether something that moves, or is pushed, meets no rule at the edge of the screen.
+fn leaves_board(analysis: &Analysis) -> bool {
+    analysis.game().sprite_types().any(|stype| {
+        let facts = analysis.facts(stype);
+        let pushed = analysis.role(stype) == Role::Pushable;
+        let moves = facts.motion != Motion::Still || pushed;
+        facts.possible && moves && !facts.fleeting && analysis.at_edge(stype).next().is_none()
+    })
+}
+
+/// What entering a cell with this character means; what lies everywhere does not count.
+fn walk(analysis: &Analysis, avatar: SpriteType, ground: &[SpriteType], symbol: u8) -> Walk {
+    let mut walk = Walk::Open;
+    for &stype in analysis.game().places(symbol) {
+        let still = analysis.facts(stype).motion == Motion::Still;
+        let idle = analysis.role(stype) == Role::Avatar || ground.contains(&stype);
+        if idle || (!still && analysis.role(stype) != Role::Boulder) {
+            continue;
+        }
+        let touch = analysis.touch(avatar, stype);
+        let guards = |lock: &Lock| lock.stype == stype && lock.guards;
+        let new = if touch.pushes {
+            Walk::Pushed
+        } else if let Some(at) = analysis.locks().iter().position(guards) {
+            Walk::Locked(at)
+        } else if touch.harm != Harm::None && still {
+            Walk::Deadly
+        } else if touch.blocks && shot_away(analysis, stype) {
+            Walk::Breakable
+        } else if touch.blocks && touch.removal != Removal::Always {
+            Walk::Blocked
+        } else {
+            continue;
+        };
+        if walk == Walk::Open || new == Walk::Blocked {
+            walk = new;
+        }
+    }
+    walk
+}
+
+/// Whether a shot of some avatar removes or changes the type.
+fn shot_away(analysis: &Analysis, stype: SpriteType) -> bool {
+    let shots = analysis.avatars().iter().flat_map(|avatar| &avatar.shots);
+    let ends = |shot: &SpriteType| {
+        let first = |deed: &Deed| matches!(deed, Deed::Kill(engine::analysis::Side::First) | Deed::Become(_));
+        let second = |deed: &Deed| matches!(deed, Deed::Kill(engine::analysis::Side::Second));
+        analysis.between(stype, *shot).any(|encounter| encounter.does(first))
+            || analysis.between(*shot, stype).any(|encounter| encounter.does(second))
+    };
+    shots.into_iter().any(ends)
+}

@@ -1,0 +1,285 @@
+//! Levels with things to push, made backwards: from the solved state, the avatar pulls them out of where they belong,
+//! so that pushing them back is a solution.
+
+use super::grid::{FAR, Grid, WAYS};
+use super::jobs::{Job, Jobs};
+use engine::{Sampler, SpriteType};
+use std::collections::VecDeque;
+
+/// One push: the sprite on a cell goes one step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Push {
+    pub(crate) from: usize,
+    pub(crate) way: (i32, i32),
+}
+
+/// A floor plan with pushed things, as it stands after the pushes found so far have been taken back.
+#[derive(Clone, Debug)]
+pub(crate) struct Pulls {
+    pub(crate) grid: Grid,
+    pub(crate) wall: Vec<bool>,
+    /// By cell: what can be pushed.
+    pub(crate) things: Vec<Option<SpriteType>>,
+    /// By cell: the partner of a job, with whether the avatar can walk there now.
+    pub(crate) partners: Vec<Option<(SpriteType, bool)>>,
+    /// By cell: nothing is pushed here, whatever for.
+    pub(crate) barred: Vec<bool>,
+    /// By cell: the avatar cannot walk here either.
+    pub(crate) closed: Vec<bool>,
+    /// Where the avatar is; none: anywhere.
+    pub(crate) avatar: Option<usize>,
+    /// The pushes of the solution, last one first.
+    pub(crate) pushes: Vec<Push>,
+}
+
+/// A thing and the avatar right after a pull.
+#[derive(Clone, Copy)]
+struct Node {
+    thing: usize,
+    avatar: usize,
+    /// How many pulls there were.
+    depth: usize,
+    /// The node before the pull.
+    before: usize,
+    /// In how many cells the avatar can be.
+    room: usize,
+}
+
+impl Pulls {
+    pub(crate) fn new(grid: Grid, wall: Vec<bool>) -> Pulls {
+        let size = grid.len();
+        Pulls {
+            grid,
+            wall,
+            things: vec![None; size],
+            partners: vec![None; size],
+            barred: vec![false; size],
+            closed: vec![false; size],
+            avatar: None,
+            pushes: Vec::new(),
+        }
+    }
+
+    /// Whether the avatar can stand there.
+    pub(crate) fn stands(&self, cell: usize) -> bool {
+        let partner = self.partners[cell].is_none_or(|(_, walkable)| walkable);
+        !self.wall[cell] && !self.closed[cell] && self.things[cell].is_none() && partner
+    }
+
+    /// Whether a thing can lie there between pushes.
+    fn lies(&self, cell: usize) -> bool {
+        let free = !self.wall[cell] && !self.closed[cell] && !self.barred[cell];
+        free && self.things[cell].is_none() && self.partners[cell].is_none()
+    }
+
+    /// Where the avatar can be.
+    pub(crate) fn roam(&self) -> Vec<u32> {
+        match self.avatar {
+            Some(cell) => self.grid.flood(&[cell], |next| self.stands(next)),
+            None => (0..self.grid.len()).map(|cell| if self.stands(cell) { 0 } else { FAR }).collect(),
+        }
+    }
+
+    /// Takes back the last push of a job onto the partner at `cell`, and pulls the thing away by about `pulls` pulls.
+    pub(crate) fn undo(&mut self, job: &Job, cell: usize, pulls: usize, sampler: &mut Sampler) -> Option<()> {
+        let roam = self.roam();
+        let reaches = |cell: usize| roam[cell] != FAR;
+        let options: Vec<((i32, i32), usize, usize)> = WAYS
+            .into_iter()
+            .filter_map(|way| {
+                // The thing came from `near`, pushed by the avatar from `far`.
+                let near = self.grid.shift(cell, (-way.0, -way.1))?;
+                let far = self.grid.shift(near, (-way.0, -way.1))?;
+                (self.lies(near) && self.stands(near) && reaches(near) && self.stands(far))
+                    .then_some((way, near, far))
+            })
+            .collect();
+        if options.is_empty() || (job.merges && !self.lies(cell)) {
+            return None;
+        }
+        let (way, near, far) = *sampler.choose(&options);
+        if job.merges {
+            self.things[cell] = Some(job.partner);
+        } else {
+            self.partners[cell] = Some((job.partner, job.walkable));
+        }
+        self.things[near] = Some(job.pushed);
+        self.avatar = Some(far);
+        self.pushes.push(Push { from: near, way });
+        self.pull(near, pulls, sampler);
+        if job.merges {
+            self.pull(cell, pulls, sampler);
+        }
+        Some(())
+    }
+
+    /// Pulls the thing on a cell to a place that takes about so many pulls, or as far as it goes.
+    pub(crate) fn pull(&mut self, from: usize, pulls: usize, sampler: &mut Sampler) {
+        let Some(stype) = self.things[from] else { return };
+        let Some(first) = self.avatar else { return };
+        let mut nodes: Vec<Node> = vec![Node { thing: from, avatar: first, depth: 0, before: 0, room: 0 }];
+        let mut seen: Vec<(usize, usize)> = Vec::new();
+        let mut queue: VecDeque<usize> = VecDeque::from([0]);
+        while let Some(at) = queue.pop_front() {
+            let Node { thing, avatar, depth, .. } = nodes[at];
+            self.things[from] = None;
+            self.things[thing] = Some(stype);
+            let roam = self.grid.flood(&[avatar], |cell| self.stands(cell));
+            nodes[at].room = roam.iter().filter(|&&steps| steps != FAR).count();
+            for way in WAYS {
+                let Some(near) = self.grid.shift(thing, way) else { continue };
+                let Some(far) = self.grid.shift(near, way) else { continue };
+                let new = depth < pulls + 2 && !seen.contains(&(near, far));
+                if new && roam[near] != FAR && self.lies(near) && self.stands(far) {
+                    seen.push((near, far));
+                    nodes.push(Node { thing: near, avatar: far, depth: depth + 1, before: at, room: 0 });
+                    queue.push_back(nodes.len() - 1);
+                }
+            }
+            self.things[thing] = None;
+            self.things[from] = Some(stype);
+        }
+        // Not where the avatar has locked itself in: there may be more to do, and levels start in the open.
+        let widest = nodes.iter().map(|node| node.room).max().unwrap_or(0);
+        let wide = |node: &Node| node.room * 2 >= widest;
+        let deepest = nodes.iter().filter(|node| wide(node)).map(|node| node.depth).max().unwrap_or(0);
+        let wanted = pulls.min(deepest);
+        let ends: Vec<usize> =
+            (0..nodes.len()).filter(|&at| wide(&nodes[at]) && nodes[at].depth + 1 >= wanted).collect();
+        let mut at = *sampler.choose(&ends);
+        let end = nodes[at];
+        let mut steps: Vec<Push> = Vec::new();
+        while at != 0 {
+            let Node { thing, before, .. } = nodes[at];
+            let to = nodes[before].thing;
+            let way = (
+                self.grid.x(to) as i32 - self.grid.x(thing) as i32,
+                self.grid.y(to) as i32 - self.grid.y(thing) as i32,
+            );
+            steps.push(Push { from: thing, way });
+            at = before;
+        }
+        self.pushes.extend(steps.into_iter().rev());
+        self.things[from] = None;
+        self.things[end.thing] = Some(stype);
+        self.avatar = Some(end.avatar);
+    }
+
+    /// The avatar walks backwards to a cell, and now and then pulls along what lies right behind it.
+    pub(crate) fn wander(&mut self, to: usize, eager: usize, sampler: &mut Sampler) {
+        for _ in 0..self.grid.len() {
+            let Some(at) = self.avatar.filter(|&at| at != to) else { return };
+            let Some(way) = self.grid.way(at, to, |cell| self.stands(cell)) else { return };
+            let next = way[1];
+            let step = (
+                self.grid.x(next) as i32 - self.grid.x(at) as i32,
+                self.grid.y(next) as i32 - self.grid.y(at) as i32,
+            );
+            let behind = self.grid.shift(at, (-step.0, -step.1));
+            let thing = behind.and_then(|behind| self.things[behind].map(|stype| (behind, stype)));
+            if let Some((behind, stype)) = thing.filter(|_| self.lies(at) && sampler.ratio(eager, 10)) {
+                self.things[behind] = None;
+                self.things[at] = Some(stype);
+                self.pushes.push(Push { from: at, way: (-step.0, -step.1) });
+            }
+            self.avatar = Some(next);
+        }
+    }
+
+    /// The ways of the avatar for the pushes from `start`, and then to each of the cells `visits` in turn. None if the
+    /// pushes do not work out.
+    pub(crate) fn solution(
+        &self,
+        plan: &Jobs,
+        start: usize,
+        opens: Option<usize>,
+        visits: &[usize],
+    ) -> Option<Vec<(i32, i32)>> {
+        let mut now = self.clone();
+        let mut ways = Vec::new();
+        let mut avatar = start;
+        let mut done = 0;
+        for push in self.pushes.iter().rev() {
+            let stand = now.grid.shift(push.from, (-push.way.0, -push.way.1))?;
+            walk(&now, avatar, stand, &mut ways)?;
+            let stype = now.things[push.from].take()?;
+            let to = now.grid.shift(push.from, push.way)?;
+            let job =
+                |other: SpriteType| plan.jobs.iter().find(|job| job.pushed == stype && job.partner == other);
+            if let Some((partner, _)) = now.partners[to] {
+                let job = job(partner)?;
+                done += 1;
+                now.partners[to] = if job.fills && !job.stays { None } else { now.partners[to] };
+                now.closed[to] |= job.stays;
+            } else if let Some(other) = now.things[to] {
+                job(other)?;
+                done += 1;
+                now.things[to] = None;
+            } else {
+                now.things[to] = Some(stype);
+            }
+            ways.push(push.way);
+            avatar = push.from;
+        }
+        if done == plan.jobs.len()
+            && let Some(door) = opens
+        {
+            now.closed[door] = false;
+        }
+        for &cell in visits {
+            now.closed[cell] = false;
+            walk(&now, avatar, cell, &mut ways)?;
+            avatar = cell;
+        }
+        Some(ways)
+    }
+}
+
+/// Adds the steps of a walk.
+fn walk(now: &Pulls, from: usize, to: usize, ways: &mut Vec<(i32, i32)>) -> Option<()> {
+    let way = now.grid.way(from, to, |cell| now.stands(cell))?;
+    for pair in way.windows(2) {
+        let (x, y) = (
+            now.grid.x(pair[1]) as i32 - now.grid.x(pair[0]) as i32,
+            now.grid.y(pair[1]) as i32 - now.grid.y(pair[0]) as i32,
+        );
+        ways.push((x, y));
+    }
+    now.stands(to).then_some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Seed;
+
+    #[test]
+    fn what_was_pulled_can_be_pushed_back() {
+        let grid = Grid { columns: 9, rows: 8 };
+        let wall: Vec<bool> = (0..grid.len()).map(|cell| grid.on_border(cell)).collect();
+        let job = Job {
+            pushed: SpriteType(3),
+            partner: SpriteType(4),
+            merges: false,
+            stays: false,
+            fills: false,
+            walkable: true,
+        };
+        let plan = Jobs { jobs: vec![job.clone(), job.clone()], ..Jobs::default() };
+        for seed in 0..40 {
+            let mut sampler = Seed::from_text("pulls").child("seed", seed).sampler();
+            let mut pulls = Pulls::new(grid, wall.clone());
+            let sockets = [grid.at(3, 3), grid.at(5, 4)];
+            for socket in sockets {
+                pulls.partners[socket] = Some((job.partner, true));
+            }
+            for socket in sockets {
+                pulls.undo(&job, socket, 6, &mut sampler).unwrap();
+            }
+            assert!(pulls.pushes.len() >= 8);
+            let start = pulls.avatar.unwrap();
+            let ways = pulls.solution(&plan, start, None, &[]).unwrap();
+            assert!(ways.len() >= pulls.pushes.len());
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! What every level of every game must show, on our own games and, where they are at hand, on public ones.
+
+use super::{ConstructiveLevels, LevelConfig};
+use crate::{GenerateError, Generator};
+use engine::analysis::{Role, Steering};
+use engine::{Action, Analysis, Game, Level, Outcome, Seed};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Levels made for each game.
+const SEEDS: u64 = 50;
+/// The public games that every level is looked at of.
+const PUBLIC: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
+
+fn workspace() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the crate lies in the workspace")
+}
+
+/// The folders in a folder, sorted; none, with a message, if it is missing.
+#[allow(clippy::print_stderr, reason = "a skipped test says so")]
+fn folders(path: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = std::fs::read_dir(path) else {
+        eprintln!("skipped: there is no folder {}", path.display());
+        return Vec::new();
+    };
+    let mut folders: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    folders.sort();
+    folders
+}
+
+/// The game in a folder, if it is one that the engine plays.
+fn game_in(folder: &Path) -> Option<Game> {
+    let source =
+        ["game.vgdl", "game.txt"].iter().find_map(|name| std::fs::read_to_string(folder.join(name)).ok())?;
+    Game::from_source(&source).ok()
+}
+
+fn name_of(folder: &Path) -> String {
+    folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+fn public_folder() -> PathBuf {
+    workspace().join("../shared/gvgai/games")
+}
+
+#[test]
+fn levels_of_our_own_games() {
+    for folder in folders(&workspace().join("corpora")) {
+        if let Some(game) = game_in(&folder) {
+            check(&name_of(&folder), &game);
+        }
+    }
+}
+
+#[test]
+fn levels_of_six_public_games() {
+    for folder in folders(&public_folder()) {
+        if PUBLIC.contains(&name_of(&folder).as_str()) {
+            let game = game_in(&folder).expect("a game that the engine plays");
+            check(&name_of(&folder), &game);
+        }
+    }
+}
+
+/// Any game: a few levels at the extremes of size and difficulty, or a reason, but no panic.
+#[test]
+fn every_public_game_gets_levels_or_a_reason() {
+    let (mut games, mut unlucky) = (0, Vec::new());
+    for folder in folders(&public_folder()) {
+        let Some(game) = game_in(&folder) else { continue };
+        games += 1;
+        let configs = [((4, 6), (4, 5), 0.0), ((10, 18), (8, 11), 1.0), ((24, 30), (12, 16), 0.3)];
+        for (columns, rows, difficulty) in configs {
+            let config = LevelConfig { columns, rows, difficulty };
+            let Ok(levels) = ConstructiveLevels::new(&game, config) else { continue };
+            for index in 0..3 {
+                let seed = Seed::from_text("any game").child(&name_of(&folder), index);
+                match levels.generate(seed) {
+                    Ok(level) => assert_eq!(level.columns().clamp(columns.0, columns.1), level.columns()),
+                    Err(GenerateError::Unlucky(_)) => unlucky.push((name_of(&folder), columns.0)),
+                    Err(error) => panic!("{}: {error}", name_of(&folder)),
+                }
+            }
+        }
+    }
+    // On the smallest boards there is not always room for what a game needs.
+    let roomy = unlucky.iter().filter(|(_, columns)| *columns > 4).count();
+    assert!(roomy * 50 <= games * 6, "{unlucky:?}");
+}
+
+#[test]
+fn what_no_level_can_serve_is_refused() {
+    let source = |mapping: &str, goal: &str| {
+        format!(
+            "BasicGame\n  SpriteSet\n    wall > Immovable\n    gem > Immovable\n    ghost > Immovable\n    \
+             avatar > MovingAvatar\n  LevelMapping\n    {mapping}\n  InteractionSet\n    avatar wall > stepBack\n    \
+             gem avatar > killSprite\n  TerminationSet\n    SpriteCounter stype={goal} win=True\n"
+        )
+    };
+    let refuse = |text: String, config: LevelConfig, expect: &str| {
+        let game = Game::from_source(&text).unwrap();
+        match ConstructiveLevels::new(&game, config) {
+            Err(GenerateError::Unsuitable(why)) => assert!(why.contains(expect), "{why}"),
+            _ => panic!("{expect}"),
+        }
+    };
+    refuse(source("A > avatar avatar", "gem"), LevelConfig::default(), "exactly one avatar");
+    refuse(source("g > gem", "ghost"), LevelConfig::default(), "termination 1");
+    let narrow = LevelConfig { columns: (3, 9), ..LevelConfig::default() };
+    refuse(source("g > gem", "gem"), narrow, "columns from 3 to 9");
+    let hard = LevelConfig { difficulty: 1.5, ..LevelConfig::default() };
+    refuse(source("g > gem", "gem"), hard, "difficulty 1.5");
+}
+
+#[test]
+fn harder_levels_hold_more_that_harms() {
+    let source = "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n    pit > Immovable\n    \
+                  ghoul > RandomNPC\n    door > Door\n    hero > MovingAvatar\n  LevelMapping\n    . > floor\n    \
+                  w > wall\n    p > floor pit\n    g > floor ghoul\n    d > floor door\n    h > floor hero\n  \
+                  InteractionSet\n    hero wall > stepBack\n    ghoul wall > stepBack\n    hero pit ghoul > killSprite\n    \
+                  door hero > killSprite\n  TerminationSet\n    SpriteCounter stype=hero win=False\n    \
+                  SpriteCounter stype=door win=True\n";
+    let game = Game::from_source(source).unwrap();
+    let harmful = |difficulty: f64| -> usize {
+        let levels =
+            ConstructiveLevels::new(&game, LevelConfig { difficulty, ..LevelConfig::default() }).unwrap();
+        let made =
+            (0..30).map(|index| levels.generate(Seed::from_text("hard").child("level", index)).unwrap());
+        made.map(|level| level.cells().iter().filter(|symbol| b"pg".contains(symbol)).count()).sum()
+    };
+    let (easy, middle, hard) = (harmful(0.0), harmful(0.5), harmful(1.0));
+    assert!(easy < middle && middle < hard, "{easy} {middle} {hard}");
+}
+
+#[test]
+fn solutions_win() {
+    let source = "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n    drain > Immovable\n    \
+                  crate > Passive\n    hero > MovingAvatar\n  LevelMapping\n    . > floor\n    w > wall\n    o > floor drain\n    \
+                  c > floor crate\n    h > floor hero\n  InteractionSet\n    hero wall > stepBack\n    \
+                  crate hero > bounceForward\n    crate wall crate > undoAll\n    crate drain > killSprite\n  \
+                  TerminationSet\n    SpriteCounter stype=crate win=True\n";
+    let game = Game::from_source(source).unwrap();
+    let levels = ConstructiveLevels::new(&game, LevelConfig::default()).unwrap();
+    for index in 0..30 {
+        let seed = Seed::from_text("crates").child("level", index);
+        let solved = levels.generate_solved(seed).unwrap();
+        let mut state = game.start(&solved.level, seed);
+        let outcomes =
+            solved.solution.expect("a puzzle").into_iter().map(|action| game.step(&mut state, action));
+        assert_eq!(outcomes.last(), Some(Outcome::Won), "{}", solved.level);
+    }
+}
+
+/// The promises of [`ConstructiveLevels`], for one game.
+fn check(name: &str, game: &Game) {
+    let levels = ConstructiveLevels::new(game, LevelConfig::default())
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    let analysis = levels.analysis();
+    let mut different = BTreeSet::new();
+    let mut survivors = 0;
+    for index in 0..SEEDS {
+        let seed = Seed::from_text("check").child(name, index);
+        let level = levels.generate(seed).unwrap_or_else(|error| panic!("{name} {index}: {error}"));
+        let again = levels.generate(seed).map(|level| level.to_string());
+        assert_eq!(again, Ok(level.to_string()), "{name} {index}");
+        assert_eq!(game.level(&level.to_string()).as_ref(), Ok(&level), "{name} {index}");
+        different.insert(level.to_string());
+        let state = game.start(&level, seed);
+        assert_eq!(analysis.goal_met(&state), None, "{name} {index}\n{level}");
+        assert!(state.avatar_id().is_some(), "{name} {index}\n{level}");
+        goals_lie_open(name, analysis, &level);
+        survivors += u64::from(survives(game, &level, seed));
+    }
+    assert!(different.len() as u64 * 10 >= SEEDS * 9, "{name}: {} levels", different.len());
+    assert!(survivors * 20 >= SEEDS * 19, "{name}: {survivors} of {SEEDS} survive doing nothing");
+}
+
+/// What counts for a win is reached by a flood over the cells that hold no wall.
+fn goals_lie_open(name: &str, analysis: &Analysis, level: &Level) {
+    let game = analysis.game();
+    let steering = analysis.start_avatar().map(|avatar| avatar.steering);
+    if matches!(steering, Some(Steering::Horizontal | Steering::Vertical)) {
+        return;
+    }
+    let holds = |cell: usize, wanted: &dyn Fn(engine::SpriteType) -> bool| {
+        game.places(level.cells()[cell]).iter().any(|&stype| wanted(stype))
+    };
+    let size = level.cells().len();
+    let is_wall = |cell: usize| holds(cell, &|stype| analysis.role(stype) == Role::Wall);
+    let avatar = (0..size).find(|&cell| holds(cell, &|stype| analysis.role(stype) == Role::Avatar));
+    let mut reached = vec![false; size];
+    let mut todo = vec![avatar.expect("a level has an avatar")];
+    while let Some(cell) = todo.pop() {
+        if std::mem::replace(&mut reached[cell], true) {
+            continue;
+        }
+        let (x, y, columns) = (cell % level.columns(), cell / level.columns(), level.columns());
+        let beside = [
+            (x > 0).then(|| cell - 1),
+            (x + 1 < columns).then_some(cell + 1),
+            (y > 0).then(|| cell - columns),
+            (y + 1 < level.rows()).then_some(cell + columns),
+        ];
+        todo.extend(beside.into_iter().flatten().filter(|&next| !reached[next] && !is_wall(next)));
+    }
+    for (cell, reached) in reached.into_iter().enumerate() {
+        let goal = holds(cell, &|stype| {
+            analysis.role(stype) == Role::Exit || analysis.aims().remove.contains(&stype)
+        });
+        assert!(!goal || reached, "{name}: cell {cell} cannot be reached\n{level}");
+    }
+}
+
+/// Whether a player who does nothing lives through ten ticks.
+fn survives(game: &Game, level: &Level, seed: Seed) -> bool {
+    let mut state = game.start(level, seed.child("survival", 0));
+    (0..10).all(|_| !matches!(game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_)))
+}

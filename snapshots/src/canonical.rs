@@ -1,0 +1,297 @@
+//! Canonical JSON: one text per value, so that digests and diffs of it mean something.
+//!
+//! - object keys sorted by their UTF-8 bytes, at every depth, whatever order the type serialises them in;
+//! - two spaces of indentation, except that an array without arrays or objects inside stays on one line;
+//! - strings as `serde_json` escapes them: `"`, `\` and control characters only;
+//! - integers plain (64 bits), floats in the shortest form that reads back as the same bits, always with a `.`
+//!   or an exponent (`1.0`, not `1`; `1e+16`); an `f32` is widened to `f64` first;
+//! - one line feed at the end.
+//!
+//! What JSON cannot hold exactly is an error and never written as something else: not-a-number and infinities,
+//! the same key twice, nesting that the reader would refuse. A `serde_json::Value` and the type it came from give
+//! the same text, and reading a canonical text and writing it again gives its bytes.
+
+mod float;
+mod node;
+
+use serde::Serialize;
+
+use node::{Node, ToNode};
+
+/// How deeply arrays and objects may be nested: as deep as `serde_json` reads.
+pub const MAX_DEPTH: usize = 127;
+
+/// A value has no canonical JSON.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CanonicalError {
+    /// Where in the value, as keys and indices joined by dots; empty for the value itself.
+    pub at: String,
+    /// What is wrong there.
+    pub fault: Fault,
+}
+
+/// What has no canonical JSON.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// A float is not a number or infinite.
+    #[error("the number is not finite")]
+    NotFinite,
+    /// An object key is neither a string nor an integer, a boolean or a unit variant, which have one spelling.
+    #[error("the key is not a string")]
+    Key,
+    /// An object has this key twice, for example through `#[serde(flatten)]`.
+    #[error("the key `{}` occurs twice", .0.escape_debug())]
+    DuplicateKey(String),
+    /// Arrays and objects are nested deeper than [`MAX_DEPTH`].
+    #[error("it is nested deeper than {MAX_DEPTH} levels")]
+    TooDeep,
+    /// The type hides its value behind a private convention of its crate, such as a TOML date.
+    #[error("`{0}` is private to its crate: convert it to plain data first")]
+    Private(&'static str),
+    /// The value's own `Serialize` refused.
+    #[error("{0}")]
+    Other(String),
+}
+
+impl std::fmt::Display for CanonicalError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.at.as_str() {
+            "" => write!(f, "the value has no canonical JSON: {}", self.fault),
+            at => write!(f, "`{}` has no canonical JSON: {}", at.escape_debug(), self.fault),
+        }
+    }
+}
+
+impl std::error::Error for CanonicalError {}
+
+/// The canonical JSON of `value`, with a line feed at the end. Cost: O(n log n), and one copy of the value.
+///
+/// # Errors
+/// The first [`Fault`], in the order in which the value serialises itself.
+pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, CanonicalError> {
+    let mut text = String::new();
+    write_node(&value.serialize(ToNode::top())?, 0, &mut text);
+    text.push('\n');
+    Ok(text)
+}
+
+fn write_node(node: &Node, indent: usize, out: &mut String) {
+    match node {
+        Node::Null => out.push_str("null"),
+        Node::Bool(value) => out.push_str(if *value { "true" } else { "false" }),
+        Node::Integer(number) => out.push_str(&number.to_string()),
+        Node::Float(number) => out.push_str(&float::shortest(*number)),
+        Node::Text(text) => write_text(text, out),
+        Node::Array(items) if items.iter().all(Node::is_scalar) => {
+            out.push('[');
+            for (index, item) in items.iter().enumerate() {
+                out.push_str(if index == 0 { "" } else { ", " });
+                write_node(item, indent, out);
+            }
+            out.push(']');
+        }
+        Node::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                out.push_str(if index == 0 { "[" } else { "," });
+                new_line(indent + 1, out);
+                write_node(item, indent + 1, out);
+            }
+            new_line(indent, out);
+            out.push(']');
+        }
+        Node::Object(fields) if fields.is_empty() => out.push_str("{}"),
+        Node::Object(fields) => {
+            for (index, (key, value)) in fields.iter().enumerate() {
+                out.push_str(if index == 0 { "{" } else { "," });
+                new_line(indent + 1, out);
+                write_text(key, out);
+                out.push_str(": ");
+                write_node(value, indent + 1, out);
+            }
+            new_line(indent, out);
+            out.push('}');
+        }
+    }
+}
+
+fn write_text(text: &str, out: &mut String) {
+    out.push_str(&serde_json::to_string(text).expect("every string has a JSON form"));
+}
+
+fn new_line(indent: usize, out: &mut String) {
+    out.push('\n');
+    out.extend(std::iter::repeat_n("  ", indent));
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    #[track_caller]
+    fn check<T: Serialize + ?Sized>(value: &T, expect: &str) {
+        let text = to_canonical_json(value).expect("canonical");
+        assert_eq!(text, format!("{expect}\n"));
+        let read: Value = serde_json::from_str(&text).expect("canonical JSON is JSON");
+        assert_eq!(to_canonical_json(&read).expect("canonical"), text, "not idempotent");
+    }
+
+    #[track_caller]
+    fn refuse<T: Serialize + ?Sized>(value: &T, at: &str, fault: Fault) {
+        assert_eq!(to_canonical_json(value), Err(CanonicalError { at: at.into(), fault }));
+    }
+
+    #[test]
+    fn scalars() {
+        check(&(), "null");
+        check(&None::<u8>, "null");
+        check(&true, "true");
+        check(&u64::MAX, "18446744073709551615");
+        check(&i64::MIN, "-9223372036854775808");
+        check("a\"\\/\n\u{1}\u{7f}é\u{2028}", "\"a\\\"\\\\/\\n\\u0001\u{7f}é\u{2028}\"");
+        check(&'x', "\"x\"");
+    }
+
+    #[test]
+    fn floats() {
+        for (value, expect) in
+            [(-0.0, "-0.0"), (1.0, "1.0"), (0.1 + 0.2, "0.30000000000000004"), (1e16, "1e+16")]
+        {
+            check(&value, expect);
+        }
+        check(&0.5_f32, "0.5");
+        check(&0.1_f32, "0.10000000149011612");
+    }
+
+    #[test]
+    fn keys_sort_by_bytes_at_every_depth() {
+        let value =
+            json!({ "b": { "z": 1, "Z": 2, "é": 3, "a": {} }, "a": [], "B": [{ "y": 1, "x": 2 }], "": 0 });
+        check(
+            &value,
+            r#"{
+  "": 0,
+  "B": [
+    {
+      "x": 2,
+      "y": 1
+    }
+  ],
+  "a": [],
+  "b": {
+    "Z": 2,
+    "a": {},
+    "z": 1,
+    "é": 3
+  }
+}"#,
+        );
+    }
+
+    #[test]
+    fn arrays_of_scalars_stay_on_one_line() {
+        check(&json!([1, "two", null, 2.5, true]), r#"[1, "two", null, 2.5, true]"#);
+        check(&json!([[1, 2], [3]]), "[\n  [1, 2],\n  [3]\n]");
+        check(&json!([1, []]), "[\n  1,\n  []\n]");
+    }
+
+    #[derive(Serialize)]
+    enum Shape {
+        Unit,
+        Newtype(u8),
+        Tuple(u8, u8),
+        Struct { y: u8, x: u8 },
+    }
+
+    #[derive(Serialize)]
+    struct Everything {
+        shapes: Vec<Shape>,
+        none: Option<u8>,
+        some: Option<u8>,
+        pair: (u8, f64),
+        numbered: BTreeMap<i32, u8>,
+    }
+
+    /// Sorted as text (`10` before `9`), and the same as by way of a `Value`.
+    #[test]
+    fn every_serde_shape() {
+        let everything = Everything {
+            shapes: vec![Shape::Unit, Shape::Newtype(1), Shape::Tuple(1, 2), Shape::Struct { y: 1, x: 2 }],
+            none: None,
+            some: Some(3),
+            pair: (1, 0.5),
+            numbered: [(9, 0), (10, 1), (-1, 2)].into(),
+        };
+        check(
+            &everything,
+            r#"{
+  "none": null,
+  "numbered": {
+    "-1": 2,
+    "10": 1,
+    "9": 0
+  },
+  "pair": [1, 0.5],
+  "shapes": [
+    "Unit",
+    {
+      "Newtype": 1
+    },
+    {
+      "Tuple": [1, 2]
+    },
+    {
+      "Struct": {
+        "x": 2,
+        "y": 1
+      }
+    }
+  ],
+  "some": 3
+}"#,
+        );
+        let by_value = serde_json::to_value(&everything).expect("plain data");
+        assert_eq!(to_canonical_json(&by_value), to_canonical_json(&everything));
+    }
+
+    #[test]
+    fn what_json_cannot_hold_is_refused_and_located() {
+        refuse(&f64::NAN, "", Fault::NotFinite);
+        refuse(&f32::INFINITY, "", Fault::NotFinite);
+        let nested: BTreeMap<&str, Vec<Option<f64>>> = [("games", vec![Some(1.0), Some(f64::NAN)])].into();
+        refuse(&nested, "games.1", Fault::NotFinite);
+        refuse(&Some(u128::MAX), "", Fault::Other("u128 is not supported".into()));
+        let keyed: BTreeMap<Vec<u8>, u8> = [(vec![1], 1)].into();
+        refuse(&keyed, "", Fault::Key);
+        let date: toml::Value = toml::from_str("when = 2026-12-01").expect("TOML");
+        refuse(&date, "when", Fault::Private("$__toml_private_Datetime"));
+    }
+
+    #[test]
+    fn a_key_twice_is_refused() {
+        #[derive(Serialize)]
+        struct Twice {
+            a: u8,
+            #[serde(flatten)]
+            rest: BTreeMap<String, u8>,
+        }
+        let twice = |key: &str| Twice { a: 1, rest: [(key.to_string(), 2)].into() };
+        check(&twice("b"), "{\n  \"a\": 1,\n  \"b\": 2\n}");
+        refuse(&twice("a"), "", Fault::DuplicateKey("a".into()));
+    }
+
+    #[test]
+    fn nesting_ends_where_the_reader_ends() {
+        let nested = |depth: usize| (0..depth).fold(json!(1), |inner, _| json!([inner]));
+        let deepest = to_canonical_json(&nested(MAX_DEPTH)).expect("canonical");
+        assert!(serde_json::from_str::<Value>(&deepest).is_ok());
+        let deeper = nested(MAX_DEPTH + 1);
+        assert!(serde_json::from_str::<Value>(&deeper.to_string()).is_err());
+        let error = to_canonical_json(&deeper).expect_err("too deep");
+        assert_eq!(error.fault, Fault::TooDeep);
+    }
+}

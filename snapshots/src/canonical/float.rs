@@ -1,0 +1,104 @@
+//! How a float is spelt.
+//!
+//! `serde_json` prints shortest digits too, but its layout has changed within its version 1 (`1e21` became
+//! `1e+21`), and printers differ where two shortest texts are equally close (824108109772659.25 is `….2` to one
+//! and `….3` to another). Here both are fixed, for snapshot format 1, as `serde_json` 1.0.154 has them.
+
+/// The decimal text of fewest digits that reads back as the same bits; of several the closest, of two equally
+/// close the one with an even last digit. Plain from 0.00001 up to 10^16, with an exponent outside; always with a
+/// `.` or an exponent. `value` must be finite.
+pub(super) fn shortest(value: f64) -> String {
+    let text = shortest_scientific(value);
+    let (mantissa, exponent) =
+        text.split_once('e').expect("scientific text of a finite number has an exponent");
+    let exponent: i32 = exponent.parse().expect("the exponent of an f64 is a small integer");
+    let (sign, mantissa) = match mantissa.strip_prefix('-') {
+        Some(mantissa) => ("-", mantissa),
+        None => ("", mantissa),
+    };
+    let digits = mantissa.replace('.', "");
+    match usize::try_from(exponent) {
+        Ok(whole) if whole < 16 => {
+            let digits = format!("{digits:0<width$}", width = whole + 2);
+            let (integer, fraction) = digits.split_at(whole + 1);
+            format!("{sign}{integer}.{fraction}")
+        }
+        Err(_) if exponent >= -5 => {
+            let zeros = "0".repeat(exponent.unsigned_abs() as usize - 1);
+            format!("{sign}0.{zeros}{digits}")
+        }
+        _ => format!("{sign}{mantissa}e{exponent:+}"),
+    }
+}
+
+/// As `-1.25e-7`, `5e-324`, `0e0`.
+fn shortest_scientific(value: f64) -> String {
+    // Rust's shortest form leaves open which of two equally close texts it gives. Its exact form of as many
+    // digits is rounded correctly, half to even; but at a power of two, where numbers lie closer together below
+    // than above, that may be the text of a different number.
+    let shortest = format!("{value:e}");
+    let digits = shortest.bytes().take_while(|byte| *byte != b'e').filter(u8::is_ascii_digit).count();
+    let rounded = format!("{value:.precision$e}", precision = digits - 1);
+    match rounded.parse() {
+        Ok(read) if f64::to_bits(read) == value.to_bits() => rounded,
+        _ => shortest,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn golden() {
+        for (value, expect) in [
+            (0.0, "0.0"),
+            (-0.0, "-0.0"),
+            (1.0, "1.0"),
+            (-2.5, "-2.5"),
+            (100.0, "100.0"),
+            (0.1, "0.1"),
+            (0.1 + 0.2, "0.30000000000000004"),
+            (1.0 / 3.0, "0.3333333333333333"),
+            (1234.5678, "1234.5678"),
+            (0.00012345675, "0.00012345675"),
+            (0.00001, "0.00001"),
+            (0.000009, "9e-6"),
+            (-1.25e-7, "-1.25e-7"),
+            (9007199254740993.0, "9007199254740992.0"),
+            (9999999999999998.0, "9999999999999998.0"),
+            (824108109772659.0 + 0.25, "824108109772659.2"),
+            (747225688189297.0 + 0.25, "747225688189297.2"),
+            (5.684341886080802e-14, "5.684341886080802e-14"),
+            (7.120236347223045e-307, "7.120236347223045e-307"),
+            (1e16, "1e+16"),
+            (123456789012345680.0, "1.2345678901234568e+17"),
+            (-1e21, "-1e+21"),
+            (5e-324, "5e-324"),
+            (f64::MIN_POSITIVE, "2.2250738585072014e-308"),
+            (f64::MAX, "1.7976931348623157e+308"),
+        ] {
+            assert_eq!(shortest(value), expect);
+        }
+    }
+
+    /// Over all exponents and many digits, from a small generator.
+    #[test]
+    fn every_text_reads_back_as_the_same_bits() {
+        let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+        for _ in 0..20_000 {
+            bits ^= bits << 13;
+            bits ^= bits >> 7;
+            bits ^= bits << 17;
+            for value in [f64::from_bits(bits), (bits >> 40) as f64 / 1000.0] {
+                if value.is_finite() {
+                    let text = shortest(value);
+                    assert_eq!(text.parse().map(f64::to_bits), Ok(value.to_bits()), "{text}");
+                    assert!(text.contains(['.', 'e']), "{text}");
+                    let read: f64 = serde_json::from_str(&text).expect("a JSON number");
+                    assert_eq!(read.to_bits(), value.to_bits(), "{text}");
+                }
+            }
+        }
+    }
+}

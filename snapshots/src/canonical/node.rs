@@ -1,0 +1,317 @@
+//! Any serialisable value as a JSON tree with sorted, distinct keys.
+//!
+//! `serde_json::to_value` will not do: it turns not-a-number into `null` and keeps the last of two equal keys
+//! without a word, and its maps lose their order if any crate of the build enables `preserve_order`.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
+use serde::ser::{self, Serialize, Serializer};
+
+use super::{CanonicalError, Fault, MAX_DEPTH};
+
+/// A JSON value; `String` orders by bytes, so the map does too.
+pub(super) enum Node {
+    Null,
+    Bool(bool),
+    /// Within the 64 bits of `i64` or `u64`.
+    Integer(i128),
+    /// Finite.
+    Float(f64),
+    Text(String),
+    Array(Vec<Node>),
+    Object(BTreeMap<String, Node>),
+}
+
+impl Node {
+    pub(super) fn is_scalar(&self) -> bool {
+        !matches!(self, Node::Array(_) | Node::Object(_))
+    }
+}
+
+/// The serializer: what `depth` arrays and objects already enclose.
+#[derive(Clone, Copy)]
+pub(super) struct ToNode {
+    depth: usize,
+}
+
+impl ToNode {
+    pub(super) fn top() -> ToNode {
+        ToNode { depth: 0 }
+    }
+
+    fn enter(self) -> Result<ToNode, CanonicalError> {
+        match self.depth {
+            MAX_DEPTH => Err(Fault::TooDeep.into()),
+            depth => Ok(ToNode { depth: depth + 1 }),
+        }
+    }
+
+    fn list(self) -> Result<List, CanonicalError> {
+        Ok(List { inside: self.enter()?, items: Vec::new(), variant: None })
+    }
+
+    fn fields(self) -> Result<Fields, CanonicalError> {
+        Ok(Fields { inside: self.enter()?, fields: BTreeMap::new(), key: None, variant: None })
+    }
+}
+
+impl From<Fault> for CanonicalError {
+    fn from(fault: Fault) -> CanonicalError {
+        CanonicalError { at: String::new(), fault }
+    }
+}
+
+impl CanonicalError {
+    fn inside(mut self, outer: &str) -> CanonicalError {
+        let separator = if self.at.is_empty() { "" } else { "." };
+        self.at = format!("{outer}{separator}{}", self.at);
+        self
+    }
+}
+
+impl ser::Error for CanonicalError {
+    fn custom<T: Display>(message: T) -> CanonicalError {
+        Fault::Other(message.to_string()).into()
+    }
+}
+
+/// An array in the making.
+pub(super) struct List {
+    inside: ToNode,
+    items: Vec<Node>,
+    variant: Option<&'static str>,
+}
+
+impl List {
+    fn push<T: Serialize + ?Sized>(&mut self, item: &T) -> Result<(), CanonicalError> {
+        let node =
+            item.serialize(self.inside).map_err(|error| error.inside(&self.items.len().to_string()))?;
+        self.items.push(node);
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Node, CanonicalError> {
+        Ok(tagged(self.variant, Node::Array(self.items)))
+    }
+}
+
+/// An object in the making.
+pub(super) struct Fields {
+    inside: ToNode,
+    fields: BTreeMap<String, Node>,
+    key: Option<String>,
+    variant: Option<&'static str>,
+}
+
+impl Fields {
+    fn insert<T: Serialize + ?Sized>(&mut self, key: String, value: &T) -> Result<(), CanonicalError> {
+        let node = value.serialize(self.inside).map_err(|error| error.inside(&key))?;
+        if self.fields.contains_key(&key) {
+            return Err(Fault::DuplicateKey(key).into());
+        }
+        self.fields.insert(key, node);
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Node, CanonicalError> {
+        Ok(tagged(self.variant, Node::Object(self.fields)))
+    }
+}
+
+fn tagged(variant: Option<&'static str>, node: Node) -> Node {
+    match variant {
+        Some(name) => Node::Object([(name.to_string(), node)].into()),
+        None => node,
+    }
+}
+
+impl Serializer for ToNode {
+    type Ok = Node;
+    type Error = CanonicalError;
+    type SerializeSeq = List;
+    type SerializeTuple = List;
+    type SerializeTupleStruct = List;
+    type SerializeTupleVariant = List;
+    type SerializeMap = Fields;
+    type SerializeStruct = Fields;
+    type SerializeStructVariant = Fields;
+
+    fn serialize_bool(self, value: bool) -> Result<Node, CanonicalError> {
+        Ok(Node::Bool(value))
+    }
+    fn serialize_i8(self, value: i8) -> Result<Node, CanonicalError> {
+        Ok(Node::Integer(value.into()))
+    }
+    fn serialize_i16(self, value: i16) -> Result<Node, CanonicalError> {
+        Ok(Node::Integer(value.into()))
+    }
+    fn serialize_i32(self, value: i32) -> Result<Node, CanonicalError> {
+        Ok(Node::Integer(value.into()))
+    }
+    fn serialize_i64(self, value: i64) -> Result<Node, CanonicalError> {
+        Ok(Node::Integer(value.into()))
+    }
+    fn serialize_u8(self, value: u8) -> Result<Node, CanonicalError> {
+        Ok(Node::Integer(value.into()))
+    }
+    fn serialize_u16(self, value: u16) -> Result<Node, CanonicalError> {
+        Ok(Node::Integer(value.into()))
+    }
+    fn serialize_u32(self, value: u32) -> Result<Node, CanonicalError> {
+        Ok(Node::Integer(value.into()))
+    }
+    fn serialize_u64(self, value: u64) -> Result<Node, CanonicalError> {
+        Ok(Node::Integer(value.into()))
+    }
+    fn serialize_f32(self, value: f32) -> Result<Node, CanonicalError> {
+        self.serialize_f64(value.into())
+    }
+    fn serialize_f64(self, value: f64) -> Result<Node, CanonicalError> {
+        if value.is_finite() { Ok(Node::Float(value)) } else { Err(Fault::NotFinite.into()) }
+    }
+    fn serialize_char(self, value: char) -> Result<Node, CanonicalError> {
+        Ok(Node::Text(value.to_string()))
+    }
+    fn serialize_str(self, value: &str) -> Result<Node, CanonicalError> {
+        Ok(Node::Text(value.to_string()))
+    }
+    fn serialize_bytes(self, value: &[u8]) -> Result<Node, CanonicalError> {
+        value.serialize(self)
+    }
+    fn serialize_none(self) -> Result<Node, CanonicalError> {
+        Ok(Node::Null)
+    }
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<Node, CanonicalError> {
+        value.serialize(self)
+    }
+    fn serialize_unit(self) -> Result<Node, CanonicalError> {
+        Ok(Node::Null)
+    }
+    fn serialize_unit_struct(self, _: &'static str) -> Result<Node, CanonicalError> {
+        Ok(Node::Null)
+    }
+    fn serialize_unit_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+    ) -> Result<Node, CanonicalError> {
+        self.serialize_str(variant)
+    }
+    fn serialize_newtype_struct<T: Serialize + ?Sized>(
+        self,
+        _: &'static str,
+        value: &T,
+    ) -> Result<Node, CanonicalError> {
+        value.serialize(self)
+    }
+    fn serialize_newtype_variant<T: Serialize + ?Sized>(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        value: &T,
+    ) -> Result<Node, CanonicalError> {
+        let node = value.serialize(self.enter()?).map_err(|error| error.inside(variant))?;
+        Ok(tagged(Some(variant), node))
+    }
+    fn serialize_seq(self, _: Option<usize>) -> Result<List, CanonicalError> {
+        self.list()
+    }
+    fn serialize_tuple(self, _: usize) -> Result<List, CanonicalError> {
+        self.list()
+    }
+    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<List, CanonicalError> {
+        self.list()
+    }
+    fn serialize_tuple_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        _: usize,
+    ) -> Result<List, CanonicalError> {
+        Ok(List { variant: Some(variant), ..self.enter()?.list()? })
+    }
+    fn serialize_map(self, _: Option<usize>) -> Result<Fields, CanonicalError> {
+        self.fields()
+    }
+    /// Names with `$` are how `serde_json` (arbitrary precision, raw values) and `toml` (dates) talk to themselves.
+    fn serialize_struct(self, name: &'static str, _: usize) -> Result<Fields, CanonicalError> {
+        if name.starts_with('$') { Err(Fault::Private(name).into()) } else { self.fields() }
+    }
+    fn serialize_struct_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        _: usize,
+    ) -> Result<Fields, CanonicalError> {
+        Ok(Fields { variant: Some(variant), ..self.enter()?.fields()? })
+    }
+}
+
+macro_rules! list {
+    ($($name:ident :: $method:ident),*) => {$(
+        impl ser::$name for List {
+            type Ok = Node;
+            type Error = CanonicalError;
+            fn $method<T: Serialize + ?Sized>(&mut self, item: &T) -> Result<(), CanonicalError> {
+                self.push(item)
+            }
+            fn end(self) -> Result<Node, CanonicalError> {
+                self.finish()
+            }
+        }
+    )*};
+}
+list!(
+    SerializeSeq::serialize_element,
+    SerializeTuple::serialize_element,
+    SerializeTupleStruct::serialize_field,
+    SerializeTupleVariant::serialize_field
+);
+
+macro_rules! fields {
+    ($($name:ident),*) => {$(
+        impl ser::$name for Fields {
+            type Ok = Node;
+            type Error = CanonicalError;
+            fn serialize_field<T: Serialize + ?Sized>(
+                &mut self,
+                key: &'static str,
+                value: &T,
+            ) -> Result<(), CanonicalError> {
+                self.insert(key.to_string(), value)
+            }
+            fn end(self) -> Result<Node, CanonicalError> {
+                self.finish()
+            }
+        }
+    )*};
+}
+fields!(SerializeStruct, SerializeStructVariant);
+
+impl ser::SerializeMap for Fields {
+    type Ok = Node;
+    type Error = CanonicalError;
+
+    /// Keys of one spelling become text, as in `serde_json`; floats have more than one and are refused.
+    fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), CanonicalError> {
+        self.key = Some(match key.serialize(self.inside)? {
+            Node::Text(text) => text,
+            Node::Bool(value) => value.to_string(),
+            Node::Integer(number) => number.to_string(),
+            _ => return Err(Fault::Key.into()),
+        });
+        Ok(())
+    }
+    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), CanonicalError> {
+        let key = self.key.take().ok_or(Fault::Key)?;
+        self.insert(key, value)
+    }
+    fn end(self) -> Result<Node, CanonicalError> {
+        self.finish()
+    }
+}

@@ -1,0 +1,85 @@
+//! `card.json`: what a game of a release is, where it comes from, and what its judges found.
+
+use engine::Digest;
+use serde::{Deserialize, Serialize};
+use validators::Rate;
+
+/// Where a game comes from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "from", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Origin {
+    /// A hand-written game with new levels.
+    Corpus {
+        /// Its folder in the corpus.
+        name: String,
+    },
+    /// A game that the rule generator made.
+    Generated {
+        /// The generator.
+        generator: String,
+        /// The patterns that were composed.
+        patterns: Vec<String>,
+        /// Which candidate for its place it was, counted from 0.
+        candidate: u32,
+    },
+}
+
+/// A level and what its judges found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LevelCard {
+    /// File beside the card.
+    pub file: String,
+    /// Digest of the level's canonical text.
+    pub digest: Digest,
+    /// Columns of the board.
+    pub columns: usize,
+    /// Rows of the board.
+    pub rows: usize,
+    /// The generator that made it.
+    pub generator: String,
+    /// The difficulty that was asked for, from 0 to 1.
+    pub difficulty: f64,
+    /// Which candidate for its place it was, counted from 0.
+    pub candidate: u32,
+    /// Ticks of the witness.
+    pub witness_ticks: usize,
+    /// Score of the witness.
+    pub witness_score: f64,
+    /// How the searching players fared.
+    pub mcts: Rate,
+    /// How random players fared.
+    pub random: Rate,
+    /// How players fared who did nothing.
+    pub idle: Rate,
+}
+
+/// A game of a release.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Card {
+    /// The release's mark: text that holds it should not be trained on.
+    pub canary: String,
+    /// Folder in `games/`.
+    pub id: String,
+    /// Title in the game's own fiction.
+    pub title: String,
+    /// What it is, for people.
+    pub description: String,
+    /// How to win, for people.
+    pub goal: String,
+    /// Which kind of game.
+    pub kind: String,
+    /// Whether anything moves unless the player acts.
+    pub real_time: bool,
+    /// Whether chance plays no part.
+    pub deterministic: bool,
+    /// Digest of the game's canonical text without comments.
+    pub digest: Digest,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// The rules in plain English.
+    pub rules: String,
+    /// Its levels, from the easiest asked for to the hardest.
+    pub levels: Vec<LevelCard>,
+}

@@ -1,0 +1,364 @@
+//! Writing a release folder that is complete or absent, whatever happens in between.
+//!
+//! The work lies beside its destination, so that one `rename` within one file system publishes it:
+//!
+//! ```text
+//! releases/2026-12.partial/.lock    held from creation until after the rename
+//! releases/2026-12.partial/tree/    becomes releases/2026-12
+//! ```
+//!
+//! The lock is the operating system's ([`File::try_lock`]): it dies with its process, so a `.partial` whose lock
+//! is free was left by a killed run and is replaced. The tree is one level below the lock because the lock must
+//! outlive the rename: were it inside the tree, it would be published, or let go too early.
+
+mod lock;
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use crate::error::SnapshotError;
+use crate::folder::{self, Limits};
+use crate::path::check_path;
+use lock::{LOCK, TREE};
+
+/// A release folder in the making. Dropping it uncommitted removes what was written, as far as possible.
+///
+/// Writing takes `&self`: many threads may write different files.
+#[derive(Debug)]
+pub struct Draft {
+    out: PathBuf,
+    partial: PathBuf,
+    /// Closing it frees the lock, after `drop` has removed the folder.
+    _lock: File,
+}
+
+impl Draft {
+    /// Starts a draft of the folder `out`, which must be absent or empty; missing parents are created.
+    ///
+    /// A stale `<out>.partial` is replaced, never adopted. A file system without locks is taken at its word:
+    /// there, two processes must not be given the same `out`.
+    ///
+    /// # Errors
+    /// `out` is taken ([`Occupied`](SnapshotError::Occupied)), another process is writing it
+    /// ([`Busy`](SnapshotError::Busy)), `<out>.partial` is not ours to replace
+    /// ([`Foreign`](SnapshotError::Foreign)), or the file system refuses.
+    pub fn create(out: &Path) -> Result<Draft, SnapshotError> {
+        let name = out.file_name().ok_or_else(|| SnapshotError::Nameless { path: out.to_path_buf() })?;
+        let mut partial_name = OsString::from(name);
+        partial_name.push(".partial");
+        check_vacant(out)?;
+        let partial = out.with_file_name(partial_name);
+        let parent = parent_of(out);
+        fs::create_dir_all(parent).map_err(SnapshotError::io("create", parent))?;
+
+        let lock = lock::acquire(&partial)?;
+        let draft = Draft { out: out.to_path_buf(), partial, _lock: lock };
+        // Whoever held the lock before may have published in the meantime.
+        check_vacant(out)?;
+        let tree = draft.tree();
+        remove_tree(&tree).map_err(SnapshotError::io("remove", &tree))?;
+        fs::create_dir(&tree).map_err(SnapshotError::io("create", &tree))?;
+        Ok(draft)
+    }
+
+    /// Writes the file at `relative`, creates its parents, and waits until the content is on disk.
+    ///
+    /// # Errors
+    /// The path is unsafe, the file is larger than a reader would accept, it was written before (also in other
+    /// capitals, where the file system does not tell them apart), or the file system refuses.
+    pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), SnapshotError> {
+        check_path(relative).map_err(|problem| SnapshotError::Path { path: relative.into(), problem })?;
+        let path = folder::join(&self.tree(), relative);
+        let limit = Limits::SNAPSHOT.file_bytes;
+        if bytes.len() as u64 > limit {
+            return Err(SnapshotError::TooLarge { path, limit });
+        }
+        let parent = parent_of(&path);
+        fs::create_dir_all(parent).map_err(SnapshotError::io("create", parent))?;
+        let write = || {
+            let mut file = File::create_new(&path)?;
+            file.write_all(bytes)?;
+            file.sync_all()
+        };
+        write().map_err(SnapshotError::io("write", &path))
+    }
+
+    /// Publishes the draft as `out` in one step, and waits until that is on disk. Files were waited for when
+    /// they were written; here it is the folders' turn.
+    ///
+    /// # Errors
+    /// `out` is no longer absent or empty, or the file system refuses; then the draft is dropped. Only if waiting
+    /// for the parent folder fails is `out` there all the same, and complete.
+    pub fn commit(self) -> Result<(), SnapshotError> {
+        let tree = self.tree();
+        sync_folders(&tree)?;
+        let occupied = |source: io::Error| match source.kind() {
+            ErrorKind::DirectoryNotEmpty | ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
+                SnapshotError::Occupied { path: self.out.clone() }
+            }
+            _ => SnapshotError::io("create", &self.out)(source),
+        };
+        if let Err(source) = fs::remove_dir(&self.out)
+            && source.kind() != ErrorKind::NotFound
+        {
+            return Err(occupied(source));
+        }
+        fs::rename(&tree, &self.out).map_err(occupied)?;
+        sync_folder(parent_of(&self.out))
+    }
+
+    fn tree(&self) -> PathBuf {
+        self.partial.join(TREE)
+    }
+}
+
+impl Drop for Draft {
+    /// After a commit only the lock is left to remove. The lock goes last, because it marks the folder as ours.
+    fn drop(&mut self) {
+        let removed = remove_tree(&self.tree())
+            .and_then(|()| fs::remove_file(self.partial.join(LOCK)))
+            .and_then(|()| fs::remove_dir(&self.partial));
+        // Nothing can be done here about a failure, and the next draft replaces what stays.
+        drop(removed);
+    }
+}
+
+fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
+    let occupied = || SnapshotError::Occupied { path: out.to_path_buf() };
+    match fs::symlink_metadata(out) {
+        Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
+        Err(source) => Err(SnapshotError::io("examine", out)(source)),
+        Ok(found) if !found.is_dir() => Err(occupied()),
+        Ok(_) => match fs::read_dir(out).map_err(SnapshotError::io("list", out))?.next() {
+            Some(_) => Err(occupied()),
+            None => Ok(()),
+        },
+    }
+}
+
+/// Removes a folder with all it holds, without following links; absent is fine.
+fn remove_tree(tree: &Path) -> io::Result<()> {
+    match fs::remove_dir_all(tree) {
+        Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
+        result => result,
+    }
+}
+
+/// The folder that holds `path`, never the empty path.
+fn parent_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// Waits until the names in `folder` and all folders below are on disk, the deepest first.
+fn sync_folders(folder: &Path) -> Result<(), SnapshotError> {
+    for entry in fs::read_dir(folder).map_err(SnapshotError::io("list", folder))? {
+        let entry = entry.map_err(SnapshotError::io("list", folder))?;
+        if entry.file_type().map_err(SnapshotError::io("examine", &entry.path()))?.is_dir() {
+            sync_folders(&entry.path())?;
+        }
+    }
+    sync_folder(folder)
+}
+
+/// Only Unix lets a folder be opened and waited for; elsewhere the file system's journal has to do.
+fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
+    if cfg!(unix) {
+        let sync = || File::open(folder)?.sync_all();
+        sync().map_err(SnapshotError::io("write", folder))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use std::process::{Command, Stdio};
+    use std::thread;
+    use std::time::Duration;
+
+    use tempfile::TempDir;
+
+    use super::*;
+
+    pub(crate) fn home() -> (TempDir, PathBuf) {
+        let home = TempDir::new().expect("temporary folder");
+        let out = home.path().join("new");
+        (home, out)
+    }
+
+    pub(crate) fn names(folder: &Path) -> Vec<String> {
+        let listed = fs::read_dir(folder).expect("readable");
+        let mut names: Vec<String> =
+            listed.map(|e| e.expect("readable").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn commit_publishes_exactly_what_was_written() {
+        let (home, out) = home();
+        let draft = Draft::create(&out).expect("vacant");
+        draft.write("README.md", b"one").expect("written");
+        draft.write("games/x/lvl0.txt", b"").expect("written");
+        assert_eq!(names(home.path()), ["new.partial"]);
+        draft.commit().expect("published");
+        assert_eq!(names(home.path()), ["new"]);
+        assert_eq!(names(&out), ["README.md", "games"]);
+        assert_eq!(names(&out.join("games/x")), ["lvl0.txt"]);
+        assert_eq!(fs::read(out.join("README.md")).expect("readable"), b"one");
+    }
+
+    #[test]
+    fn an_empty_folder_and_missing_parents_will_do() {
+        let (home, out) = home();
+        fs::create_dir(&out).expect("created");
+        Draft::create(&out).expect("vacant").commit().expect("published");
+        let deep = home.path().join("a/b/c/");
+        let draft = Draft::create(&deep).expect("vacant");
+        assert_eq!(names(&home.path().join("a/b")), ["c.partial"]);
+        draft.commit().expect("published");
+        assert_eq!(names(&home.path().join("a/b")), ["c"]);
+    }
+
+    #[test]
+    fn dropping_removes_everything() {
+        let (home, out) = home();
+        let draft = Draft::create(&out).expect("vacant");
+        draft.write("a/b", b"one").expect("written");
+        drop(draft);
+        assert!(names(home.path()).is_empty());
+    }
+
+    #[test]
+    fn a_taken_place_is_named_and_left_alone() {
+        let (home, out) = home();
+        fs::create_dir(&out).expect("created");
+        fs::write(out.join("mine"), "precious").expect("written");
+        let error = Draft::create(&out).expect_err("taken").to_string();
+        assert!(error.starts_with(&format!("`{}` exists", out.display())), "{error}");
+        let file = out.join("mine");
+        assert!(matches!(Draft::create(&file), Err(SnapshotError::Occupied { path }) if path == file));
+        assert_eq!(names(home.path()), ["new"]);
+        assert_eq!(names(&out), ["mine"]);
+    }
+
+    #[test]
+    fn a_place_taken_in_the_meantime_is_left_alone() {
+        let (home, out) = home();
+        for folder in [true, false] {
+            let draft = Draft::create(&out).expect("vacant");
+            draft.write("a", b"one").expect("written");
+            let mine = if folder { out.join("mine") } else { out.clone() };
+            fs::create_dir_all(mine.parent().expect("below home")).expect("created");
+            fs::write(&mine, "precious").expect("written");
+            assert!(matches!(draft.commit(), Err(SnapshotError::Occupied { .. })));
+            assert_eq!(fs::read(&mine).expect("still there"), b"precious");
+            assert_eq!(names(home.path()), ["new"]);
+            remove_tree(&out).or_else(|_| fs::remove_file(&out)).expect("removed");
+        }
+    }
+
+    #[test]
+    fn places_without_a_name() {
+        for out in ["/", "..", ".", "a/.."] {
+            assert!(matches!(Draft::create(Path::new(out)), Err(SnapshotError::Nameless { .. })), "{out}");
+        }
+    }
+
+    #[test]
+    fn stale_work_is_replaced_never_adopted() {
+        let (home, out) = home();
+        let partial = home.path().join("new.partial");
+        fs::create_dir_all(partial.join("tree/games")).expect("created");
+        fs::write(partial.join("tree/games/old"), "stale").expect("written");
+        fs::write(partial.join(LOCK), "").expect("written");
+        let draft = Draft::create(&out).expect("the lock is free");
+        draft.write("fresh", b"").expect("written");
+        draft.commit().expect("published");
+        assert_eq!(names(&out), ["fresh"]);
+        assert_eq!(names(home.path()), ["new"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_never_followed_or_adopted() {
+        use std::os::unix::fs::symlink;
+        let (home, out) = home();
+        let elsewhere = home.path().join("elsewhere");
+        fs::create_dir(&elsewhere).expect("created");
+        fs::write(elsewhere.join("mine"), "precious").expect("written");
+        symlink("elsewhere", &out).expect("linked");
+        assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied { .. })));
+        let other = home.path().join("other");
+        symlink("elsewhere", home.path().join("other.partial")).expect("linked");
+        assert!(matches!(Draft::create(&other), Err(SnapshotError::Foreign { .. })));
+        assert_eq!(names(&elsewhere), ["mine"]);
+    }
+
+    #[test]
+    fn writes_are_checked() {
+        let (home, out) = home();
+        let draft = Draft::create(&out).expect("vacant");
+        for path in ["../a", "/a", "a//b", "a b", ""] {
+            assert!(matches!(draft.write(path, b""), Err(SnapshotError::Path { .. })), "{path}");
+        }
+        draft.write("a", b"one").expect("written");
+        assert!(matches!(draft.write("a", b"two"), Err(SnapshotError::Io { .. })));
+        assert!(matches!(draft.write("a/b", b"two"), Err(SnapshotError::Io { .. })));
+        let large = vec![0; (64 << 20) + 1];
+        assert!(matches!(draft.write("large", &large), Err(SnapshotError::TooLarge { .. })));
+        draft.commit().expect("published");
+        assert_eq!(names(&out), ["a"]);
+        assert_eq!(fs::read(out.join("a")).expect("readable"), b"one");
+        assert_eq!(names(home.path()), ["new"]);
+    }
+
+    /// The process that [`a_killed_run`] kills. Run by itself it finds no orders in its folder, and is done.
+    #[test]
+    fn victim() {
+        if fs::read("orders").ok().as_deref() != Some(b"write until killed") {
+            return;
+        }
+        // Should the other test end without killing it, its input ends too, and it must not go on alone.
+        thread::spawn(|| {
+            io::copy(&mut io::stdin(), &mut io::sink()).expect("readable");
+            std::process::exit(1);
+        });
+        let draft = Draft::create(Path::new("new")).expect("vacant");
+        for n in 0..1_000_000 {
+            draft.write(&format!("games/{n}"), b"one").expect("written");
+        }
+    }
+
+    #[test]
+    fn a_killed_run() {
+        let (home, out) = home();
+        fs::write(home.path().join("orders"), "write until killed").expect("written");
+        let mut victim = Command::new(std::env::current_exe().expect("the test's own program"))
+            .args(["--exact", "draft::tests::victim"])
+            .current_dir(home.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("started");
+        let tree = home.path().join("new.partial/tree/games");
+        while !tree.join("3").exists() {
+            assert!(victim.try_wait().expect("waited for").is_none(), "ended before it was killed");
+            thread::sleep(Duration::from_millis(5));
+        }
+        assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy { .. })));
+        victim.kill().expect("killed");
+        victim.wait().expect("gone");
+        assert_eq!(names(home.path()), ["new.partial", "orders"]);
+        assert!(tree.join("3").exists());
+        let draft = Draft::create(&out).expect("the lock died with its holder");
+        draft.write("fresh", b"").expect("written");
+        draft.commit().expect("published");
+        assert_eq!(names(&out), ["fresh"]);
+        assert_eq!(names(home.path()), ["new", "orders"]);
+    }
+}

@@ -1,0 +1,174 @@
+//! The one error type of the crate: about an operation, never about a VGDL file.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::canonical::CanonicalError;
+use crate::merkle::DuplicatePath;
+use crate::path::PathProblem;
+
+/// Why a release folder could not be written or read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SnapshotError {
+    /// The file system refused.
+    #[error("cannot {action} `{}`: check that it may be accessed and that the disk has room", .path.display())]
+    Io {
+        /// What was tried: a verb, as in "cannot read".
+        action: &'static str,
+        /// On what.
+        path: PathBuf,
+        /// The system's own answer.
+        source: io::Error,
+    },
+    /// The place to write to is taken.
+    #[error("`{}` exists and is not an empty folder: choose another --out or remove it", .path.display())]
+    Occupied {
+        /// The place.
+        path: PathBuf,
+    },
+    /// A folder that ends with `.partial` was not left by a killed run.
+    #[error("`{}` was not made by arcade: choose another --out or move it away", .path.display())]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Another process is writing there.
+    #[error("another arcade is writing `{}`: wait for it or choose another --out", .path.display())]
+    Busy {
+        /// The folder with the lock.
+        path: PathBuf,
+    },
+    /// The place to write to ends in `..` or `.` or is the root of the file system.
+    #[error("`{}` has no name of its own: name the folder to create, as in --out releases/new", .path.display())]
+    Nameless {
+        /// The place.
+        path: PathBuf,
+    },
+    /// A relative path is not one that a release may contain.
+    #[error("`{}` cannot be in a snapshot: {problem}; rename it", path.escape_debug())]
+    Path {
+        /// The path as stated.
+        path: String,
+        /// The rule that it breaks.
+        problem: PathProblem,
+    },
+    /// A symbolic link, where a release has only files and folders.
+    #[error("`{}` is a symbolic link, which is not followed: put the file itself there", .path.display())]
+    Link {
+        /// The link.
+        path: PathBuf,
+    },
+    /// A folder, pipe or device where a file should be, or a file where a folder should be.
+    #[error("`{}` is not a {expected}: fetch the snapshot again", .path.display())]
+    Kind {
+        /// What was found.
+        path: PathBuf,
+        /// What a snapshot has there: "file" or "folder".
+        expected: &'static str,
+    },
+    /// A file above the limit.
+    #[error("`{}` is larger than {limit} bytes, the most that a snapshot may hold: split it", .path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The limit, in bytes.
+        limit: u64,
+    },
+    /// The folder has no manifest.
+    #[error("`{}` has no MANIFEST.json: name a snapshot folder", .path.display())]
+    NotASnapshot {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The inside of a `.partial` folder.
+    #[error("`{}` is unfinished: its minting was interrupted, mint it again", .path.display())]
+    Unfinished {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The manifest is of a later format than this binary knows.
+    #[error("snapshot format {found} is newer than this arcade understands ({known}): use a newer arcade")]
+    Format {
+        /// The format that the manifest states.
+        found: u64,
+        /// The newest format that is understood here.
+        known: u32,
+    },
+    /// The manifest is not JSON, or not JSON of this shape.
+    #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.display())]
+    Syntax {
+        /// The manifest.
+        path: PathBuf,
+        /// The position and what was expected there.
+        source: serde_json::Error,
+    },
+    /// The manifest contradicts itself or its limits.
+    #[error("`{}` is not a sound manifest: {message}", .path.display())]
+    Manifest {
+        /// The manifest.
+        path: PathBuf,
+        /// What is wrong, naming the item.
+        message: String,
+    },
+    /// A value, most likely the recipe, has no canonical JSON.
+    #[error(transparent)]
+    Canonical(#[from] CanonicalError),
+    /// Two items have the same path.
+    #[error(transparent)]
+    DuplicatePath(#[from] DuplicatePath),
+}
+
+impl SnapshotError {
+    /// For `map_err`: the error of trying to `action` on `path`.
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> SnapshotError {
+        move |source| SnapshotError::Io { action, path: path.to_path_buf(), source }
+    }
+
+    /// The same error about the manifest at `place`: it is parsed from bytes that have no place.
+    pub(crate) fn in_manifest(self, place: &Path) -> SnapshotError {
+        let path = place.to_path_buf();
+        match self {
+            SnapshotError::Syntax { source, .. } => SnapshotError::Syntax { path, source },
+            SnapshotError::Manifest { message, .. } => SnapshotError::Manifest { path, message },
+            other => other,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::error::Error;
+
+    use super::*;
+
+    #[test]
+    fn messages_name_the_thing_and_the_next_move() {
+        let newer = SnapshotError::Format { found: 7, known: 1 };
+        assert_eq!(
+            newer.to_string(),
+            "snapshot format 7 is newer than this arcade understands (1): use a newer arcade"
+        );
+        let occupied = SnapshotError::Occupied { path: "releases/new".into() };
+        assert_eq!(
+            occupied.to_string(),
+            "`releases/new` exists and is not an empty folder: choose another --out or remove it"
+        );
+    }
+
+    #[test]
+    fn the_source_is_kept() {
+        let refused = io::Error::from(io::ErrorKind::PermissionDenied);
+        let error = SnapshotError::io("read", Path::new("a/b"))(refused);
+        assert!(error.to_string().starts_with("cannot read `a/b`: "), "{error}");
+        assert!(error.source().is_some());
+    }
+
+    /// A path from a manifest may hold anything; a terminal must not see it raw.
+    #[test]
+    fn control_characters_are_escaped() {
+        let path = "a\u{1b}[2Jb".to_string();
+        let error = SnapshotError::Path { problem: PathProblem::Character('\u{1b}'), path };
+        assert!(!error.to_string().contains('\u{1b}'), "{error}");
+    }
+}

@@ -1,0 +1,338 @@
+//! Whether a release folder holds exactly what its manifest says.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::ErrorKind;
+use std::path::Path;
+
+use crate::error::SnapshotError;
+use crate::folder::{self, Limits};
+use crate::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::problem::{Flaw, Problem};
+
+/// The answer of [`check_integrity`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Integrity {
+    /// The manifest as the folder states it.
+    pub manifest: Manifest,
+    /// All that is wrong, sorted; empty if the folder is what the manifest says.
+    pub problems: Vec<Problem>,
+}
+
+impl Integrity {
+    /// Whether nothing is wrong: the files, and the header, are those under `manifest.root`. Whether that is the
+    /// root that was published is for the caller to compare.
+    pub fn is_sound(&self) -> bool {
+        self.problems.is_empty()
+    }
+}
+
+/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. Trusts nothing in it: no
+/// link is followed, nothing above the [limits](Limits::SNAPSHOT) or of another size than stated is read.
+///
+/// Cost: one pass over the files, in pieces; memory in proportion to the manifest.
+///
+/// # Errors
+/// There is no manifest, it is not sound in itself (see [`Manifest::parse`]), or the file system refuses.
+pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
+    let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
+        SnapshotError::Io { source, .. } if source.kind() == ErrorKind::NotFound => {
+            SnapshotError::NotASnapshot { path: root.to_path_buf() }
+        }
+        other => other,
+    })?;
+    let manifest = Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
+    let mut problems = manifest_problems(&manifest, &bytes)?;
+    problems.extend(file_problems(root, &manifest)?);
+    problems.sort_unstable();
+    Ok(Integrity { manifest, problems })
+}
+
+fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec<Problem>, SnapshotError> {
+    let problem = |flaw| Problem { path: MANIFEST_FILE.into(), flaw };
+    let mut problems = Vec::new();
+    if manifest.text()?.as_bytes() != bytes {
+        problems.push(problem(Flaw::NotCanonical));
+    }
+    let (found, stated) = (manifest.computed_root()?, manifest.root);
+    if found != stated {
+        problems.push(problem(Flaw::WrongRoot { found, stated }));
+    }
+    Ok(problems)
+}
+
+fn file_problems(root: &Path, manifest: &Manifest) -> Result<Vec<Problem>, SnapshotError> {
+    let listing = folder::list(root, &Limits::SNAPSHOT)?;
+    let mut problems = listing.problems;
+    if !listing.complete {
+        return Ok(problems);
+    }
+    // What is there but no plain file is named already, and not missing.
+    let named: BTreeSet<String> = problems.iter().map(|problem| problem.path.clone()).collect();
+    let mut awaited: BTreeMap<&str, _> =
+        manifest.items.iter().map(|item| (item.path.as_str(), item)).collect();
+    for entry in listing.entries.iter().filter(|entry| entry.path != MANIFEST_FILE) {
+        let flaw = match awaited.remove(entry.path.as_str()) {
+            None => Some(Flaw::Extra),
+            Some(item) if item.size != entry.size => {
+                Some(Flaw::Size { found: entry.size, stated: item.size })
+            }
+            Some(item) => match folder::digest(root, &item.path, item.size)? {
+                (size, _) if size != item.size => Some(Flaw::Size { found: size, stated: item.size }),
+                (_, found) if found != item.digest => Some(Flaw::Altered { found, stated: item.digest }),
+                _ => None,
+            },
+        };
+        problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
+    }
+    let missing = awaited.into_keys().filter(|path| !named.contains(*path));
+    problems.extend(missing.map(|path| Problem { path: path.into(), flaw: Flaw::Missing }));
+    Ok(problems)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use tempfile::TempDir;
+
+    use super::*;
+    use engine::Digest;
+    use crate::draft::Draft;
+    use crate::manifest::tests::example;
+    use crate::path::PathProblem;
+
+    const FILES: [(&str, &[u8]); 4] = [
+        ("README.md", b"about this release"),
+        ("games/x/game.vgdl", b"BasicGame\n    SpriteSet\n"),
+        ("games/x/lvl0.txt", b"www\nwAw\nwww\n"),
+        ("games/y/lvl0.txt", b""),
+    ];
+
+    struct Release {
+        _home: TempDir,
+        root: std::path::PathBuf,
+    }
+
+    fn release() -> Release {
+        let home = TempDir::new().expect("temporary folder");
+        let root = home.path().join("release");
+        let draft = Draft::create(&root).expect("vacant");
+        for (path, content) in FILES {
+            draft.write(path, content).expect("written");
+        }
+        draft.write(MANIFEST_FILE, &example(&FILES).to_bytes().expect("sound")).expect("written");
+        draft.commit().expect("published");
+        Release { _home: home, root }
+    }
+
+    #[track_caller]
+    fn check(change: impl FnOnce(&Path), expect: &[(&str, Flaw)]) {
+        let release = release();
+        assert!(check_integrity(&release.root).expect("readable").is_sound());
+        change(&release.root);
+        let integrity = check_integrity(&release.root).expect("readable");
+        let expect: Vec<Problem> = expect
+            .iter()
+            .map(|(path, flaw)| Problem { path: path.to_string(), flaw: flaw.clone() })
+            .collect();
+        assert_eq!(integrity.problems, expect);
+        assert_eq!(integrity.is_sound(), expect.is_empty());
+    }
+
+    fn write(path: &str, content: &[u8]) -> impl FnOnce(&Path) {
+        move |root| fs::write(root.join(path), content).expect("written")
+    }
+
+    #[test]
+    fn untouched() {
+        check(|_| (), &[]);
+        check(|root| fs::write(root.join("games/y/lvl0.txt"), "").expect("rewritten"), &[]);
+    }
+
+    #[test]
+    fn every_byte_counts() {
+        let release = release();
+        for (path, content) in FILES {
+            for position in 0..content.len() {
+                for bit in [0, 5, 7] {
+                    let mut altered = content.to_vec();
+                    altered[position] ^= 1 << bit;
+                    fs::write(release.root.join(path), &altered).expect("written");
+                    let flaw = Flaw::Altered { found: Digest::of(&altered), stated: Digest::of(content) };
+                    let problems = check_integrity(&release.root).expect("readable").problems;
+                    assert_eq!(problems, [Problem { path: path.into(), flaw }]);
+                }
+            }
+            fs::write(release.root.join(path), content).expect("restored");
+        }
+        assert!(check_integrity(&release.root).expect("readable").is_sound());
+    }
+
+    /// A changed byte of the manifest is an error or a problem, wherever it is: except that one lock-file digest
+    /// can be exchanged for another, as the manifest's documentation says.
+    #[test]
+    fn every_byte_of_the_manifest_counts() {
+        let release = release();
+        let path = release.root.join(MANIFEST_FILE);
+        let bytes = fs::read(&path).expect("readable");
+        let lockfile = Digest::of(b"lock").to_string();
+        let start = String::from_utf8_lossy(&bytes).find(&lockfile).expect("in the manifest");
+        for position in 0..bytes.len() {
+            for bit in 0..8 {
+                let mut altered = bytes.clone();
+                altered[position] ^= 1 << bit;
+                fs::write(&path, &altered).expect("written");
+                let exchanged = (start..start + 64).contains(&position)
+                    && matches!(altered[position], b'0'..=b'9' | b'a'..=b'f');
+                let sound = check_integrity(&release.root).is_ok_and(|integrity| integrity.is_sound());
+                assert_eq!(sound, exchanged, "bit {bit} of byte {position}");
+            }
+        }
+        for length in 0..bytes.len() {
+            fs::write(&path, &bytes[..length]).expect("written");
+            let sound = check_integrity(&release.root).is_ok_and(|integrity| integrity.is_sound());
+            assert!(!sound, "cut to {length} bytes");
+        }
+    }
+
+    #[test]
+    fn sizes() {
+        check(write("README.md", b"about"), &[("README.md", Flaw::Size { found: 5, stated: 18 })]);
+        check(write("games/y/lvl0.txt", b"\0"), &[("games/y/lvl0.txt", Flaw::Size { found: 1, stated: 0 })]);
+    }
+
+    #[test]
+    fn missing_extra_and_renamed() {
+        let remove = |root: &Path| fs::remove_file(root.join("README.md")).expect("removed");
+        check(remove, &[("README.md", Flaw::Missing)]);
+        check(write("games/x/lvl1.txt", b"new"), &[("games/x/lvl1.txt", Flaw::Extra)]);
+        check(write(".DS_Store", b""), &[(".DS_Store", Flaw::Extra)]);
+        check(write("MANIFEST", b""), &[("MANIFEST", Flaw::Extra)]);
+        check(write("games/MANIFEST.json", b""), &[("games/MANIFEST.json", Flaw::Extra)]);
+        let rename = |root: &Path| {
+            fs::rename(root.join("games/x/lvl0.txt"), root.join("games/x/lvl1.txt")).expect("renamed");
+        };
+        check(rename, &[("games/x/lvl0.txt", Flaw::Missing), ("games/x/lvl1.txt", Flaw::Extra)]);
+        let swap = |root: &Path| fs::rename(root.join("games/x"), root.join("games/z")).expect("renamed");
+        check(
+            swap,
+            &[
+                ("games/x/game.vgdl", Flaw::Missing),
+                ("games/x/lvl0.txt", Flaw::Missing),
+                ("games/z/game.vgdl", Flaw::Extra),
+                ("games/z/lvl0.txt", Flaw::Extra),
+            ],
+        );
+        let folder = |root: &Path| fs::create_dir_all(root.join("games/z/empty")).expect("created");
+        check(folder, &[("games/z/empty", Flaw::EmptyFolder)]);
+        let spaced = Flaw::Name(PathProblem::Character(' '));
+        check(write("games/x/a b", b""), &[("games/x/a b", spaced)]);
+    }
+
+    #[test]
+    fn a_folder_in_the_place_of_a_file() {
+        let replace = |root: &Path| {
+            fs::remove_file(root.join("README.md")).expect("removed");
+            fs::create_dir(root.join("README.md")).expect("created");
+            fs::write(root.join("README.md/inside"), "").expect("written");
+        };
+        check(replace, &[("README.md", Flaw::Missing), ("README.md/inside", Flaw::Extra)]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_found_even_to_the_same_content() {
+        use std::os::unix::fs::symlink;
+        check(
+            |root| {
+                fs::rename(root.join("README.md"), root.join("../elsewhere")).expect("moved");
+                symlink("../elsewhere", root.join("README.md")).expect("linked");
+            },
+            &[("README.md", Flaw::Link)],
+        );
+        check(
+            |root| {
+                fs::rename(root.join("games/y"), root.join("../y")).expect("moved");
+                symlink("../../y", root.join("games/y")).expect("linked");
+            },
+            &[("games/y", Flaw::Link), ("games/y/lvl0.txt", Flaw::Missing)],
+        );
+        let loops = |root: &Path| symlink(".", root.join("games/loop")).expect("linked");
+        check(loops, &[("games/loop", Flaw::Link)]);
+        let release = release();
+        fs::rename(release.root.join(MANIFEST_FILE), release.root.join("../m")).expect("moved");
+        symlink("../m", release.root.join(MANIFEST_FILE)).expect("linked");
+        assert!(matches!(check_integrity(&release.root), Err(SnapshotError::Link { .. })));
+    }
+
+    /// Repairing the manifest after altering a file needs a new root, and an old root is found wrong.
+    #[test]
+    fn a_forged_manifest_has_another_root() {
+        let release = release();
+        let mut files = FILES;
+        files[2].1 = b"www\nw.w\nwww\n";
+        fs::write(release.root.join(files[2].0), files[2].1).expect("written");
+        let forged = example(&files);
+        assert_ne!(forged.root, example(&FILES).root);
+        let disguised = Manifest { root: example(&FILES).root, ..forged.clone() };
+        let text = disguised.text().expect("plain recipe");
+        fs::write(release.root.join(MANIFEST_FILE), text).expect("written");
+        let flaw = Flaw::WrongRoot { found: forged.root, stated: disguised.root };
+        let problems = check_integrity(&release.root).expect("readable").problems;
+        assert_eq!(problems, [Problem { path: MANIFEST_FILE.into(), flaw }]);
+    }
+
+    #[test]
+    fn another_text_of_the_same_manifest() {
+        let reformat = |root: &Path| {
+            let path = root.join(MANIFEST_FILE);
+            let text = fs::read_to_string(&path).expect("readable");
+            fs::write(&path, text.replace('\n', "\r\n")).expect("written");
+        };
+        check(reformat, &[(MANIFEST_FILE, Flaw::NotCanonical)]);
+        let repeat = |root: &Path| {
+            let path = root.join(MANIFEST_FILE);
+            let text = fs::read_to_string(&path).expect("readable");
+            fs::write(&path, text.replace("\"sizes\":", "\"sizes\": [1], \"sizes\":")).expect("written");
+        };
+        check(repeat, &[(MANIFEST_FILE, Flaw::NotCanonical)]);
+    }
+
+    #[test]
+    fn no_manifest_or_a_broken_one_is_an_error() {
+        let release = release();
+        let path = release.root.join(MANIFEST_FILE);
+        fs::write(&path, "{ \"format\": 1 ").expect("written");
+        let error = check_integrity(&release.root).expect_err("cut off");
+        assert!(error.to_string().contains(&path.display().to_string()), "{error}");
+        fs::remove_file(&path).expect("removed");
+        for root in [release.root.clone(), release.root.join("absent")] {
+            assert!(
+                matches!(check_integrity(&root), Err(SnapshotError::NotASnapshot { path }) if path == root)
+            );
+        }
+    }
+
+    /// Flaws do not hide each other.
+    #[test]
+    fn all_problems_at_once_in_order() {
+        check(
+            |root| {
+                write("README.md", b"another release!!!")(root);
+                write("zzz", b"")(root);
+                fs::remove_file(root.join("games/x/lvl0.txt")).expect("removed");
+            },
+            &[
+                (
+                    "README.md",
+                    Flaw::Altered {
+                        found: Digest::of(b"another release!!!"),
+                        stated: Digest::of(FILES[0].1),
+                    },
+                ),
+                ("games/x/lvl0.txt", Flaw::Missing),
+                ("zzz", Flaw::Extra),
+            ],
+        );
+    }
+}

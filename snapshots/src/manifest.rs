@@ -1,0 +1,353 @@
+//! `MANIFEST.json`: what a release is, what it holds, and the root that commits to both.
+//!
+//! # What the root covers
+//! The root is that of the [`merkle`] tree over
+//!
+//! - one leaf per item: every file of the release but `MANIFEST.json` itself, at its path;
+//! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]; no file of that name may exist), whose digest is
+//!   the BLAKE3 of the [canonical JSON](crate::canonical) of the *header*: an object of the manifest's fields
+//!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe` and `semantics`, with
+//!   `null` where there is no parent or no commitment.
+//!
+//! Not under the root are `items` (the tree is built from them), their sizes (a digest fixes the size), `root`
+//! itself and `lockfile`: the last is provenance only, since two builds with the same semantics mint the same
+//! release, and must not be relied on.
+
+mod check;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::canonical::to_canonical_json;
+use engine::Digest;
+use crate::error::SnapshotError;
+use crate::merkle::{self, Leaf};
+
+/// The snapshot format that this crate writes, and the newest that it reads.
+pub const FORMAT: u32 = 1;
+/// The file that holds the manifest, at the top of the release.
+pub const MANIFEST_FILE: &str = "MANIFEST.json";
+/// The path of the leaf that puts the manifest's header under the root.
+pub const HEADER_LEAF: &str = "MANIFEST";
+/// The largest manifest, in bytes: 64 MiB.
+pub const MANIFEST_LIMIT: u64 = 64 << 20;
+
+/// What a release is and holds. The module's text says which fields its root covers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Version of the folder's layout: [`FORMAT`].
+    pub format: u32,
+    /// Name of the release, such as `2026-12`: one path component.
+    pub name: String,
+    /// Whether the seed is public from the start.
+    pub kind: Kind,
+    /// The engine's `SEMANTICS` when this was minted: witnesses replay under the same.
+    pub semantics: u32,
+    /// The generators' `GENERATION` when this was minted: the recipe gives the same bytes under the same.
+    pub generation: u32,
+    /// Root of the release before, or none for the first.
+    pub parent: Option<Digest>,
+    /// The GUID in every file that can carry one: see [`canary`](crate::canary()).
+    pub canary: String,
+    /// BLAKE3(seed ‖ nonce) of a sealed release; none for an open one.
+    pub commitment: Option<Digest>,
+    /// Digest of the `Cargo.lock` of the binary that minted. Provenance only: not under the root.
+    pub lockfile: Digest,
+    /// The recipe in full.
+    pub recipe: Value,
+    /// Every file but `MANIFEST.json`, sorted by the bytes of the path.
+    pub items: Vec<Item>,
+    /// Root of the tree over the items and the header.
+    pub root: Digest,
+}
+
+/// Whether the seed of a release is public.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// The seed is in the recipe.
+    Open,
+    /// The recipe holds a commitment to the seed, which is revealed later.
+    Sealed,
+}
+
+/// A file of a release.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Item {
+    /// Relative path, as [`check_path`](crate::check_path) allows.
+    pub path: String,
+    /// Size in bytes.
+    pub size: u64,
+    /// Digest of the content.
+    pub digest: Digest,
+}
+
+impl Item {
+    /// The item for a file with this content. Cost: one pass over it.
+    pub fn of(path: impl Into<String>, content: &[u8]) -> Item {
+        Item { path: path.into(), size: content.len() as u64, digest: Digest::of(content) }
+    }
+}
+
+/// The part of the manifest that its own leaf covers. Adding a field here changes every root.
+#[derive(Serialize)]
+struct Header<'a> {
+    format: u32,
+    name: &'a str,
+    kind: Kind,
+    semantics: u32,
+    generation: u32,
+    parent: Option<Digest>,
+    canary: &'a str,
+    commitment: Option<Digest>,
+    recipe: &'a Value,
+}
+
+impl Manifest {
+    /// The leaves of the tree, by the bytes of their paths: the items and the header, for [`merkle::root`] and
+    /// [`merkle::prove`].
+    ///
+    /// # Errors
+    /// The recipe has no canonical JSON.
+    pub fn leaves(&self) -> Result<Vec<Leaf>, SnapshotError> {
+        let header = to_canonical_json(&Header {
+            format: self.format,
+            name: &self.name,
+            kind: self.kind,
+            semantics: self.semantics,
+            generation: self.generation,
+            parent: self.parent,
+            canary: &self.canary,
+            commitment: self.commitment,
+            recipe: &self.recipe,
+        })?;
+        let items = self.items.iter().map(|item| Leaf { path: item.path.clone(), digest: item.digest });
+        let mut leaves: Vec<Leaf> = items.collect();
+        leaves.push(Leaf { path: HEADER_LEAF.into(), digest: Digest::of(header.as_bytes()) });
+        leaves.sort_by(|a, b| a.path.cmp(&b.path));
+        Ok(leaves)
+    }
+
+    /// Sorts the items and sets the root from them and the header. Call it last: any later change of a field
+    /// but `lockfile` makes the root wrong.
+    ///
+    /// # Errors
+    /// Two items have the same path, one has the path [`HEADER_LEAF`], or the recipe has no canonical JSON.
+    pub fn seal_root(&mut self) -> Result<(), SnapshotError> {
+        self.items.sort_by(|a, b| a.path.cmp(&b.path));
+        self.root = self.computed_root()?;
+        Ok(())
+    }
+
+    /// The root that the header and the items give, whatever the manifest states.
+    ///
+    /// # Errors
+    /// As for [`Manifest::seal_root`].
+    pub fn computed_root(&self) -> Result<Digest, SnapshotError> {
+        Ok(merkle::root(&self.leaves()?)?)
+    }
+
+    /// Reads a manifest and checks all of it that can be checked without the files, except that its root is the
+    /// right one: [`check_integrity`](crate::check_integrity) reports that beside what is wrong with the files.
+    ///
+    /// # Errors
+    /// It is too large, of another format, no JSON of this shape, has items that are unsorted, listed twice,
+    /// reserved, too large, too many, indistinguishable where capitals do not count, or with unsafe paths, has a
+    /// malformed name or canary, or a commitment exactly when it should not.
+    pub fn parse(bytes: &[u8]) -> Result<Manifest, SnapshotError> {
+        if bytes.len() as u64 > MANIFEST_LIMIT {
+            return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
+        }
+        let syntax = |source| SnapshotError::Syntax { path: MANIFEST_FILE.into(), source };
+        // The version first: what a newer format has besides is not this one's to judge.
+        let version: Version = serde_json::from_slice(bytes).map_err(syntax)?;
+        if version.format > u64::from(FORMAT) {
+            return Err(SnapshotError::Format { found: version.format, known: FORMAT });
+        }
+        let manifest: Manifest = serde_json::from_slice(bytes).map_err(syntax)?;
+        check::check(&manifest)?;
+        Ok(manifest)
+    }
+
+    /// The bytes of `MANIFEST.json`: canonical JSON, which [`Manifest::parse`] reads back as the same manifest.
+    ///
+    /// # Errors
+    /// Whatever `parse` would refuse, and a root that is not the one the header and the items give.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
+        check::check(self)?;
+        if self.root != self.computed_root()? {
+            return Err(check::unsound("its root is not that of its items: seal the root last".into()));
+        }
+        let bytes = self.text()?.into_bytes();
+        if bytes.len() as u64 > MANIFEST_LIMIT {
+            return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
+        }
+        Ok(bytes)
+    }
+
+    /// The text that this manifest has in this format, sound or not.
+    pub(crate) fn text(&self) -> Result<String, SnapshotError> {
+        Ok(to_canonical_json(self)?)
+    }
+}
+
+/// All that any format is sure to have.
+#[derive(Deserialize)]
+struct Version {
+    format: u64,
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    /// A sealed manifest of the given files.
+    pub(crate) fn example(files: &[(&str, &[u8])]) -> Manifest {
+        let mut manifest = Manifest {
+            format: FORMAT,
+            name: "2026-12".into(),
+            kind: Kind::Sealed,
+            semantics: 3,
+            generation: 4,
+            parent: Some(Digest::of(b"the release before")),
+            canary: crate::canary(&Digest::of(b"commitment")),
+            commitment: Some(Digest::of(b"commitment")),
+            lockfile: Digest::of(b"lock"),
+            recipe: json!({ "name": "2026-12", "games": [{ "count": 2, "rate": 0.1 }], "sizes": [9, 13] }),
+            items: files.iter().map(|(path, content)| Item::of(*path, content)).collect(),
+            root: Digest::of(b"not yet"),
+        };
+        manifest.seal_root().expect("distinct paths");
+        manifest
+    }
+
+    fn two_files() -> Manifest {
+        example(&[("games/x/lvl0.txt", b"w"), ("README.md", b"read me")])
+    }
+
+    /// Computed by an independent implementation: this text and this root are what format 1 means.
+    #[test]
+    fn golden() {
+        let manifest = two_files();
+        let bytes = manifest.to_bytes().expect("sound");
+        let expect = include_str!("manifest/golden.json");
+        assert_eq!(String::from_utf8(bytes).expect("JSON is UTF-8"), expect);
+        assert_eq!(
+            manifest.root.to_string(),
+            "6871261f83a66c26cd308695d0019b0d88fce29a5d0d5c1ba27ff490c54e5175"
+        );
+    }
+
+    #[test]
+    fn parse_reads_what_to_bytes_writes() {
+        for manifest in [two_files(), example(&[])] {
+            let bytes = manifest.to_bytes().expect("sound");
+            assert_eq!(Manifest::parse(&bytes).expect("what was written"), manifest);
+        }
+    }
+
+    #[test]
+    fn every_header_field_and_item_is_under_the_root() {
+        let sealed = two_files();
+        let root_after = |change: &dyn Fn(&mut Manifest)| {
+            let mut manifest = sealed.clone();
+            change(&mut manifest);
+            manifest.computed_root().expect("distinct paths")
+        };
+        let changes: [&dyn Fn(&mut Manifest); 13] = [
+            &|m| m.format = 2,
+            &|m| m.name.push('x'),
+            &|m| m.kind = Kind::Open,
+            &|m| m.semantics += 1,
+            &|m| m.generation += 1,
+            &|m| m.parent = None,
+            &|m| m.canary.push('0'),
+            &|m| m.commitment = None,
+            &|m| m.recipe["games"][0]["rate"] = json!(0.2),
+            &|m| m.items[0].digest = Digest::of(b""),
+            &|m| m.items[0].path.push('x'),
+            &|m| drop(m.items.pop()),
+            &|m| m.items.push(Item::of("z", b"")),
+        ];
+        for (n, change) in changes.iter().enumerate() {
+            assert_ne!(root_after(change), sealed.root, "change {n}");
+        }
+        // Provenance and the root itself are not, and a size follows from the digest.
+        assert_eq!(root_after(&|m| m.lockfile = Digest::of(b"")), sealed.root);
+        assert_eq!(root_after(&|m| m.root = Digest::of(b"")), sealed.root);
+        assert_eq!(root_after(&|m| m.items[0].size += 1), sealed.root);
+    }
+
+    #[test]
+    fn items_can_be_proved_alone() {
+        let manifest = two_files();
+        let leaves = manifest.leaves().expect("plain recipe");
+        assert_eq!(
+            leaves.iter().map(|l| &*l.path).collect::<Vec<_>>(),
+            ["MANIFEST", "README.md", "games/x/lvl0.txt"]
+        );
+        for leaf in &leaves {
+            let proof = merkle::prove(&leaves, &leaf.path).expect("present");
+            assert!(proof.verify(leaf, &manifest.root));
+        }
+    }
+
+    #[test]
+    fn duplicate_and_reserved_paths_cannot_be_sealed() {
+        for path in ["README.md", HEADER_LEAF] {
+            let mut manifest = two_files();
+            manifest.items.push(Item::of(path, b""));
+            let error = manifest.seal_root().expect_err("listed twice");
+            assert!(error.to_string().contains(&format!("`{path}` is listed twice")), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_stale_root_is_not_written() {
+        let mut manifest = two_files();
+        manifest.semantics += 1;
+        let error = manifest.to_bytes().expect_err("stale root");
+        assert!(error.to_string().contains("seal the root last"), "{error}");
+    }
+
+    #[track_caller]
+    fn refuse(json: &str, expect: &str) {
+        let error = Manifest::parse(json.as_bytes()).expect_err(expect);
+        let source = std::error::Error::source(&error).map(ToString::to_string).unwrap_or_default();
+        let message = format!("{error} ({source})");
+        assert!(message.contains(expect), "{message}");
+    }
+
+    #[test]
+    fn the_format_is_judged_first() {
+        refuse(
+            r#"{ "format": 7, "novelty": [] }"#,
+            "snapshot format 7 is newer than this arcade understands (1): use a newer arcade",
+        );
+        refuse(r#"{ "format": 18446744073709551615 }"#, "snapshot format 18446744073709551615 is newer");
+        refuse(r#"{ "format": -1 }"#, "invalid value");
+        refuse("{}", "missing field `format`");
+        refuse("", "EOF");
+        let text = two_files().text().expect("plain recipe");
+        refuse(&text.replace("\"format\": 1", "\"format\": 0"), "format 0 does not exist");
+    }
+
+    #[test]
+    fn the_shape_is_closed() {
+        let text = two_files().text().expect("plain recipe");
+        refuse(&text.replacen('{', "{\"more\": 1,", 1), "unknown field `more`");
+        refuse(&text.replace("\"size\": 1", "\"size\": 1, \"mode\": 7"), "unknown field `mode`");
+        refuse(&text.replacen('{', "{\"format\": 1,", 1), "duplicate field `format`");
+        refuse(&text.replace("\"sealed\"", "\"Sealed\""), "unknown variant `Sealed`");
+        refuse(&text[..text.len() - 3], "EOF");
+        refuse(&format!("{text}{{"), "trailing characters");
+        let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
+        refuse(&text.replace("0.1", &deep), "recursion limit");
+        let oversize = " ".repeat(MANIFEST_LIMIT as usize + 1);
+        refuse(&oversize, "larger than 67108864 bytes");
+    }
+}

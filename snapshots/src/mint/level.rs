@@ -1,0 +1,110 @@
+//! Levels for one game: candidates of the level generator until enough pass.
+
+use super::tally::Tally;
+use crate::card::LevelCard;
+use crate::recipe::{Part, Recipe};
+use engine::{Digest, Episode, Game, Level, Seed};
+use generators::Generator;
+use generators::levels::{ConstructiveLevels, LevelConfig};
+use validators::{Panel, Rate, Report};
+
+/// A level that passed, with the episode that proves it winnable.
+pub(super) struct MintedLevel {
+    pub(super) text: String,
+    pub(super) card: LevelCard,
+    pub(super) witness: Episode,
+}
+
+/// The levels of one candidate game.
+pub(super) struct Levels<'a> {
+    pub(super) recipe: &'a Recipe,
+    pub(super) part: &'a Part,
+    pub(super) panel: &'a Panel,
+    pub(super) seed: Seed,
+}
+
+impl Levels<'_> {
+    /// All levels, from the easiest asked for to the hardest; None as soon as one cannot be had.
+    pub(super) fn mint(&self, game: &Game, tally: &mut Tally) -> Option<Vec<MintedLevel>> {
+        let mut minted: Vec<MintedLevel> = Vec::new();
+        for number in 0..self.part.levels {
+            let taken: Vec<Digest> = minted.iter().map(|level| level.card.digest).collect();
+            match self.level(game, number, &taken, tally) {
+                Some(level) => minted.push(level),
+                None => {
+                    tally.game_rejected(&format!("no level {number}"));
+                    return None;
+                }
+            }
+        }
+        Some(minted)
+    }
+
+    fn level(&self, game: &Game, number: u32, taken: &[Digest], tally: &mut Tally) -> Option<MintedLevel> {
+        let difficulty = f64::from(number) / f64::from((self.part.levels - 1).max(1));
+        let board = &self.recipe.board;
+        let config = LevelConfig { columns: board.columns, rows: board.rows, difficulty };
+        let generator = match ConstructiveLevels::new(game, config) {
+            Ok(generator) => generator,
+            Err(error) => {
+                tally.game_rejected(&error.to_string());
+                return None;
+            }
+        };
+        for candidate in 0..self.part.level_tries {
+            let seed = self.seed.child("level", u64::from(number)).child("candidate", u64::from(candidate));
+            let level = match generator.generate(seed.child("layout", 0)) {
+                Ok(level) if taken.contains(&level.digest()) => {
+                    tally.level(0, Some("the same level twice"));
+                    continue;
+                }
+                Ok(level) => level,
+                Err(_) => {
+                    tally.level(0, Some("level generator"));
+                    continue;
+                }
+            };
+            let report = self.panel.screen(game, &level, seed.child("judges", 0));
+            let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
+            tally.level(calls(&report), obstacle);
+            if obstacle.is_none() {
+                let file = format!("lvl{number}.txt");
+                return minted(level, report, LevelPlace { file, difficulty, candidate });
+            }
+        }
+        None
+    }
+}
+
+struct LevelPlace {
+    file: String,
+    difficulty: f64,
+    candidate: u32,
+}
+
+fn calls(report: &Report) -> u64 {
+    report.judgements.iter().filter_map(|judgement| judgement.finding.measured.as_ref()).map(|rate| rate.calls).sum()
+}
+
+fn minted(level: Level, report: Report, place: LevelPlace) -> Option<MintedLevel> {
+    let rate = |criterion: &str| -> Option<Rate> {
+        let judgement = report.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
+        judgement.finding.measured.clone()
+    };
+    let witness = report.witness.clone()?;
+    let card = LevelCard {
+        file: place.file,
+        digest: level.digest(),
+        columns: level.columns(),
+        rows: level.rows(),
+        generator: "constructive".to_owned(),
+        difficulty: place.difficulty,
+        candidate: place.candidate,
+        witness_ticks: witness.actions.len(),
+        witness_score: witness.score,
+        mcts: rate("winnable")?,
+        random: rate("not-random")?,
+        idle: rate("not-idle")?,
+    };
+    Some(MintedLevel { text: level.to_string(), card, witness })
+}

@@ -1,0 +1,329 @@
+//! Minting: where candidates meet their judges.
+//!
+//! A release is a list of independent places, each with a seed of its own. For each place candidates are made and judged
+//! until one passes, so the bytes of a release depend on the recipe alone: not on threads, order or time.
+
+mod folder;
+mod level;
+mod tally;
+
+use crate::card::{Card, Origin};
+use crate::corpus::Corpus;
+use crate::manifest::Manifest;
+use crate::recipe::{Part, Recipe};
+use crate::{Digest, SnapshotError};
+use engine::{Description, Game, Sampler, Seed, syntax};
+use generators::games::{ConstructiveGames, GameConfig, GeneratedGame, Kind};
+use generators::{GenerateError, Generator};
+use level::{Levels, MintedLevel};
+use rayon::prelude::*;
+pub use tally::Tally;
+use validators::Panel;
+
+/// A release in memory: every file, in path order, the manifest apart.
+#[derive(Clone, Debug)]
+pub struct Minted {
+    /// The manifest, root included.
+    pub manifest: Manifest,
+    /// Relative path and content.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// The cards of the games, in the order of their places.
+    pub cards: Vec<Card>,
+    /// How many candidates were tried, and why the others failed.
+    pub tally: Tally,
+}
+
+/// Why nothing was minted.
+#[derive(Debug, thiserror::Error)]
+pub enum MintError {
+    /// The recipe asks for more corpus games than there are.
+    #[error("`corpus.games` is {asked}, but the corpus has {known} games")]
+    SmallCorpus {
+        /// In the recipe.
+        asked: u32,
+        /// In the corpus.
+        known: usize,
+    },
+    /// A corpus game does not compile.
+    #[error("the corpus game `{name}` does not compile: {problems}")]
+    BrokenCorpus {
+        /// The game.
+        name: String,
+        /// What is wrong.
+        problems: engine::Diagnostics,
+    },
+    /// No candidate for a place passed.
+    #[error("{place}: none of {tried} candidates passed ({why}); raise the tries or relax the criteria")]
+    Unfilled {
+        /// The place.
+        place: String,
+        /// Candidates tried.
+        tried: u32,
+        /// How the candidates failed.
+        why: String,
+    },
+    /// Files or manifest could not be made.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+}
+
+/// Told how minting goes; from several threads.
+pub trait Progress: Sync {
+    /// So many places are to be filled.
+    fn begin(&self, _places: usize) {}
+    /// A candidate for a place was judged.
+    fn tried(&self, _place: &str, _passed: bool) {}
+    /// A place is filled.
+    fn filled(&self, _card: &Card) {}
+}
+
+impl Progress for () {}
+
+/// A place in a release.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    /// New levels for a corpus game: index into the corpus.
+    Corpus(usize),
+    /// A new game: its number among them.
+    Generated(u32),
+}
+
+/// A filled place.
+struct Filled {
+    card: Card,
+    text: String,
+    levels: Vec<MintedLevel>,
+    /// The rules with names taken away: equal for games that differ in fiction only.
+    shape: Digest,
+    tally: Tally,
+}
+
+/// Mints a release. Cost: minutes for tens of games, on all threads of the current rayon pool.
+///
+/// # Errors
+/// The recipe cannot be fulfilled, or the corpus is broken.
+pub fn mint(
+    recipe: &Recipe,
+    corpus: &Corpus,
+    lockfile: Digest,
+    progress: &dyn Progress,
+) -> Result<Minted, MintError> {
+    let places = places(recipe, corpus)?;
+    progress.begin(places.len());
+    let mint = Mint { recipe, corpus, panel: Panel::new(&recipe.criteria), progress };
+    let filled: Vec<Result<Filled, MintError>> =
+        places.par_iter().map(|&place| mint.fill(place, 0)).collect();
+    let mut games: Vec<Filled> = filled.into_iter().collect::<Result<_, _>>()?;
+    mint.replace_twins(&places, &mut games)?;
+    folder::assemble(recipe, lockfile, games)
+}
+
+/// Whether the corpus has what the recipe asks for: for a question answered before the work begins.
+///
+/// # Errors
+/// It has not.
+pub fn check(recipe: &Recipe, corpus: &Corpus) -> Result<(), MintError> {
+    places(recipe, corpus).map(drop)
+}
+
+/// The places of a release, in order; which corpus games are taken is drawn.
+fn places(recipe: &Recipe, corpus: &Corpus) -> Result<Vec<Place>, MintError> {
+    let (asked, known) = (recipe.corpus.games, corpus.games.len());
+    if asked as usize > known {
+        return Err(MintError::SmallCorpus { asked, known });
+    }
+    let mut order: Vec<usize> = (0..known).collect();
+    let mut sampler: Sampler = recipe.root_seed().child("corpus order", 0).sampler();
+    sampler.shuffle(&mut order);
+    order.truncate(asked as usize);
+    order.sort_unstable();
+    let generated = (0..recipe.generated.games).map(Place::Generated);
+    Ok(order.into_iter().map(Place::Corpus).chain(generated).collect())
+}
+
+struct Mint<'a> {
+    recipe: &'a Recipe,
+    corpus: &'a Corpus,
+    panel: Panel,
+    progress: &'a dyn Progress,
+}
+
+/// A candidate before it has levels.
+struct Candidate {
+    game: Game,
+    title: String,
+    description: String,
+    goal: String,
+    kind: String,
+    real_time: bool,
+    origin: Origin,
+}
+
+impl Mint<'_> {
+    /// Fills a place with the first candidate, from number `from` on, that passes.
+    fn fill(&self, place: Place, from: u32) -> Result<Filled, MintError> {
+        let (name, seed, part) = self.describe(place);
+        let mut tally = Tally::default();
+        let tries = match place {
+            Place::Corpus(_) => from + 1,
+            Place::Generated(_) => part.game_tries,
+        };
+        for number in from..tries {
+            let seed = seed.child("candidate", u64::from(number));
+            let candidate = match self.candidate(place, number, seed)? {
+                Ok(candidate) => candidate,
+                Err(error) => {
+                    tally.game_rejected(&error.to_string());
+                    continue;
+                }
+            };
+            let levels = Levels { recipe: self.recipe, part, panel: &self.panel, seed };
+            let found = levels.mint(&candidate.game, &mut tally);
+            self.progress.tried(&name, found.is_some());
+            if let Some(levels) = found {
+                tally.game_accepted();
+                let filled = self.finish(candidate, levels, tally);
+                self.progress.filled(&filled.card);
+                return Ok(filled);
+            }
+        }
+        Err(MintError::Unfilled { place: name, tried: tries - from.min(tries), why: tally.reasons() })
+    }
+
+    /// Name, seed and part of a place.
+    fn describe(&self, place: Place) -> (String, Seed, &Part) {
+        let root = self.recipe.root_seed();
+        match place {
+            Place::Corpus(at) => {
+                let name = &self.corpus.games[at].name;
+                (format!("levels for {name}"), root.child("corpus", 0).child(name, 0), &self.recipe.corpus)
+            }
+            Place::Generated(number) => {
+                let seed = root.child("generated", u64::from(number));
+                (format!("new game {}", number + 1), seed, &self.recipe.generated)
+            }
+        }
+    }
+
+    fn candidate(
+        &self,
+        place: Place,
+        number: u32,
+        seed: Seed,
+    ) -> Result<Result<Candidate, GenerateError>, MintError> {
+        match place {
+            Place::Corpus(at) => self.corpus_game(at).map(Ok),
+            Place::Generated(number_of_place) => {
+                // Places take turns through the kinds, so that a release has as many as it can.
+                let mut kinds = Kind::ALL.to_vec();
+                self.recipe.root_seed().child("kinds", 0).sampler().shuffle(&mut kinds);
+                let kind = kinds[number_of_place as usize % kinds.len()];
+                let generator = ConstructiveGames::new(GameConfig { kinds: vec![kind] });
+                Ok(generator.generate(seed.child("rules", 0)).and_then(|made| generated_game(made, number)))
+            }
+        }
+    }
+
+    fn corpus_game(&self, at: usize) -> Result<Candidate, MintError> {
+        let corpus_game = &self.corpus.games[at];
+        let name = corpus_game.name.clone();
+        let game = Game::from_source(&corpus_game.source)
+            .map_err(|problems| MintError::BrokenCorpus { name: name.clone(), problems })?;
+        let card = corpus_game.card.clone();
+        Ok(Candidate {
+            game,
+            title: card.title,
+            description: card.description,
+            goal: card.goal,
+            kind: card.kind,
+            real_time: card.real_time,
+            origin: Origin::Corpus { name },
+        })
+    }
+
+    fn finish(&self, candidate: Candidate, levels: Vec<MintedLevel>, tally: Tally) -> Filled {
+        let Candidate { game, title, description, goal, kind, real_time, origin } = candidate;
+        let canary = folder::canary_of(self.recipe);
+        let slug = match &origin {
+            Origin::Corpus { name } => name.clone(),
+            Origin::Generated { .. } => slug(&title),
+        };
+        let mut tree: Description = game.description().clone();
+        tree.header.trivia.above.insert(0, format!("canary {canary}"));
+        tree.header.trivia.above.insert(0, title.clone());
+        Filled {
+            text: syntax::print(&tree),
+            shape: crate::shape::shape(game.description()),
+            card: Card {
+                canary,
+                id: format!("{slug}-{}", game.digest().short()),
+                title,
+                description,
+                goal,
+                kind,
+                real_time,
+                deterministic: game.is_deterministic(),
+                digest: game.digest(),
+                origin,
+                rules: String::new(),
+                levels: levels.iter().map(|level| level.card.clone()).collect(),
+            },
+            levels,
+            tally,
+        }
+    }
+
+    /// Fills a place anew if an earlier one holds the same rules: the later place moves on to its next candidates.
+    fn replace_twins(&self, places: &[Place], games: &mut [Filled]) -> Result<(), MintError> {
+        for at in 1..games.len() {
+            loop {
+                let twin = games[..at].iter().any(|other| other.shape == games[at].shape);
+                let Origin::Generated { candidate, .. } = games[at].card.origin else { break };
+                if !twin {
+                    break;
+                }
+                let mut tally = games[at].tally.clone();
+                games[at] = self.fill(places[at], candidate + 1)?;
+                tally.twin();
+                games[at].tally.add(&tally);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn generated_game(made: GeneratedGame, candidate: u32) -> Result<Candidate, GenerateError> {
+    let GeneratedGame { description, title, summary, goal, kind, real_time, patterns } = made;
+    let game = Game::compile(&description)
+        .map_err(|problems| GenerateError::Unlucky(format!("the rules do not compile: {problems}")))?;
+    let origin = Origin::Generated { generator: "constructive".to_owned(), patterns, candidate };
+    let kind = kind.name().to_owned();
+    Ok(Candidate { game, title, description: summary, goal, kind, real_time, origin })
+}
+
+/// A title as a folder name: lower-case letters, digits, single dashes.
+fn slug(title: &str) -> String {
+    let mut slug = String::new();
+    for c in title.chars() {
+        if c.is_ascii_alphanumeric() {
+            slug.push(c.to_ascii_lowercase());
+        } else if !slug.ends_with('-') && !slug.is_empty() && c != '\'' {
+            slug.push('-');
+        }
+    }
+    slug.truncate(40);
+    let slug = slug.trim_end_matches('-');
+    if slug.is_empty() { "game".to_owned() } else { slug.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::slug;
+
+    #[test]
+    fn slugs_are_plain() {
+        assert_eq!(slug("The Salt Orchard"), "the-salt-orchard");
+        assert_eq!(slug("  Keeper's  — Light! "), "keepers-light");
+        assert_eq!(slug("!!"), "game");
+    }
+}

@@ -1,0 +1,69 @@
+//! What minting cost: candidates, rejections, calls.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Candidates tried for one place or a whole release, and why those that failed did.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Tally {
+    /// Games tried.
+    pub games_tried: u64,
+    /// Games accepted.
+    pub games_accepted: u64,
+    /// Levels tried.
+    pub levels_tried: u64,
+    /// Levels accepted, those of games that failed later included.
+    pub levels_accepted: u64,
+    /// Forward-model calls of all judges.
+    pub calls: u64,
+    /// How often each criterion, or a generator, said no.
+    pub rejections: BTreeMap<String, u64>,
+}
+
+impl Tally {
+    pub(super) fn game_accepted(&mut self) {
+        self.games_tried += 1;
+        self.games_accepted += 1;
+    }
+
+    pub(super) fn game_rejected(&mut self, why: &str) {
+        self.games_tried += 1;
+        // The generator's own words after the colon differ with every seed.
+        let kind = why.split(':').next().unwrap_or(why).to_owned();
+        *self.rejections.entry(kind).or_default() += 1;
+    }
+
+    pub(super) fn level(&mut self, calls: u64, obstacle: Option<&str>) {
+        self.levels_tried += 1;
+        self.calls += calls;
+        match obstacle {
+            None => self.levels_accepted += 1,
+            Some(criterion) => *self.rejections.entry(criterion.to_owned()).or_default() += 1,
+        }
+    }
+
+    pub(super) fn twin(&mut self) {
+        self.games_accepted -= 1;
+        *self.rejections.entry("same rules as another game".to_owned()).or_default() += 1;
+    }
+
+    /// Adds the counts of another place.
+    pub(super) fn add(&mut self, other: &Tally) {
+        self.games_tried += other.games_tried;
+        self.games_accepted += other.games_accepted;
+        self.levels_tried += other.levels_tried;
+        self.levels_accepted += other.levels_accepted;
+        self.calls += other.calls;
+        for (why, count) in &other.rejections {
+            *self.rejections.entry(why.clone()).or_default() += count;
+        }
+    }
+
+    /// The rejections in words, the most frequent first.
+    pub fn reasons(&self) -> String {
+        let mut reasons: Vec<(&String, &u64)> = self.rejections.iter().collect();
+        reasons.sort_by_key(|(why, count)| (std::cmp::Reverse(**count), *why));
+        let words: Vec<String> = reasons.iter().map(|(why, count)| format!("{why} {count}")).collect();
+        words.join(", ")
+    }
+}

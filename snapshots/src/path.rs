@@ -1,0 +1,117 @@
+//! Which relative paths a release may contain: those that mean the same file on every system and lead nowhere
+//! else.
+
+/// The longest path, in bytes.
+pub const MAX_PATH: usize = 255;
+
+/// Why a path may not be in a release.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
+#[non_exhaustive]
+pub enum PathProblem {
+    /// The path has no characters.
+    #[error("it is empty")]
+    Empty,
+    /// The path has more than [`MAX_PATH`] bytes.
+    #[error("it is longer than {MAX_PATH} bytes")]
+    TooLong,
+    /// The path starts with `/`.
+    #[error("it is absolute")]
+    Absolute,
+    /// Two `/` in a row, or one at the end.
+    #[error("it has an empty component")]
+    EmptyComponent,
+    /// A component is `.` or `..`.
+    #[error("it has a `.` or `..` component")]
+    DotComponent,
+    /// A component ends with a dot, which Windows drops.
+    #[error("a component ends with a dot")]
+    TrailingDot,
+    /// A character outside `A-Z a-z 0-9 . _ - /`; so also `\`, `:`, control characters and anything not ASCII.
+    #[error("it has the character {0:?}: only A-Z, a-z, 0-9, `.`, `_`, `-` and `/` may be used")]
+    Character(char),
+    /// The name is not Unicode.
+    #[error("it is not Unicode")]
+    NotUnicode,
+}
+
+/// Whether `path` may be in a release: relative, `/`-separated, at most [`MAX_PATH`] bytes, of the characters
+/// `A-Z a-z 0-9 . _ -`, without components that are empty, `.`, `..` or end with a dot.
+///
+/// # Errors
+/// The first reason why not.
+pub fn check_path(path: &str) -> Result<(), PathProblem> {
+    if path.is_empty() {
+        return Err(PathProblem::Empty);
+    }
+    if path.len() > MAX_PATH {
+        return Err(PathProblem::TooLong);
+    }
+    if path.starts_with('/') {
+        return Err(PathProblem::Absolute);
+    }
+    let safe = |c: &char| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '-' | '/');
+    if let Some(character) = path.chars().find(|c| !safe(c)) {
+        return Err(PathProblem::Character(character));
+    }
+    path.split('/').try_for_each(|component| match component {
+        "" => Err(PathProblem::EmptyComponent),
+        "." | ".." => Err(PathProblem::DotComponent),
+        _ if component.ends_with('.') => Err(PathProblem::TrailingDot),
+        _ => Ok(()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn safe_paths() {
+        let longest = "a".repeat(MAX_PATH);
+        for path in ["a", "README.md", "games/maze-0a1b2c3d/lvl0.txt", ".gitattributes", "a/..b/c", &longest]
+        {
+            assert_eq!(check_path(path), Ok(()), "{path}");
+        }
+    }
+
+    #[test]
+    fn unsafe_paths() {
+        let too_long = "a".repeat(MAX_PATH + 1);
+        for (path, problem) in [
+            ("", PathProblem::Empty),
+            (too_long.as_str(), PathProblem::TooLong),
+            ("/etc/passwd", PathProblem::Absolute),
+            ("/", PathProblem::Absolute),
+            ("a//b", PathProblem::EmptyComponent),
+            ("a/", PathProblem::EmptyComponent),
+            (".", PathProblem::DotComponent),
+            ("..", PathProblem::DotComponent),
+            ("a/../b", PathProblem::DotComponent),
+            ("a/./b", PathProblem::DotComponent),
+            ("a/..", PathProblem::DotComponent),
+            ("...", PathProblem::TrailingDot),
+            ("a./b", PathProblem::TrailingDot),
+            ("a\\b", PathProblem::Character('\\')),
+            ("C:/a", PathProblem::Character(':')),
+            ("a\0b", PathProblem::Character('\0')),
+            ("a\nb", PathProblem::Character('\n')),
+            ("a b", PathProblem::Character(' ')),
+            ("~/a", PathProblem::Character('~')),
+            ("a\u{7f}", PathProblem::Character('\u{7f}')),
+            ("caf\u{e9}", PathProblem::Character('\u{e9}')),
+            ("a\u{2215}b", PathProblem::Character('\u{2215}')),
+        ] {
+            assert_eq!(check_path(path), Err(problem), "{path:?}");
+        }
+    }
+
+    /// Every byte that is not listed is refused wherever it stands.
+    #[test]
+    fn the_alphabet_is_closed() {
+        for byte in 0..128_u8 {
+            let c = char::from(byte);
+            let allowed = c.is_ascii_alphanumeric() || ".-_".contains(c) || c == '/';
+            assert_eq!(check_path(&format!("a{c}b")).is_ok(), allowed, "{c:?}");
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! What a suspicious reading of a release folder can find: data, so that all of it is reported at once.
+
+use std::fmt;
+
+use engine::Digest;
+use crate::path::PathProblem;
+
+/// One thing that is wrong with a release folder. Ordered by the bytes of the path, then by flaw.
+///
+/// `Display` names the path and what is wrong, safe to print: `games/x/lvl0.txt: altered (digest 12ab34cd…, the
+/// manifest says 56ef7890…)`.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Problem {
+    /// Where, relative to the release folder and `/`-separated; `.` for the folder itself. A name that is not
+    /// Unicode is given as nearly as Unicode can.
+    pub path: String,
+    /// What is wrong there.
+    pub flaw: Flaw,
+}
+
+/// What is wrong with a path of a release folder.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Flaw {
+    /// The manifest lists it; no regular file is there.
+    Missing,
+    /// A file that the manifest does not list.
+    Extra,
+    /// A folder with nothing in it, which no manifest can list.
+    EmptyFolder,
+    /// The size is not the stated one, so the content was not read.
+    Size {
+        /// Bytes in the folder.
+        found: u64,
+        /// Bytes that the manifest states.
+        stated: u64,
+    },
+    /// The content is not the stated one.
+    Altered {
+        /// Digest of the file in the folder.
+        found: Digest,
+        /// Digest that the manifest states.
+        stated: Digest,
+    },
+    /// A symbolic link; it was not followed.
+    Link,
+    /// A pipe, socket or device; it was not opened.
+    Special,
+    /// A name that no release may contain; a folder with such a name was not entered.
+    Name(PathProblem),
+    /// A file above the limit of one file.
+    TooLarge {
+        /// Bytes in the folder.
+        size: u64,
+        /// The limit, in bytes.
+        limit: u64,
+    },
+    /// More files, or more folders, than the limit. The rest was not looked at, and nothing else about the
+    /// folder's content is reported.
+    TooMany {
+        /// The limit, for each of the two.
+        limit: u64,
+    },
+    /// The files together are above the limit.
+    TotalTooLarge {
+        /// Bytes in all regular files.
+        size: u64,
+        /// The limit, in bytes.
+        limit: u64,
+    },
+    /// The manifest's text is not what this format writes for what it says (spaces, order, line ends, a field
+    /// left out or a key twice): its meaning is intact, its bytes are not as minted.
+    NotCanonical,
+    /// The stated root is not the root over the manifest's own header and items.
+    WrongRoot {
+        /// The root that they give.
+        found: Digest,
+        /// The root that the manifest states.
+        stated: Digest,
+    },
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path.escape_debug(), self.flaw)
+    }
+}
+
+impl fmt::Display for Flaw {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Flaw::Missing => write!(f, "missing"),
+            Flaw::Extra => write!(f, "extra (not in the manifest)"),
+            Flaw::EmptyFolder => write!(f, "extra (an empty folder)"),
+            Flaw::Size { found, stated } => {
+                write!(f, "wrong size ({found} bytes, the manifest says {stated})")
+            }
+            Flaw::Altered { found, stated } => {
+                write!(f, "altered (digest {}, the manifest says {})", short(found), short(stated))
+            }
+            Flaw::Link => write!(f, "a symbolic link instead of a file or folder"),
+            Flaw::Special => write!(f, "neither a file nor a folder"),
+            Flaw::Name(problem) => write!(f, "unsafe name ({problem})"),
+            Flaw::TooLarge { size, limit } => write!(f, "too large ({size} bytes of at most {limit})"),
+            Flaw::TooMany { limit } => write!(f, "more than {limit} files or folders"),
+            Flaw::TotalTooLarge { size, limit } => {
+                write!(f, "too large altogether ({size} bytes of at most {limit})")
+            }
+            Flaw::NotCanonical => write!(f, "not in canonical form (its text is not as minted)"),
+            Flaw::WrongRoot { found, stated } => {
+                write!(f, "wrong root (its items give {}, it says {})", short(found), short(stated))
+            }
+        }
+    }
+}
+
+/// Enough of a digest to recognise it; [`Problem`] holds all of it.
+fn short(digest: &Digest) -> String {
+    let text = digest.to_string();
+    format!("{}…", &text[..8])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(path: &str, flaw: Flaw, expect: &str) {
+        assert_eq!(Problem { path: path.into(), flaw }.to_string(), expect);
+    }
+
+    #[test]
+    fn display_names_the_path_and_the_flaw() {
+        let (found, stated) = (Digest::of(b""), Digest::of(b"abc"));
+        check(
+            "games/x/lvl0.txt",
+            Flaw::Altered { found, stated },
+            "games/x/lvl0.txt: altered (digest af1349b9…, the manifest says 6437b3ac…)",
+        );
+        check("a", Flaw::Size { found: 3, stated: 2 }, "a: wrong size (3 bytes, the manifest says 2)");
+        check(".", Flaw::TooMany { limit: 9 }, ".: more than 9 files or folders");
+        let bell = Flaw::Name(PathProblem::Character('\u{7}'));
+        let text = Problem { path: "a\u{7}b".into(), flaw: bell }.to_string();
+        assert!(text.starts_with("a\\u{7}b: unsafe name (it has the character '\\u{7}'"), "{text}");
+    }
+
+    #[test]
+    fn order_is_by_path_bytes_first() {
+        let problem = |path: &str, flaw| Problem { path: path.into(), flaw };
+        let mut problems =
+            [problem("b", Flaw::Missing), problem("a/b", Flaw::Extra), problem("a-b", Flaw::Link)];
+        problems.sort();
+        assert_eq!(problems.map(|p| p.path), ["a-b", "a/b", "b"]);
+    }
+}

@@ -1,0 +1,204 @@
+//! Verifying a release folder: nothing in it is trusted.
+
+use crate::card::Card;
+use crate::folder;
+use crate::integrity::check_integrity;
+use crate::manifest::Manifest;
+use crate::witness::Witness;
+use crate::{Digest, SnapshotError};
+use engine::{Game, Outcome};
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What was found out about the witnesses.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Witnesses {
+    /// So many were replayed; those that failed are among the problems.
+    Replayed(usize),
+    /// The release was minted under other semantics of the engine.
+    NotReplayed {
+        /// The semantics that the witnesses need.
+        semantics: u32,
+    },
+}
+
+/// The answer of [`verify`].
+#[derive(Clone, Debug, Serialize)]
+pub struct Verification {
+    /// Name of the release.
+    pub name: String,
+    /// Its root digest, as stated.
+    pub root: Digest,
+    /// Files, the manifest apart.
+    pub files: usize,
+    /// Games.
+    pub games: usize,
+    /// Levels.
+    pub levels: usize,
+    /// What was found out about the witnesses.
+    pub witnesses: Witnesses,
+    /// All that is wrong, each naming the file; empty if the release is sound.
+    pub problems: Vec<String>,
+}
+
+/// Checks paths, links, sizes, digests and the root; if these hold, that games, levels and cards are well-formed and
+/// fit together; and, under the same semantics, replays every witness to its win.
+///
+/// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
+///
+/// # Errors
+/// There is no manifest, it is of a newer format or broken, or the file system refuses.
+pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
+    refuse_unfinished(root)?;
+    let integrity = check_integrity(root)?;
+    let manifest = integrity.manifest;
+    let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
+    let same_semantics = manifest.semantics == engine::SEMANTICS;
+    let mut games = Vec::new();
+    if problems.is_empty() {
+        let folders = game_folders(&manifest, &mut problems);
+        let checked: Vec<GameCheck> = folders
+            .into_par_iter()
+            .map(|(folder, files)| check_game(root, &manifest, &folder, &files, same_semantics))
+            .collect::<Result<_, _>>()?;
+        games = checked;
+        problems.extend(games.iter_mut().flat_map(|game| std::mem::take(&mut game.problems)));
+    }
+    let levels = games.iter().map(|game| game.levels).sum();
+    Ok(Verification {
+        root: manifest.root,
+        files: manifest.items.len(),
+        games: games.len(),
+        levels,
+        witnesses: match same_semantics {
+            true => Witnesses::Replayed(games.iter().map(|game| game.replayed).sum()),
+            false => Witnesses::NotReplayed { semantics: manifest.semantics },
+        },
+        name: manifest.name,
+        problems,
+    })
+}
+
+/// The inside of a `.partial` folder may be complete but for its publication: it is no release.
+fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
+    let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
+        std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot { path: root.to_path_buf() },
+        _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
+    })?;
+    let unfinished = real.ancestors().take(2).any(|folder| folder.extension().is_some_and(|end| end == "partial"));
+    if unfinished { Err(SnapshotError::Unfinished { path: root.to_path_buf() }) } else { Ok(()) }
+}
+
+/// The files of each game folder, by path below it.
+fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Vec<String>> {
+    let mut folders: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for item in &manifest.items {
+        match item.path.strip_prefix("games/").and_then(|rest| rest.split_once('/')) {
+            Some((folder, file)) => folders.entry(folder.to_owned()).or_default().push(file.to_owned()),
+            None if item.path == "README.md" => {}
+            None => problems.push(format!("{}: a release has no such file", item.path)),
+        }
+    }
+    if folders.is_empty() {
+        problems.push("games: the release holds no game".to_owned());
+    }
+    folders
+}
+
+struct GameCheck {
+    levels: usize,
+    replayed: usize,
+    problems: Vec<String>,
+}
+
+fn check_game(
+    root: &Path,
+    manifest: &Manifest,
+    folder: &str,
+    files: &[String],
+    replay: bool,
+) -> Result<GameCheck, SnapshotError> {
+    let mut check = GameCheck { levels: 0, replayed: 0, problems: Vec::new() };
+    let path = |file: &str| format!("games/{folder}/{file}");
+    // The digests hold, so every listed file can be read as a text of its size; what is in it is another matter.
+    let read = |file: &str| -> Result<Option<String>, SnapshotError> {
+        if !files.iter().any(|known| known == file) {
+            return Ok(None);
+        }
+        let bytes = folder::read(root, &path(file), folder::Limits::SNAPSHOT.file_bytes)?;
+        Ok(String::from_utf8(bytes).ok())
+    };
+    let mut wrong = |file: &str, what: String| check.problems.push(format!("{}: {what}", path(file)));
+
+    let Some(source) = read("game.vgdl")? else {
+        wrong("game.vgdl", "missing or not a text".to_owned());
+        return Ok(check);
+    };
+    let game = match Game::from_source(&source) {
+        Ok(game) => game,
+        Err(problems) => {
+            wrong("game.vgdl", format!("not a game: {problems}"));
+            return Ok(check);
+        }
+    };
+    let card: Card = match read("card.json")?.map(|text| serde_json::from_str(&text)) {
+        Some(Ok(card)) => card,
+        Some(Err(error)) => {
+            wrong("card.json", format!("not a card: {error}"));
+            return Ok(check);
+        }
+        None => {
+            wrong("card.json", "missing or not a text".to_owned());
+            return Ok(check);
+        }
+    };
+    if card.id != folder || card.digest != game.digest() || !folder.ends_with(&game.digest().short()) {
+        wrong("card.json", "card, folder name and game do not belong together".to_owned());
+    }
+    if card.canary != manifest.canary {
+        wrong("card.json", "its canary is not the release's".to_owned());
+    }
+    if card.levels.is_empty() {
+        wrong("card.json", "the game has no levels".to_owned());
+    }
+    let mut known = vec!["game.vgdl".to_owned(), "card.json".to_owned()];
+    let mut levels = 0;
+    let mut replayed = 0;
+    for (number, level_card) in card.levels.iter().enumerate() {
+        let (file, witness_file) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
+        let level = match read(&file)?.map(|text| game.level(&text)) {
+            Some(Ok(level)) => level,
+            Some(Err(problems)) => {
+                wrong(&file, format!("not a level of this game: {problems}"));
+                continue;
+            }
+            None => {
+                wrong(&file, "missing or not a text".to_owned());
+                continue;
+            }
+        };
+        levels += 1;
+        if level_card.file != file || level_card.digest != level.digest() {
+            wrong(&file, "card and level do not belong together".to_owned());
+        }
+        match read(&witness_file)?.map(|text| serde_json::from_str::<Witness>(&text)) {
+            Some(Ok(witness)) if replay => match witness.episode.replay(&game, &level) {
+                Ok(end) if end.outcome() == Outcome::Won => replayed += 1,
+                Ok(_) => wrong(&witness_file, "the episode does not win".to_owned()),
+                Err(divergence) => wrong(&witness_file, divergence.to_string()),
+            },
+            Some(Ok(_)) => {}
+            Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
+            None => wrong(&witness_file, "missing or not a text".to_owned()),
+        }
+        known.extend([file, witness_file]);
+    }
+    for file in files.iter().filter(|file| !known.contains(file)) {
+        wrong(file, "a game has no such file".to_owned());
+    }
+    (check.levels, check.replayed) = (levels, replayed);
+    Ok(check)
+}
