@@ -47,6 +47,10 @@ pub(super) fn program(
         let built = reader.line(at);
         problems.append(&mut reader.problems);
         let first = partner(&line.first, names, problems);
+        if line.second.is_empty() {
+            let message = "an interaction needs a partner before the `>`";
+            problems.push(Diagnostic::error("bad-interaction", line.first.span, message));
+        }
         let seconds: Vec<_> = line.second.iter().map(|word| partner(word, names, problems)).collect();
         let Some((info, keyword, repeat)) = built else { continue };
         let index = program.effects.len() as u16;

@@ -48,7 +48,7 @@ fn movement(draft: &Draft, order: &[Part]) -> Vec<Rule> {
             Body::Crate => Phase::Push,
             _ => Phase::Block,
         };
-        for &effect in body.when_stopped() {
+        for &effect in body.when_stopped().iter().filter(|_| !second.is_empty()) {
             rules.push(Rule { phase, first: mover, second: second.clone(), effect, score: 0 });
         }
     }

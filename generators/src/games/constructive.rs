@@ -136,6 +136,8 @@ fn summary(draft: &Draft) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::levels::{ConstructiveLevels, LevelConfig};
+    use engine::Outcome;
     use std::collections::{BTreeMap, BTreeSet};
 
     fn games(count: u64) -> Vec<GeneratedGame> {
@@ -178,6 +180,38 @@ mod tests {
                 assert_eq!(game.kind, kind);
             }
         }
+    }
+
+    /// Trees are built, not parsed; what is printed must be the same game all the same.
+    #[test]
+    fn the_print_is_the_same_game() {
+        for game in games(200) {
+            let text = engine::syntax::print(&game.description);
+            let again = Game::from_source(&text).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
+            assert_eq!(again.digest(), Game::compile(&game.description).unwrap().digest());
+            assert_eq!(again.warnings(), []);
+        }
+    }
+
+    /// With levels of our own, random play does nothing that the engine stops at.
+    #[test]
+    fn games_play_on_generated_levels() {
+        let mut levels = 0;
+        for (number, made) in games(60).iter().enumerate() {
+            let game = Game::compile(&made.description).unwrap();
+            let seed = Seed::from_text("levels").child("game", number as u64);
+            let generator = ConstructiveLevels::new(&game, LevelConfig::default()).unwrap();
+            let Ok(level) = generator.generate(seed) else { continue };
+            levels += 1;
+            let mut sampler = seed.child("actions", 0).sampler();
+            let mut state = game.start(&level, seed.child("chance", 0));
+            for _ in 0..400 {
+                let action = *sampler.choose(game.actions(&state));
+                let outcome = game.step(&mut state, action);
+                assert!(!matches!(outcome, Outcome::Stopped(_)), "{}: {outcome:?}", made.title);
+            }
+        }
+        assert!(levels >= 55, "{levels} of 60 games got a level");
     }
 
     #[test]

@@ -294,7 +294,8 @@ impl Mint<'_> {
 
 fn generated_game(made: GeneratedGame, candidate: u32) -> Result<Candidate, GenerateError> {
     let GeneratedGame { description, title, summary, goal, kind, real_time, patterns } = made;
-    let game = Game::compile(&description)
+    // From the print: what is judged is what is frozen.
+    let game = Game::from_source(&syntax::print(&description))
         .map_err(|problems| GenerateError::Unlucky(format!("the rules do not compile: {problems}")))?;
     let origin = Origin::Generated { generator: "constructive".to_owned(), patterns, candidate };
     let kind = kind.name().to_owned();

@@ -142,9 +142,9 @@ fn catch(draft: &mut Draft, sampler: &mut Sampler) {
     draft.lose_with(fallen, limit);
     draft.win_without(&[tree, fruit]);
     draft.goal = format!(
-        "catch what falls from every {}: {} {} on the ground is too many",
+        "catch what falls from every {}: {} {} on the ground are too many",
         draft.say(tree),
         english::number(limit),
-        draft.say(fallen)
+        draft.many(fallen)
     );
 }
