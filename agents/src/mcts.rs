@@ -136,7 +136,12 @@ impl Mcts {
             return None;
         }
         let drawn = choices.below(open);
-        children.iter().enumerate().filter(|(_, child)| **child == UNEXPANDED).nth(drawn).map(|(branch, _)| branch)
+        children
+            .iter()
+            .enumerate()
+            .filter(|(_, child)| **child == UNEXPANDED)
+            .nth(drawn)
+            .map(|(branch, _)| branch)
     }
 
     /// The branch of the greatest UCT value: the mean, normalised to what was seen through the node, and exploration.
@@ -225,7 +230,8 @@ mod tests {
         for run in 0..5 {
             let seed = Seed::from_text("mcts").child("run", run);
             let mut planner = Mcts::new(MctsConfig::default(), seed);
-            let played = play(&game, &level, &mut planner, Budget(500), seed.child("game", 0), Limits::default());
+            let played =
+                play(&game, &level, &mut planner, Budget(500), seed.child("game", 0), Limits::default());
             assert_eq!(played.episode.outcome, Outcome::Won, "run {run}");
             assert!(played.episode.replay(&game, &level).is_ok());
         }
@@ -236,10 +242,16 @@ mod tests {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level("wwwwwww\nwA p gw\nw     w\nwwwwwww\n").unwrap();
         let state = game.start(&level, Seed::from_text("game"));
-        let plan = |budget| Mcts::new(MctsConfig::default(), Seed::from_text("a")).plan(&game, &state, Budget(budget));
+        let plan = |budget| {
+            Mcts::new(MctsConfig::default(), Seed::from_text("a")).plan(&game, &state, Budget(budget))
+        };
         assert_eq!(plan(300), plan(300));
         for budget in [1, 10, 100, 1000] {
-            assert!((budget..budget + 10).contains(&plan(budget).1), "budget {budget} cost {}", plan(budget).1);
+            assert!(
+                (budget..budget + 10).contains(&plan(budget).1),
+                "budget {budget} cost {}",
+                plan(budget).1
+            );
         }
     }
 }

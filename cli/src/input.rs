@@ -63,7 +63,10 @@ impl GameInput {
             Some(level) => level.read(),
             None if number_like(name) => {
                 let count = self.levels.len();
-                Err(Failure::malformed(format!("{} has {count} levels, numbered from 0: no `{name}`", self.title)))
+                Err(Failure::malformed(format!(
+                    "{} has {count} levels, numbered from 0: no `{name}`",
+                    self.title
+                )))
             }
             None => Err(Failure::malformed(format!("{name}: there is no such file"))),
         }
@@ -78,16 +81,19 @@ fn number_like(name: &str) -> bool {
 pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     let path = Path::new(name);
     if path.is_dir() {
-        return game_in(path)?.ok_or_else(|| {
-            Failure::malformed(format!("{name}: no game.vgdl or game.txt in this folder"))
-        });
+        return game_in(path)?
+            .ok_or_else(|| Failure::malformed(format!("{name}: no game.vgdl or game.txt in this folder")));
     }
     if path.exists() {
         let text = read_text(path, MAX_SOURCE)?;
         let whole_folder = path.file_stem().is_some_and(|stem| stem == "game");
         let folder = path.parent().unwrap_or(Path::new("."));
         let levels = if whole_folder { level_files(folder)? } else { Vec::new() };
-        return Ok(GameInput { source: Named { name: name.to_owned(), text }, title: name.to_owned(), levels });
+        return Ok(GameInput {
+            source: Named { name: name.to_owned(), text },
+            title: name.to_owned(),
+            levels,
+        });
     }
     let corpus = embedded::corpus()?;
     let Some(found) = corpus.find(name) else {
@@ -133,7 +139,8 @@ fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
     let file = ["game.vgdl", "game.txt"].iter().map(|file| folder.join(file)).find(|path| path.exists());
     let Some(path) = file else { return Ok(None) };
     let text = read_text(&path, MAX_SOURCE)?;
-    let title = folder.file_name().map_or_else(|| folder.display().to_string(), |n| n.to_string_lossy().into_owned());
+    let title =
+        folder.file_name().map_or_else(|| folder.display().to_string(), |n| n.to_string_lossy().into_owned());
     let source = Named { name: path.display().to_string(), text };
     Ok(Some(GameInput { source, title, levels: level_files(folder)? }))
 }
@@ -177,7 +184,9 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let read = file.take(limit as u64 + 1).read_to_end(&mut bytes);
     read.map_err(|error| Failure::surroundings(error, name.to_string()))?;
     if bytes.len() > limit {
-        return Err(Failure::malformed(format!("{name}: larger than {limit} bytes, the limit for such a file")));
+        return Err(Failure::malformed(format!(
+            "{name}: larger than {limit} bytes, the limit for such a file"
+        )));
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();

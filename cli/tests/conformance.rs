@@ -50,9 +50,11 @@ fn a_missing_game_or_trace_is_a_malformed_question() {
     let nothing = empty.path().display().to_string();
     run(empty.path(), &["conformance", "--games", &games, "--traces", &nothing], 2);
     run(empty.path(), &["conformance", "--games", &games, "--traces", "nowhere"], 2);
-    let output = run(empty.path(), &["conformance", "--games", &nothing, "--traces", &traces, "--game", "zelda"], 2);
+    let output =
+        run(empty.path(), &["conformance", "--games", &nothing, "--traces", &traces, "--game", "zelda"], 2);
     assert!(text(&output.stderr).contains("zelda"), "{}", text(&output.stderr));
-    let output = run(empty.path(), &["conformance", "--games", &games, "--traces", &traces, "--game", "zleda"], 2);
+    let output =
+        run(empty.path(), &["conformance", "--games", &games, "--traces", &traces, "--game", "zleda"], 2);
     assert!(text(&output.stderr).contains("did you mean `zelda`?"), "{}", text(&output.stderr));
     fs::create_dir(empty.path().join("zelda")).unwrap();
     fs::write(empty.path().join("zelda/lvl0.cut1.jsonl.gz"), b"not gzip").unwrap();
@@ -95,12 +97,17 @@ impl Trace {
         fs::write(folder.path().join(game).join("lvl.jsonl"), plain.join("\n") + "\n").unwrap();
         let games = reference.join("games").display().to_string();
         let traces = folder.path().display().to_string();
-        let output = run(folder.path(), &["--json", "conformance", "--games", &games, "--traces", &traces], 1);
+        let output =
+            run(folder.path(), &["--json", "conformance", "--games", &games, "--traces", &traces], 1);
         let report: Value = serde_json::from_slice(&output.stdout).unwrap();
         let difference = &report["differing"][0]["difference"];
         assert_eq!(difference["tick"], json!(tick), "{field}: {difference}");
         assert_eq!(difference["fields"][0]["field"], json!(field), "{difference}");
-        assert_eq!(difference["fields"].as_array().unwrap().len(), 1, "only that field differs: {difference}");
+        assert_eq!(
+            difference["fields"].as_array().unwrap().len(),
+            1,
+            "only that field differs: {difference}"
+        );
     }
 }
 
@@ -114,7 +121,9 @@ fn an_altered_field_is_reported_at_its_tick() {
     let reference = reference.as_path();
     let trace = Trace::read(reference, "boulderdash/lvl0.planner3.jsonl.gz");
     let plain = 7;
-    trace.check(reference, plain, "score", |line| line["score"] = json!(line["score"].as_f64().unwrap() + 1.0));
+    trace.check(reference, plain, "score", |line| {
+        line["score"] = json!(line["score"].as_f64().unwrap() + 1.0)
+    });
     trace.check(reference, plain, "winner", |line| line["winner"] = json!("PLAYER_WINS"));
     trace.check(reference, plain, "ended", |line| line["ended"] = json!(true));
     trace.check(reference, plain, "avatar", |line| line["avatar"] = json!(0));

@@ -95,7 +95,8 @@ fn any_flipped_byte_is_named() {
 #[test]
 fn a_file_removed_added_or_linked_is_named() {
     let (folder, root) = copy();
-    let level = files(&root).into_iter().map(|(name, _)| name).find(|name| name.ends_with("lvl0.txt")).unwrap();
+    let level =
+        files(&root).into_iter().map(|(name, _)| name).find(|name| name.ends_with("lvl0.txt")).unwrap();
     let content = fs::read(root.join(&level)).unwrap();
 
     fs::remove_file(root.join(&level)).unwrap();

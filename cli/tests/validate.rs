@@ -91,7 +91,12 @@ fn a_win_for_nothing_is_no_pass() {
 
 #[test]
 fn malformed_games_are_named_with_line_and_help() {
-    malformed(&GAME.replace("stepBack", "stepBakc"), LEVEL, "game.vgdl:15:", &["unknown-effect", "`stepBack`?"]);
+    malformed(
+        &GAME.replace("stepBack", "stepBakc"),
+        LEVEL,
+        "game.vgdl:15:",
+        &["unknown-effect", "`stepBack`?"],
+    );
     malformed(&GAME.replace("avatar thorn >", "avatar thron >"), LEVEL, "game.vgdl:16:", &["`thorn`?"]);
     let (head, _) = GAME.split_once("    TerminationSet").unwrap();
     malformed(head, LEVEL, "game.vgdl:1:", &["missing-section", "TerminationSet"]);
@@ -111,12 +116,17 @@ fn malformed_levels_are_named_with_line_and_help() {
 
 #[test]
 fn all_problems_of_a_file_come_in_one_run() {
-    let broken = GAME.replace("stepBack", "stepBakc").replace("stype=nectar", "stype=necta").replace("BROWN", "BRWN");
+    let broken =
+        GAME.replace("stepBack", "stepBakc").replace("stype=nectar", "stype=necta").replace("BROWN", "BRWN");
     let folder = folder(&broken, LEVEL);
     let output = run(folder.path(), &["--json", "validate", "."], 2);
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let lines: Vec<u64> =
-        document["problems"].as_array().unwrap().iter().map(|problem| problem["line"].as_u64().unwrap()).collect();
+    let lines: Vec<u64> = document["problems"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|problem| problem["line"].as_u64().unwrap())
+        .collect();
     assert_eq!(lines, [3, 15, 19]);
 }
 
@@ -136,7 +146,8 @@ fn hostile_files_get_a_limit_message_promptly() {
     fs::write(path("tall.txt"), "A\n".repeat(5000)).unwrap();
     let output = run(folder.path(), &["validate", "game.vgdl", "tall.txt"], 2);
     assert!(text(&output.stderr).contains("5000 rows"), "{}", text(&output.stderr));
-    let deep: String = (0..400).map(|depth| format!("{}a{depth} > Passive\n", " ".repeat(depth + 2))).collect();
+    let deep: String =
+        (0..400).map(|depth| format!("{}a{depth} > Passive\n", " ".repeat(depth + 2))).collect();
     fs::write(path("deep.vgdl"), format!("BasicGame\n SpriteSet\n{deep}")).unwrap();
     let output = run(folder.path(), &["validate", "deep.vgdl", "lvl0.txt"], 2);
     assert!(text(&output.stderr).contains("nested"), "{}", text(&output.stderr));
@@ -163,7 +174,11 @@ fn bad_questions_name_the_next_move() {
 fn fmt_is_idempotent_and_checks() {
     let folder = folder(GAME, LEVEL);
     run(folder.path(), &["fmt", "game.vgdl", "--check"], 0);
-    fs::write(folder.path().join("loose.vgdl"), GAME.replace(" > ", "  >  ").replace("    TerminationSet", "  TerminationSet")).unwrap();
+    fs::write(
+        folder.path().join("loose.vgdl"),
+        GAME.replace(" > ", "  >  ").replace("    TerminationSet", "  TerminationSet"),
+    )
+    .unwrap();
     run(folder.path(), &["fmt", "loose.vgdl", "--check"], 1);
     let output = run(folder.path(), &["fmt", "loose.vgdl"], 0);
     assert_eq!(text(&output.stdout), GAME);
@@ -175,7 +190,8 @@ fn fmt_is_idempotent_and_checks() {
 #[test]
 fn planners_play_and_report() {
     let folder = folder(GAME, LEVEL);
-    let args = ["run", ".", "--planner", "random,mcts", "--budget", "200", "--runs", "3", "--csv", "runs.csv"];
+    let args =
+        ["run", ".", "--planner", "random,mcts", "--budget", "200", "--runs", "3", "--csv", "runs.csv"];
     let output = run(folder.path(), &args, 0);
     assert!(text(&output.stdout).contains("mcts"), "{}", text(&output.stdout));
     let csv = fs::read_to_string(folder.path().join("runs.csv")).unwrap();

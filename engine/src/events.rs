@@ -65,13 +65,13 @@ impl Step<'_> {
         // Sprites made from here on by this pass do not take part in it.
         let newborn = self.state.next_id;
         if pass.either_side && seconds < firsts {
-            self.from_second_side(pass, first, second, newborn, watch);
+            self.visit_second_side(pass, first, second, newborn, watch);
         } else {
-            self.from_first_side(pass, first, second, newborn, watch);
+            self.visit_first_side(pass, first, second, newborn, watch);
         }
     }
 
-    fn from_first_side(
+    fn visit_first_side(
         &mut self,
         pass: &Pass,
         first: &TypeInfo,
@@ -100,7 +100,7 @@ impl Step<'_> {
     }
 
     /// The same meetings in the same order, found from the second side because it has fewer sprites.
-    fn from_second_side(
+    fn visit_second_side(
         &mut self,
         pass: &Pass,
         first: &TypeInfo,

@@ -29,6 +29,7 @@
 pub mod analysis;
 mod chance;
 mod compile;
+pub mod describe;
 mod diagnostic;
 mod digest;
 mod episode;
@@ -48,6 +49,7 @@ pub mod syntax;
 
 pub use analysis::Analysis;
 pub use chance::Chance;
+pub use describe::describe;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, Span, line_and_column, nearest};
 pub use digest::{Digest, NotHex};
 pub use episode::{Divergence, Episode};

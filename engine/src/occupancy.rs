@@ -63,7 +63,14 @@ impl State {
 
     /// Collects the sprites of `family`'s tree that overlap a sprite, itself left out, in no particular order. `above`
     /// excludes sprites created since that id was next.
-    pub(crate) fn overlapping(&self, rules: &Rules, family: &TypeInfo, slot: Slot, above: u32, hits: &mut Hits) {
+    pub(crate) fn overlapping(
+        &self,
+        rules: &Rules,
+        family: &TypeInfo,
+        slot: Slot,
+        above: u32,
+        hits: &mut Hits,
+    ) {
         let Sprite { rect, column, row, flags, .. } = *self.sprite(slot);
         let (column, row) = (i32::from(column), i32::from(row));
         // Sprites that are not aligned to one cell may reach over from the cells left and above.
@@ -72,7 +79,8 @@ impl State {
             return self.overlapping_in(self.cell(column, row), family, slot, above, hits);
         }
         let reach = if reached { rules.reach.saturating_mul(self.block) - 1 } else { 0 };
-        let columns = self.column(rect.x.saturating_sub(reach))..=self.column(rect.x.saturating_add(rect.w - 1));
+        let columns =
+            self.column(rect.x.saturating_sub(reach))..=self.column(rect.x.saturating_add(rect.w - 1));
         for row in self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h - 1)) {
             for column in columns.clone() {
                 self.overlapping_in(self.cell(column, row), family, slot, above, hits);
@@ -85,7 +93,8 @@ impl State {
         let mut at = self.cells[cell];
         while at != NONE {
             let sprite = self.sprite(at);
-            if family.in_tree(sprite.stype) && at != slot && sprite.id < above && sprite.rect.intersects(rect) {
+            if family.in_tree(sprite.stype) && at != slot && sprite.id < above && sprite.rect.intersects(rect)
+            {
                 hits.push(at);
             }
             at = sprite.cell_next;
@@ -118,7 +127,9 @@ mod tests {
 
     #[test]
     fn a_guess_never_changes_the_answer() {
-        for pixel in [i32::MIN, -1000, -21, -20, -11, -10, -1, 0, 1, 9, 10, 19, 49, 50, 59, 60, 1000, i32::MAX] {
+        for pixel in
+            [i32::MIN, -1000, -21, -20, -11, -10, -1, 0, 1, 9, 10, 19, 49, 50, 59, 60, 1000, i32::MAX]
+        {
             for guess in 0..=6 {
                 let (cell, rest) = near(pixel, guess, 10, 5);
                 let expected = pixel.div_euclid(10);

@@ -10,10 +10,10 @@ use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use engine::Digest;
 use crate::error::SnapshotError;
 use crate::path::{PathProblem, check_path};
 use crate::problem::{Flaw, Problem};
+use engine::Digest;
 
 /// How much a release folder may hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -96,10 +96,10 @@ mod tests {
     use tempfile::TempDir;
 
     use super::*;
-    use engine::Digest;
     use crate::draft::Draft;
     use crate::manifest::tests::example;
     use crate::path::PathProblem;
+    use engine::Digest;
 
     const FILES: [(&str, &[u8]); 4] = [
         ("README.md", b"about this release"),

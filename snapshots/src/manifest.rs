@@ -19,9 +19,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::canonical::to_canonical_json;
-use engine::Digest;
 use crate::error::SnapshotError;
 use crate::merkle::{self, Leaf};
+use engine::Digest;
 
 /// The snapshot format that this crate writes, and the newest that it reads.
 pub const FORMAT: u32 = 1;

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use engine::Digest;
 use crate::path::PathProblem;
+use engine::Digest;
 
 /// One thing that is wrong with a release folder. Ordered by the bytes of the path, then by flaw.
 ///

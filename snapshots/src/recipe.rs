@@ -117,7 +117,10 @@ impl Recipe {
             return wrong("seed", "takes a text of 1 to 200 bytes".to_owned());
         }
         if self.corpus.games + self.generated.games == 0 {
-            return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint".to_owned());
+            return wrong(
+                "generated.games",
+                "and `corpus.games` are both 0: there is nothing to mint".to_owned(),
+            );
         }
         for (part, [games, levels, game_tries, level_tries]) in [
             (&self.corpus, ["corpus.games", "corpus.levels", "corpus.game_tries", "corpus.level_tries"]),
@@ -139,12 +142,18 @@ impl Recipe {
         }
         for (key, (least, most)) in [("board.columns", self.board.columns), ("board.rows", self.board.rows)] {
             if least < 5 || most < least || most > 100 {
-                return wrong(key, format!("is [{least}, {most}]; it takes two numbers from 5 to 100, the smaller first"));
+                return wrong(
+                    key,
+                    format!("is [{least}, {most}]; it takes two numbers from 5 to 100, the smaller first"),
+                );
             }
         }
         let Criteria { depths, random_wins, least_ticks, most_ticks, decision, .. } = &self.criteria;
         if depths.is_empty() || depths.len() > 20 || depths.iter().any(|depth| !(1..=1000).contains(depth)) {
-            return wrong("criteria.depths", "takes 1 to 20 numbers of ticks, each from 1 to 1000".to_owned());
+            return wrong(
+                "criteria.depths",
+                "takes 1 to 20 numbers of ticks, each from 1 to 1000".to_owned(),
+            );
         }
         if !(0.0..=1.0).contains(random_wins) {
             return wrong("criteria.random_wins", format!("is {random_wins}; it takes a share from 0 to 1"));
@@ -153,7 +162,10 @@ impl Recipe {
             return wrong("criteria.decision", format!("is {decision}; it takes 1 to 1000000 calls"));
         }
         if least_ticks > most_ticks {
-            return wrong("criteria.least_ticks", format!("is {least_ticks}, above `most_ticks`, {most_ticks}"));
+            return wrong(
+                "criteria.least_ticks",
+                format!("is {least_ticks}, above `most_ticks`, {most_ticks}"),
+            );
         }
         Ok(())
     }

@@ -15,7 +15,9 @@ pub enum RegenerateError {
     /// Other generators made it.
     #[error(
         "this release was minted under generation {generation} and semantics {semantics}; this arcade has \
-         {} and {}: use an arcade that has the same", generators::GENERATION, engine::SEMANTICS
+         {} and {}: use an arcade that has the same",
+        generators::GENERATION,
+        engine::SEMANTICS
     )]
     OtherVersion {
         /// In the manifest.
@@ -24,7 +26,9 @@ pub enum RegenerateError {
         semantics: u32,
     },
     /// Its seed is not public.
-    #[error("this release is sealed: its seed is not in the folder, so it cannot be minted again before it is revealed")]
+    #[error(
+        "this release is sealed: its seed is not in the folder, so it cannot be minted again before it is revealed"
+    )]
     Sealed,
     /// The recipe in the manifest is not one.
     #[error("the manifest's recipe is not a recipe: {0}")]
@@ -76,7 +80,8 @@ pub fn regenerate(
     if manifest.kind == Kind::Sealed {
         return Err(RegenerateError::Sealed);
     }
-    let recipe: Recipe = serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
+    let recipe: Recipe =
+        serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
     recipe.check()?;
     let minted = mint(&recipe, corpus, lockfile, progress)?;
     let differences = differences(root, &manifest, &bytes, &minted)?;

@@ -1,7 +1,7 @@
 //! The rules of a game with the fiction taken away: two games of one shape differ in names, symbols and colours only.
 
-use engine::syntax::{self, Description, SpriteLine, Word};
 use engine::Digest;
+use engine::syntax::{self, Description, SpriteLine, Word};
 use std::collections::BTreeMap;
 
 /// The digest of the canonical print with sprites named by their order and level characters by theirs.
@@ -46,7 +46,6 @@ fn rename(word: &mut Word, names: &BTreeMap<String, String>) {
     word.text = parts.collect::<Vec<_>>().join(",");
 }
 
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -55,7 +54,8 @@ mod tests {
     fn fiction_does_not_matter_and_rules_do() {
         let source = "BasicGame\n  SpriteSet\n    fox > Chaser stype=hen color=RED\n    hen > RandomNPC\n  LevelMapping\n    f > fox\n  InteractionSet\n    hen fox > killSprite scoreChange=1\n  TerminationSet\n    Timeout limit=5 win=True\n";
         let of = |text: &str| shape(&syntax::parse(text).0);
-        let renamed = source.replace("fox", "eel").replace("hen", "prawn").replace("RED", "BLUE").replace("f >", "e >");
+        let renamed =
+            source.replace("fox", "eel").replace("hen", "prawn").replace("RED", "BLUE").replace("f >", "e >");
         assert_eq!(of(source), of(&renamed));
         assert_ne!(of(source), of(&source.replace("scoreChange=1", "scoreChange=2")));
     }

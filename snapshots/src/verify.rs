@@ -88,7 +88,8 @@ fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
         std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot { path: root.to_path_buf() },
         _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
     })?;
-    let unfinished = real.ancestors().take(2).any(|folder| folder.extension().is_some_and(|end| end == "partial"));
+    let unfinished =
+        real.ancestors().take(2).any(|folder| folder.extension().is_some_and(|end| end == "partial"));
     if unfinished { Err(SnapshotError::Unfinished { path: root.to_path_buf() }) } else { Ok(()) }
 }
 

@@ -14,7 +14,8 @@ fn corpus() -> Vec<(String, Game, Vec<Level>)> {
         let source = fs::read_to_string(folder.join("game.vgdl")).unwrap();
         let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{name}: {problems}"));
         assert_eq!(game.warnings(), [], "{name}");
-        let levels = (0..).map_while(|number| fs::read_to_string(folder.join(format!("lvl{number}.txt"))).ok());
+        let levels =
+            (0..).map_while(|number| fs::read_to_string(folder.join(format!("lvl{number}.txt"))).ok());
         let levels: Vec<Level> = levels.map(|text| game.level(&text).unwrap()).collect();
         assert!(levels.len() >= 3, "{name} has {} levels", levels.len());
         (name, game, levels)
@@ -105,7 +106,9 @@ fn episodes_replay_bit_for_bit() {
         let middle = episode.actions.len() / 2;
         let mut other = episode.clone();
         other.hashes[middle].0 ^= 1;
-        assert!(matches!(other.replay(&game, &levels[0]), Err(engine::Divergence::Hash { tick, .. }) if tick == middle));
+        assert!(
+            matches!(other.replay(&game, &levels[0]), Err(engine::Divergence::Hash { tick, .. }) if tick == middle)
+        );
         assert!(episode.replay(&game, &levels[1]).is_err(), "{name}: another level");
         other = episode.clone();
         other.score += 1.0;
@@ -219,11 +222,49 @@ mod any_text {
     /// A line as a careless author might write it.
     fn line() -> impl Strategy<Value = String> {
         let word = prop::sample::select(vec![
-            "SpriteSet", "InteractionSet", "LevelMapping", "TerminationSet", "avatar", "wall", "a", "b", ">", "EOS",
-            "Missile", "MovingAvatar", "Chaser", "stype=a", "stype=b", "stype=", "=", "orientation=UP", "speed=0.5",
-            "wMult=0", "wMult=-3.5", "hMult=1e300", "cooldown=-2147483648", "killSprite", "stepBack", "transformTo",
-            "transformToAll", "stypeTo=b", "spawn", "SpriteCounter", "Timeout", "limit=0", "win=True", "A", "w", "#",
-            "Spreader", "SpawnPoint", "total=1", "prob=2", "healthPoints=99999999999", "undoAll", "repeat=100000",
+            "SpriteSet",
+            "InteractionSet",
+            "LevelMapping",
+            "TerminationSet",
+            "avatar",
+            "wall",
+            "a",
+            "b",
+            ">",
+            "EOS",
+            "Missile",
+            "MovingAvatar",
+            "Chaser",
+            "stype=a",
+            "stype=b",
+            "stype=",
+            "=",
+            "orientation=UP",
+            "speed=0.5",
+            "wMult=0",
+            "wMult=-3.5",
+            "hMult=1e300",
+            "cooldown=-2147483648",
+            "killSprite",
+            "stepBack",
+            "transformTo",
+            "transformToAll",
+            "stypeTo=b",
+            "spawn",
+            "SpriteCounter",
+            "Timeout",
+            "limit=0",
+            "win=True",
+            "A",
+            "w",
+            "#",
+            "Spreader",
+            "SpawnPoint",
+            "total=1",
+            "prob=2",
+            "healthPoints=99999999999",
+            "undoAll",
+            "repeat=100000",
         ]);
         (0usize..10, prop::collection::vec(word, 1..7))
             .prop_map(|(indent, words)| format!("{}{}", " ".repeat(indent), words.join(" ")))

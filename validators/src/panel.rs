@@ -1,8 +1,6 @@
 //! All criteria of a release, in one place.
 
-use crate::{
-    Case, Finding, LengthWithin, NotIdle, NotRandom, Validator, Verdict, WellFormed, Winnable,
-};
+use crate::{Case, Finding, LengthWithin, NotIdle, NotRandom, Validator, Verdict, WellFormed, Winnable};
 use engine::{Episode, Game, Level, Seed};
 use serde::{Deserialize, Serialize};
 
@@ -83,8 +81,16 @@ impl Report {
 impl Panel {
     /// The panel of these criteria.
     pub fn new(criteria: &Criteria) -> Panel {
-        let &Criteria { decision, budget, idle_plays, random_plays, random_wins, least_ticks, most_ticks, .. } =
-            criteria;
+        let &Criteria {
+            decision,
+            budget,
+            idle_plays,
+            random_plays,
+            random_wins,
+            least_ticks,
+            most_ticks,
+            ..
+        } = criteria;
         let depths = criteria.depths.clone();
         Panel {
             validators: vec![

@@ -25,7 +25,14 @@ impl Validator for NotRandom {
             .map(|run| {
                 let seed = case.seed.child("random", run);
                 let mut planner = Random::new(seed.child("planner", 0));
-                play(case.game, case.level, &mut planner, Budget(0), seed.child("chance", 0), Limits::default())
+                play(
+                    case.game,
+                    case.level,
+                    &mut planner,
+                    Budget(0),
+                    seed.child("chance", 0),
+                    Limits::default(),
+                )
             })
             .collect();
         let measured = Rate::of(&played);
@@ -33,7 +40,8 @@ impl Validator for NotRandom {
         let won = played.into_iter().find(|play| play.episode.outcome == Outcome::Won);
         let verdict = if share > self.most {
             let Rate { wins, plays, .. } = measured;
-            let reason = format!("random play wins {wins} of {plays} episodes, more than {:.0} %", 100.0 * self.most);
+            let reason =
+                format!("random play wins {wins} of {plays} episodes, more than {:.0} %", 100.0 * self.most);
             Verdict::Fail { reason: Reason(reason), witness: won.map(|play| play.episode) }
         } else {
             Verdict::pass()

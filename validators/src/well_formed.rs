@@ -21,7 +21,9 @@ impl Validator for WellFormed {
         let mut state = case.game.start(case.level, case.seed);
         let verdict = match case.game.step(&mut state, Action::Nil) {
             Outcome::Ongoing => Verdict::pass(),
-            Outcome::Won => Verdict::fail("the game is won in its first tick: a termination holds at the start"),
+            Outcome::Won => {
+                Verdict::fail("the game is won in its first tick: a termination holds at the start")
+            }
             Outcome::Lost => Verdict::fail("the game is lost in its first tick"),
             Outcome::Ended => Verdict::fail("the game ends in its first tick, without a winner"),
             Outcome::Stopped(limit) => Verdict::fail(format!("the game stops in its first tick: {limit}")),

@@ -34,7 +34,14 @@ impl Winnable {
             .map(|(run, &depth)| {
                 let seed = seed.child("play", run as u64);
                 let mut planner = Mcts::new(MctsConfig::bold(depth), seed.child("planner", 0));
-                play(case.game, case.level, &mut planner, Budget(self.decision), seed.child("chance", 0), limits)
+                play(
+                    case.game,
+                    case.level,
+                    &mut planner,
+                    Budget(self.decision),
+                    seed.child("chance", 0),
+                    limits,
+                )
             })
             .collect()
     }

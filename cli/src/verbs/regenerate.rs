@@ -46,7 +46,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(difference);
     }
     if result.other_lockfile {
-        console.remark("note: minted with another Cargo.lock than the original; only its digest in the manifest differs");
+        console.remark(
+            "note: minted with another Cargo.lock than the original; only its digest in the manifest differs",
+        );
     }
     match identical {
         true => console.say(format_args!("identical: {} files, root {root}", result.minted.files.len() + 1)),

@@ -1,6 +1,6 @@
 //! `arcade release`: mints a benchmark.
 
-use crate::console::Console;
+use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::input;
@@ -51,12 +51,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     // Before minutes of minting: is there a place to write to?
     let draft = Draft::create(&out).map_err(failure)?;
     let bars = Bars::new(console);
-    let started = std::time::Instant::now();
-    let minted = in_pool(args.jobs, || mint::mint(&recipe, &corpus, embedded::lockfile(), &bars))?.map_err(mint_failure)?;
+    let started = Stopwatch::start();
+    let minted = in_pool(args.jobs, || mint::mint(&recipe, &corpus, embedded::lockfile(), &bars))?
+        .map_err(mint_failure)?;
     bars.finish();
     fill(&draft, &minted)?;
     draft.commit().map_err(failure)?;
-    let seconds = started.elapsed().as_secs_f64();
+    let seconds = started.seconds();
     console.document(&json!({
         "out": out,
         "root": minted.manifest.root,
@@ -76,7 +77,10 @@ fn find_recipe(name: &str) -> Result<Recipe, Failure> {
     } else {
         let known = embedded::recipe_names();
         let near = engine::nearest(name, known.iter().map(String::as_str));
-        let help = near.map_or_else(|| format!("there are {}", known.join(", ")), |near| format!("did you mean `{near}`?"));
+        let help = near.map_or_else(
+            || format!("there are {}", known.join(", ")),
+            |near| format!("did you mean `{near}`?"),
+        );
         return Err(Failure::malformed(format!("no recipe named `{name}`; {help}, or name a .toml file")));
     };
     Recipe::from_toml(&text).map_err(|error| Failure::malformed(format!("{shown}: {error}")))
@@ -151,7 +155,12 @@ fn summary(recipe: &Recipe, out: &Path, minted: &Minted, seconds: f64) -> String
     let Minted { manifest, cards, tally, .. } = minted;
     let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
     let mut text = String::new();
-    let _ = writeln!(text, "{}: {} games, {levels} levels, every one with a winning episode\n", recipe.name, cards.len());
+    let _ = writeln!(
+        text,
+        "{}: {} games, {levels} levels, every one with a winning episode\n",
+        recipe.name,
+        cards.len()
+    );
     let width = cards.iter().map(|card| card.title.chars().count()).max().unwrap_or(0);
     for card in cards {
         let origin = match card.origin {
@@ -159,7 +168,13 @@ fn summary(recipe: &Recipe, out: &Path, minted: &Minted, seconds: f64) -> String
             Origin::Corpus { .. } => "new levels",
         };
         let ticks: Vec<String> = card.levels.iter().map(|level| level.witness_ticks.to_string()).collect();
-        let _ = writeln!(text, "  {:<width$}  {:<18} {origin:<11} won in {} ticks", card.title, card.kind, ticks.join(", "));
+        let _ = writeln!(
+            text,
+            "  {:<width$}  {:<18} {origin:<11} won in {} ticks",
+            card.title,
+            card.kind,
+            ticks.join(", ")
+        );
         let _ = writeln!(text, "  {:<width$}  {}", "", card.goal);
     }
     if let Some(board) = showpiece(minted) {

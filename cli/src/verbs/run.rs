@@ -1,6 +1,6 @@
 //! `arcade run`: how often do planners win?
 
-use crate::console::Console;
+use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
 use crate::render;
@@ -8,9 +8,9 @@ use agents::{Budget, Limits, Play, planner, play};
 use engine::{Game, Level, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
+use statistics::Summary;
 use std::fmt::Write;
 use std::path::PathBuf;
-use statistics::Summary;
 use validators::Rate;
 
 /// Plays planners on games and reports win rates with 95 % intervals, per game and pooled.
@@ -73,7 +73,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     for name in &args.games {
         for input in input::games(name)? {
             let game = input.compile()?;
-            let levels = input.levels()?.iter().map(|text| level(&game, text)).collect::<Result<Vec<_>, _>>()?;
+            let levels =
+                input.levels()?.iter().map(|text| level(&game, text)).collect::<Result<Vec<_>, _>>()?;
             if levels.is_empty() {
                 return Err(Failure::malformed(format!("{}: the game has no levels", input.source.name)));
             }
@@ -89,7 +90,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
     }
     let bar = console.progress(entries.len() as u64, "playing");
-    let started = std::time::Instant::now();
+    let started = Stopwatch::start();
     let plays: Vec<Play> = entries
         .par_iter()
         .map(|entry| {
@@ -99,16 +100,24 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         })
         .collect();
     bar.finish_and_clear();
-    let seconds = started.elapsed().as_secs_f64();
+    let seconds = started.seconds();
     let calls: u64 = plays.iter().map(|play| play.calls).sum();
-    console.remark(format_args!("{} episodes, {calls} forward-model calls, {:.0} calls/s", plays.len(), calls as f64 / seconds));
+    console.remark(format_args!(
+        "{} episodes, {calls} forward-model calls, {:.0} calls/s",
+        plays.len(),
+        calls as f64 / seconds
+    ));
 
     let played: Vec<(&Entry<'_>, &Play)> = entries.iter().zip(&plays).collect();
     let mut rows = Vec::new();
     for subject in &subjects {
         for planner in &args.planner {
             let own = |entry: &Entry<'_>| std::ptr::eq(entry.subject, subject) && entry.planner == planner;
-            rows.push(row(&subject.title, planner, played.iter().filter(|(entry, _)| own(entry)).map(|(_, play)| *play)));
+            rows.push(row(
+                &subject.title,
+                planner,
+                played.iter().filter(|(entry, _)| own(entry)).map(|(_, play)| *play),
+            ));
         }
     }
     if subjects.len() > 1 {
@@ -139,7 +148,14 @@ fn play_entry(args: &Args, entry: &Entry<'_>) -> Play {
     let own = chance.child(entry.planner, 0);
     let mut planner = planner(entry.planner, own).expect("names were checked");
     let limits = Limits { ticks: args.max_ticks, ..Limits::default() };
-    play(&subject.game, &subject.levels[level], planner.as_mut(), Budget(args.budget), chance.child("chance", 0), limits)
+    play(
+        &subject.game,
+        &subject.levels[level],
+        planner.as_mut(),
+        Budget(args.budget),
+        chance.child("chance", 0),
+        limits,
+    )
 }
 
 fn row<'a>(game: &str, planner: &str, plays: impl Iterator<Item = &'a Play>) -> Row {
@@ -158,8 +174,10 @@ fn row<'a>(game: &str, planner: &str, plays: impl Iterator<Item = &'a Play>) -> 
 
 fn table(rows: &[Row]) -> String {
     let width = rows.iter().map(|row| row.game.len()).max().unwrap_or(0).max("game".len());
-    let mut text =
-        format!("{:<width$}  {:<10}  {:>9}  {:>12}  {:>8}  {:>7}\n", "game", "planner", "won", "95 %", "score", "ticks");
+    let mut text = format!(
+        "{:<width$}  {:<10}  {:>9}  {:>12}  {:>8}  {:>7}\n",
+        "game", "planner", "won", "95 %", "score", "ticks"
+    );
     for Row { game, planner, rate, mean_ticks, .. } in rows {
         let Rate { wins, plays, interval: [low, high], mean_score, .. } = rate;
         let interval = format!("{:.0} to {:.0} %", 100.0 * low, 100.0 * high);

@@ -75,7 +75,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if levels.is_empty() {
         let name = &input.source.name;
         let help = "name a level file after it, or put lvl0.txt beside game.vgdl";
-        return Err(Failure::malformed(format!("{name}: the game compiles, but there is no level to judge; {help}")));
+        return Err(Failure::malformed(format!(
+            "{name}: the game compiles, but there is no level to judge; {help}"
+        )));
     }
     if args.witness.is_some() && levels.len() > 1 {
         let message = format!("--witness takes one level, not {}: name it after the game", levels.len());
@@ -109,9 +111,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let report = panel.judge(&game, &level, seed.child(&level.digest().to_string(), 0));
         bar.inc(1);
         console.say(table(named, &report).trim_end());
-        let unused_rules = report.witness.as_ref().map_or(Vec::new(), |witness| unused(&game, &level, witness));
+        let unused_rules =
+            report.witness.as_ref().map_or(Vec::new(), |witness| unused(&game, &level, witness));
         if !unused_rules.is_empty() {
-            console.say(format_args!("  note  rules that the winning episode never uses: {}", unused_rules.join("; ")));
+            console.say(format_args!(
+                "  note  rules that the winning episode never uses: {}",
+                unused_rules.join("; ")
+            ));
         }
         if let (Some(path), Some(witness)) = (&args.witness, &report.witness) {
             let text = serde_json::to_string(witness)

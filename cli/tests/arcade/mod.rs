@@ -25,6 +25,7 @@ pub(crate) fn text(bytes: &[u8]) -> String {
 
 /// The reference's games and traces, which are not part of the repository; None (and a note) where they are missing.
 #[allow(dead_code, reason = "not every test file plays the reference's games")]
+#[allow(clippy::print_stdout, reason = "a skipped test says so")]
 pub(crate) fn reference() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/gvgai");
     let found = folder.is_dir();

@@ -182,7 +182,7 @@ impl<'a> Reader<'a> {
             }
             let message = format!("`{name}` has no parameter `{key}`");
             let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
-            let known: Vec<&str> = self.used.iter().copied().collect();
+            let known = self.used.clone();
             self.problems.push(problem.suggest(key, known));
         }
     }

@@ -16,7 +16,8 @@ pub(super) fn terminations(
     let mut winnable = false;
     for line in &description.terminations {
         let mut reader = Reader { line, names, problems };
-        winnable |= reader.param("win").is_some_and(|param| param.value.text.to_lowercase().starts_with("true"));
+        winnable |=
+            reader.param("win").is_some_and(|param| param.value.text.to_lowercase().starts_with("true"));
         if let Some((condition, win)) = reader.termination() {
             terminations.push(Termination { condition, win });
         }

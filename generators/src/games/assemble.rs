@@ -5,7 +5,9 @@ use super::draft::{AVATAR, Draft, Ending, FLOOR, Harm, Part, Phase, Rule, Stamin
 use super::effect::Effect;
 use super::palette;
 use engine::Description;
-use engine::syntax::{Header, InteractionLine, MappingLine, Param, SpriteLine, TerminationLine, Trivia, Word};
+use engine::syntax::{
+    Header, InteractionLine, MappingLine, Param, SpriteLine, TerminationLine, Trivia, Word,
+};
 
 /// Lays the draft out.
 pub(crate) fn describe(draft: &Draft) -> Description {

@@ -55,11 +55,8 @@ fn hearts(draft: &mut Draft, sampler: &mut Sampler) {
     let medicine = draft.place(Role::Medicine, SpriteClass::Immovable, Body::Item, &[]);
     let heal = Effect::AddHealthPointsToMax { value: draw(sampler, 1, 2) };
     draft.scored(Phase::Take, AVATAR, &[medicine], heal, 1);
-    let clause = format!(
-        "{} wounds are the end, but {} heals",
-        super::english::number(health),
-        draft.say(medicine)
-    );
+    let clause =
+        format!("{} wounds are the end, but {} heals", super::english::number(health), draft.say(medicine));
     draft.tell(clause);
 }
 

@@ -25,7 +25,8 @@ impl Composition {
         let weights: Vec<u32> = goals.iter().map(|goal| goal.pattern.weight).collect();
         let goal = goals[sampler.weighted(&weights)?];
         let mut composition = Composition { goal, patterns: vec![&goal.pattern] };
-        let fits = |pattern: &&'static Pattern| goal.hero.iter().all(|feature| pattern.gives.contains(feature));
+        let fits =
+            |pattern: &&'static Pattern| goal.hero.iter().all(|feature| pattern.gives.contains(feature));
         let movement = composition.pick(MOVEMENTS.iter().filter(fits), sampler)?;
         // The way of moving is built first: the others ask what the hero strikes with.
         composition.patterns.insert(0, movement);
@@ -73,12 +74,12 @@ impl Composition {
 
     fn admits(&self, pattern: &Pattern) -> bool {
         let taken = |role: &Role| self.patterns.iter().any(|other| other.roles.contains(role));
-        let barred = |other: &&Pattern| {
+        let barred = |other: &&'static Pattern| {
             other.bars.iter().any(|feature| pattern.gives.contains(feature))
                 || pattern.bars.iter().any(|feature| other.gives.contains(feature))
         };
         !pattern.roles.iter().any(taken)
             && pattern.needs.iter().all(|&feature| self.gives(feature))
-            && !self.patterns.iter().any(|other| barred(&other))
+            && !self.patterns.iter().any(barred)
     }
 }

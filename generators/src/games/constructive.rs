@@ -81,7 +81,9 @@ impl Generator for ConstructiveGames {
         let game = build(&composition, seed);
         match Game::compile(&game.description) {
             Ok(compiled) if compiled.warnings().is_empty() => Ok(game),
-            Ok(compiled) => Err(GenerateError::Unlucky(format!("warned of: {}", compiled.warnings()[0].message))),
+            Ok(compiled) => {
+                Err(GenerateError::Unlucky(format!("warned of: {}", compiled.warnings()[0].message)))
+            }
             Err(problems) => Err(GenerateError::Unlucky(format!("the rules do not compile: {problems}"))),
         }
     }
@@ -104,7 +106,13 @@ fn build(composition: &Composition, seed: Seed) -> GeneratedGame {
         goal: format!("{}.", english::capital(&draft.goal)),
         kind,
         real_time: composition.gives(Feature::Movers),
-        patterns: composition.patterns.iter().map(|pattern| pattern.name).chain([theme.name]).map(str::to_owned).collect(),
+        patterns: composition
+            .patterns
+            .iter()
+            .map(|pattern| pattern.name)
+            .chain([theme.name])
+            .map(str::to_owned)
+            .collect(),
     }
 }
 

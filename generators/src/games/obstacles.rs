@@ -90,8 +90,7 @@ fn dark(draft: &mut Draft, _: &mut Sampler) {
 
 fn portal(draft: &mut Draft, _: &mut Sampler) {
     let exit = draft.place(Role::PortalOut, SpriteClass::Immovable, Body::Spot, &[]);
-    let entry =
-        draft.place(Role::PortalIn, SpriteClass::Portal, Body::Spot, &[("stype", Value::Part(exit))]);
+    let entry = draft.place(Role::PortalIn, SpriteClass::Portal, Body::Spot, &[("stype", Value::Part(exit))]);
     draft.rule(Phase::Meet, AVATAR, &[entry], Effect::TeleportToExit);
     let clause = format!("{} leads to {}", draft.one(entry), draft.one(exit));
     draft.tell(clause);
@@ -101,15 +100,13 @@ fn collapse(draft: &mut Draft, _: &mut Sampler) {
     let arch = draft.place(Role::Archway, SpriteClass::Immovable, Body::Spot, &[]);
     let rubble = draft.spawn(Role::Rubble, SpriteClass::Immovable, Body::Solid, &[]);
     draft.rule(Phase::Meet, arch, &[AVATAR], Effect::SpawnBehind { stype: rubble });
-    let clause =
-        format!("{} closes the way behind whoever enters {}", draft.say(rubble), draft.one(arch));
+    let clause = format!("{} closes the way behind whoever enters {}", draft.say(rubble), draft.one(arch));
     draft.tell(clause);
 }
 
 fn cart(draft: &mut Draft, sampler: &mut Sampler) {
     let orientation = *sampler.choose(&["RIGHT", "DOWN"]);
-    let params =
-        [("orientation", Value::Word(orientation)), ("cooldown", Value::Count(draw(sampler, 1, 2)))];
+    let params = [("orientation", Value::Word(orientation)), ("cooldown", Value::Count(draw(sampler, 1, 2)))];
     let cart = draft.place(Role::Cart, SpriteClass::Missile, Body::Carrier, &params);
     draft.rule(Phase::Carry, AVATAR, &[cart], Effect::PullWithIt);
     let clause = format!("{} carries whoever boards it", draft.one(cart));

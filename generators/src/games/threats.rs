@@ -106,7 +106,7 @@ pub(crate) fn bombers(draft: &mut Draft, sampler: &mut Sampler) -> (Part, Part) 
     let drop = draft.spawn(Role::Drop, SpriteClass::Missile, Body::FoeShot, &params);
     let params = [
         ("stype", Value::Part(drop)),
-        ("orientation", Value::Word(*sampler.choose(&["LEFT", "RIGHT"]))),
+        ("orientation", Value::Word(["LEFT", "RIGHT"][sampler.below(2)])),
         ("speed", Value::Count(1)),
         ("cooldown", Value::Count(draw(sampler, 2, 4))),
         ("prob", Value::Hundredths(5 * draw(sampler, 4, 10))),
@@ -213,8 +213,13 @@ fn creep(draft: &mut Draft, sampler: &mut Sampler) {
     let share = ("spreadprob", Value::Hundredths(draw(sampler, 16, 22)));
     let limit = ("limit", Value::Count(draw(sampler, 10, 18)));
     let old = draft.spawn(Role::Creep, SpriteClass::Spreader, Body::Puff, &[share, limit]);
-    let young =
-        draft.state(old, "young", SpriteClass::Spreader, Body::Puff, &[("stype", Value::Part(old)), share, limit]);
+    let young = draft.state(
+        old,
+        "young",
+        SpriteClass::Spreader,
+        Body::Puff,
+        &[("stype", Value::Part(old)), share, limit],
+    );
     draft.give(old, "stype", Value::Part(young));
     vent(draft, sampler, young, (6, 12));
     draft.harm(old, Harm::Lasting);

@@ -83,7 +83,12 @@ struct LevelPlace {
 }
 
 fn calls(report: &Report) -> u64 {
-    report.judgements.iter().filter_map(|judgement| judgement.finding.measured.as_ref()).map(|rate| rate.calls).sum()
+    report
+        .judgements
+        .iter()
+        .filter_map(|judgement| judgement.finding.measured.as_ref())
+        .map(|rate| rate.calls)
+        .sum()
 }
 
 fn minted(level: Level, report: Report, place: LevelPlace) -> Option<MintedLevel> {

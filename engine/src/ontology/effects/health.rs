@@ -40,7 +40,7 @@ pub(super) fn subtract(
     let mut target = one;
     if let Some(stype) = stype {
         let groups = step.rules.types[stype.index()].tree.iter().map(|&stype| step.state.group(stype).head);
-        target = groups.filter(|&head| head != NONE).last().unwrap_or(one);
+        target = groups.rev().find(|&head| head != NONE).unwrap_or(one);
     }
     let sprite = step.state.edit(target);
     sprite.health = sprite.health.saturating_sub(value);

@@ -53,7 +53,8 @@ fn unseal(draft: &mut Draft, _: &mut Sampler) {
     draft.scored(Phase::Take, lever, &[AVATAR], Effect::KillSprite, 3);
     draft.scored(Phase::Arrive, open, &[AVATAR], Effect::KillSprite, 10);
     draft.win_without(&[shut, open]);
-    draft.goal = format!("throw the {} that unseals the {}, then leave by it", draft.say(lever), draft.say(open));
+    draft.goal =
+        format!("throw the {} that unseals the {}, then leave by it", draft.say(lever), draft.say(open));
 }
 
 /// Whoever takes the relic wakes its guards.

@@ -19,12 +19,21 @@ pub(super) const GOALS: &[Goal] = &[
     hunt("goal/hunt-chasers", &[Role::Chaser], hunt_chasers),
     hunt("goal/raze-strays", &[Role::Nest, Role::Wanderer], raze_strays),
     hunt("goal/raze-chasers", &[Role::Nest, Role::Chaser], raze_chasers),
-    Goal { kind: Kind::Shooter, ..hunt("goal/trophies", &[Role::Nest, Role::Wanderer, Role::Trophy, Role::Exit], trophies) },
+    Goal {
+        kind: Kind::Shooter,
+        ..hunt("goal/trophies", &[Role::Nest, Role::Wanderer, Role::Trophy, Role::Exit], trophies)
+    },
     Goal {
         hero: &[Feature::Row, Feature::Armed],
         threats: (0, 0),
         obstacles: (0, 0),
-        ..goal("goal/gallery", Kind::Shooter, &[Role::Bomber, Role::Drop, Role::Patroller, Role::Cover], HUNT, gallery)
+        ..goal(
+            "goal/gallery",
+            Kind::Shooter,
+            &[Role::Bomber, Role::Drop, Role::Patroller, Role::Cover],
+            HUNT,
+            gallery,
+        )
     },
     Goal {
         hero: &[Feature::Four, Feature::Blasts],
@@ -48,7 +57,11 @@ const fn hunt(name: &'static str, roles: &'static [Role], build: fn(&mut Draft, 
 
 const fn lure(name: &'static str, roles: &'static [Role], build: fn(&mut Draft, &mut Sampler)) -> Goal {
     let goal = goal(name, Kind::Lure, roles, HUNT, build);
-    Goal { threats: (0, 1), pattern: Pattern { bars: &[Feature::Armed, Feature::Wards], ..goal.pattern }, ..goal }
+    Goal {
+        threats: (0, 1),
+        pattern: Pattern { bars: &[Feature::Armed, Feature::Wards], ..goal.pattern },
+        ..goal
+    }
 }
 
 /// What is hunted harms whoever touches it, and stays.
@@ -58,8 +71,7 @@ fn quarry(draft: &mut Draft, foe: Part, score: i32) {
 }
 
 fn hunt_strays(draft: &mut Draft, sampler: &mut Sampler) {
-    let foe =
-        draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
+    let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
     quarry(draft, foe, 3);
     draft.win_without(&[foe]);
     draft.goal = format!("strike down every {}", draft.say(foe));
@@ -85,8 +97,7 @@ fn hunt_chasers(draft: &mut Draft, sampler: &mut Sampler) {
 }
 
 fn raze_strays(draft: &mut Draft, sampler: &mut Sampler) {
-    let foe =
-        draft.spawn(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
+    let foe = draft.spawn(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
     raze(draft, sampler, foe);
 }
 
@@ -110,8 +121,7 @@ fn raze(draft: &mut Draft, sampler: &mut Sampler, foe: Part) {
 
 fn trophies(draft: &mut Draft, sampler: &mut Sampler) {
     let price = draw(sampler, 2, 4);
-    let foe =
-        draft.spawn(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
+    let foe = draft.spawn(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
     let nest = threats::nest(draft, sampler, foe, 0);
     let params = [("limit", Value::Count(price + 2))];
     let trophy = draft.spawn(Role::Trophy, SpriteClass::Resource, Body::Item, &params);

@@ -49,7 +49,8 @@ fn gather_both(draft: &mut Draft, _: &mut Sampler) {
 
 fn toll(draft: &mut Draft, sampler: &mut Sampler) {
     let price = draw(sampler, 2, 5);
-    let gem = draft.place(Role::Gem, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(price + 3))]);
+    let gem =
+        draft.place(Role::Gem, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(price + 3))]);
     let exit = exit(draft, Body::Solid);
     draft.scored(Phase::Take, gem, &[AVATAR], Effect::CollectResource { stays: false }, 1);
     let open = Effect::KillIfOtherHasMore { resource: gem, limit: price, subtract: false };

@@ -33,8 +33,14 @@ pub(super) const GOALS: &[Goal] = &[
         obstacles: (0, 0),
         pattern: Pattern {
             bars: &[Feature::Armed],
-            ..goal("goal/dodge", Kind::Survival, &[Role::Bomber, Role::Drop, Role::Tree, Role::Fruit], SIEGE, dodge)
-                .pattern
+            ..goal(
+                "goal/dodge",
+                Kind::Survival,
+                &[Role::Bomber, Role::Drop, Role::Tree, Role::Fruit],
+                SIEGE,
+                dodge,
+            )
+            .pattern
         },
         ..goal("goal/dodge", Kind::Survival, &[], &[], dodge)
     },
@@ -55,8 +61,14 @@ pub(super) const GOALS: &[Goal] = &[
         obstacles: (0, 0),
         pattern: Pattern {
             bars: &[Feature::Armed],
-            ..goal("goal/catch-falling", Kind::Catching, &[Role::Tree, Role::Fruit], &[Feature::Movers], catch)
-                .pattern
+            ..goal(
+                "goal/catch-falling",
+                Kind::Catching,
+                &[Role::Tree, Role::Fruit],
+                &[Feature::Movers],
+                catch,
+            )
+            .pattern
         },
         ..goal("goal/catch-falling", Kind::Catching, &[], &[], catch)
     },

@@ -27,7 +27,12 @@ const fn tending(
     build: fn(&mut Draft, &mut Sampler),
 ) -> Goal {
     let goal = goal(name, Kind::Tending, roles, gives, build);
-    Goal { pattern: Pattern { bars: &[Feature::Armed], ..goal.pattern }, threats: (0, 1), ticks: (6, 14), ..goal }
+    Goal {
+        pattern: Pattern { bars: &[Feature::Armed], ..goal.pattern },
+        threats: (0, 1),
+        ticks: (6, 14),
+        ..goal
+    }
 }
 
 fn light(draft: &mut Draft, sampler: &mut Sampler) {

@@ -24,11 +24,7 @@ pub(super) const GOALS: &[Goal] = &[
     goal("goal/chests", Kind::KeyAndDoor, &[Role::Key, Role::Chest], &[], chests),
 ];
 
-const fn warden(
-    name: &'static str,
-    roles: &'static [Role],
-    build: fn(&mut Draft, &mut Sampler),
-) -> Goal {
+const fn warden(name: &'static str, roles: &'static [Role], build: fn(&mut Draft, &mut Sampler)) -> Goal {
     let goal = goal(name, Kind::KeyAndDoor, roles, WARDEN, build);
     Goal {
         hero: &[Feature::Four, Feature::Strikes],
@@ -92,6 +88,8 @@ fn chests(draft: &mut Draft, sampler: &mut Sampler) {
     draft.win_without(&[chest]);
     draft.goal = match keys {
         1 => format!("open every {} with {}", draft.say(chest), draft.one(key)),
-        _ => format!("find {} {} and open every {}", english::number(keys), draft.many(key), draft.say(chest)),
+        _ => {
+            format!("find {} {} and open every {}", english::number(keys), draft.many(key), draft.say(chest))
+        }
     };
 }

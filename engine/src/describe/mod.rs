@@ -1,0 +1,82 @@
+//! The rules of a game in plain English. The same game always gives the same words.
+//!
+//! This is the only place that puts rules into words: prompts, cards and `arcade describe` all read it.
+
+mod rules;
+mod sprites;
+mod words;
+
+use crate::analysis::Analysis;
+use crate::game::Game;
+use std::fmt;
+
+/// A game in plain English, in sections of sentences.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Guide {
+    /// What the keys do, a sentence for each avatar type that can occur.
+    pub controls: Vec<String>,
+    /// What wins, in order of priority.
+    pub winning: Vec<String>,
+    /// What loses, in order of priority.
+    pub losing: Vec<String>,
+    /// What each other sprite does by itself, a line each, in registry order.
+    pub sprites: Vec<String>,
+    /// What the names of groups mean in the interactions, a line each.
+    pub groups: Vec<String>,
+    /// What happens when sprites meet, a line for each interaction, in order of the file.
+    pub meetings: Vec<String>,
+    /// What each level character places, by character.
+    pub legend: Vec<String>,
+}
+
+impl Guide {
+    /// The guide to a game.
+    pub fn of(game: &Game) -> Guide {
+        Guide::from_analysis(&Analysis::of(game))
+    }
+
+    /// The guide to an analysed game.
+    pub fn from_analysis(analysis: &Analysis) -> Guide {
+        Guide {
+            controls: sprites::controls(analysis),
+            winning: rules::endings(analysis, true),
+            losing: rules::endings(analysis, false),
+            sprites: sprites::sprites(analysis),
+            groups: rules::groups(analysis),
+            meetings: rules::meetings(analysis),
+            legend: sprites::legend(analysis),
+        }
+    }
+}
+
+impl fmt::Display for Guide {
+    /// All sections, each with a heading; empty ones are left out.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sections = [
+            ("How you play", &self.controls),
+            ("How you win", &self.winning),
+            ("How you lose", &self.losing),
+            ("What the others do", &self.sprites),
+            ("Words for several", &self.groups),
+            ("What happens when sprites meet", &self.meetings),
+            ("What the level's characters stand for", &self.legend),
+        ];
+        let filled = sections.into_iter().filter(|(_, lines)| !lines.is_empty());
+        for (at, (heading, lines)) in filled.enumerate() {
+            let gap = if at == 0 { "" } else { "\n" };
+            writeln!(f, "{gap}{heading}:")?;
+            for line in lines {
+                writeln!(f, "  {line}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The rules of a game in plain English: all sections of its [`Guide`].
+pub fn describe(game: &Game) -> String {
+    Guide::of(game).to_string()
+}
+
+#[cfg(test)]
+mod tests;

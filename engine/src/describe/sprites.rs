@@ -1,0 +1,177 @@
+//! What each sprite does by itself, what the player's keys do, what the level characters stand for.
+
+use super::words::{a, count, list, pace, percent};
+use crate::analysis::{Analysis, Avatar, Motion, Role, Steering};
+use crate::game::SpriteType;
+use crate::geometry::Direction;
+use crate::ontology::class::SpriteClass;
+
+/// One line for each type that can occur and does something by itself, avatars left out; the last one is for those that
+/// only stand there.
+pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
+    let game = analysis.game();
+    let (mut lines, mut still) = (Vec::new(), Vec::new());
+    for stype in game.sprite_types() {
+        let facts = analysis.facts(stype);
+        if !facts.possible || facts.motion == Motion::Steered {
+            continue;
+        }
+        let parts = sprite(analysis, stype);
+        if parts.is_empty() {
+            still.push(game.name(stype));
+        } else {
+            lines.push(format!("The {} {}.", game.name(stype), parts.join("; ")));
+        }
+    }
+    if !still.is_empty() {
+        let stands = if still.len() == 1 { "only stands there" } else { "only stand there" };
+        lines.push(format!("The {} {stands}.", list(&still, "and")));
+    }
+    lines
+}
+
+/// What a type does, without its name; nothing for what only stands there.
+fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
+    let info = &analysis.game().0.types[stype.index()];
+    let facts = analysis.facts(stype);
+    let traits = &info.traits;
+    let name = |stype: SpriteType| analysis.game().name(stype);
+    let speed = || step(traits);
+    let mut parts = vec![match facts.motion {
+        Motion::Still => String::new(),
+        Motion::Straight(direction) => match direction_name(direction) {
+            Some(direction) => format!("moves {direction}, {}", speed()),
+            None if info.class == Some(SpriteClass::RandomMissile) => {
+                format!("moves straight in a random direction, {}", speed())
+            }
+            None => format!("moves straight ahead, {}", speed()),
+        },
+        Motion::Wandering => format!("wanders at random, {}", speed()),
+        Motion::Chasing(target) => format!("chases the nearest {}, {}", name(target), speed()),
+        Motion::Fleeing(target) => format!("flees from the nearest {}, {}", name(target), speed()),
+        Motion::Steered => "is steered by the player".to_owned(),
+    }];
+    if matches!(facts.motion, Motion::Chasing(_) | Motion::Fleeing(_)) && traits.max_distance >= 0.0 {
+        parts.push(format!("within {} pixels", traits.max_distance));
+    }
+    if let (Some(class), Some(&made)) = (info.class, facts.makes.first()) {
+        parts.push(making(class, traits, name(made)));
+    }
+    if let Some(exit) = analysis.leads_to(stype).filter(|_| info.class == Some(SpriteClass::Portal)) {
+        parts.push(format!("leads to {}", name(exit)));
+    }
+    if facts.is_resource {
+        let each = if traits.value == 1 { String::new() } else { format!(", {} each", traits.value) };
+        parts.push(format!("can be held, up to {}{each}", info.resource_limit));
+    }
+    if info.class.is_some_and(|class| class.is_a(SpriteClass::Flicker)) {
+        parts.push(format!(
+            "vanishes after {}",
+            count(i64::from(traits.limit) - i64::from(traits.age) + 2, "tick")
+        ));
+    }
+    if traits.time_to_live >= 0 {
+        parts.push(format!("lives for {}", count(i64::from(traits.time_to_live) + 1, "tick")));
+    }
+    if traits.health != 0 {
+        parts.push(format!("has {}", count(i64::from(traits.health), "health point")));
+    }
+    if facts.singleton {
+        parts.push("only one exists at a time".to_owned());
+    }
+    if facts.hidden && analysis.role(stype) != Role::Floor {
+        parts.push("cannot be seen".to_owned());
+    }
+    parts.retain(|part| !part.is_empty());
+    parts
+}
+
+fn making(class: SpriteClass, traits: &crate::ontology::traits::Traits, made: &str) -> String {
+    let chance = |probability: f64| match probability {
+        certain if certain >= 1.0 => String::new(),
+        probability => format!(", with a chance of {}", percent(probability)),
+    };
+    if class == SpriteClass::Spreader {
+        return format!("spreads {} to each side once{}", a(made), chance(traits.spread_probability));
+    }
+    let every = match traits.cooldown {
+        1 => "every tick".to_owned(),
+        ticks => format!("every {ticks} ticks"),
+    };
+    let total = match traits.total {
+        total if total > 0 => format!(", {total} in all"),
+        _ => String::new(),
+    };
+    format!("makes {} {every}{}{total}", a(made), chance(traits.prob))
+}
+
+/// How fast a sprite with these traits moves.
+fn step(traits: &crate::ontology::traits::Traits) -> String {
+    // Active movement takes a speed of 0 for 1, passive movement one of −1.
+    pace(if traits.speed <= 0.0 { 1.0 } else { traits.speed }, traits.cooldown.max(1))
+}
+
+fn direction_name(direction: Direction) -> Option<&'static str> {
+    let names = [
+        (Direction::UP, "up"),
+        (Direction::LEFT, "left"),
+        (Direction::DOWN, "down"),
+        (Direction::RIGHT, "right"),
+    ];
+    names.iter().find(|(known, _)| *known == direction).map(|(_, name)| *name)
+}
+
+/// One line for each avatar: what it looks like from the player's chair, and what the keys do.
+pub(super) fn controls(analysis: &Analysis) -> Vec<String> {
+    let single = analysis.avatars().len() == 1;
+    analysis.avatars().iter().map(|avatar| control(analysis, avatar, single)).collect()
+}
+
+fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
+    let game = analysis.game();
+    let info = &game.0.types[avatar.stype.index()];
+    let name = game.name(avatar.stype);
+    let keys = match avatar.steering {
+        Steering::FourWay if info.traits.rotate_in_place => {
+            "an arrow key turns you that way, or moves you if you face it already"
+        }
+        Steering::FourWay => "the arrow keys move you up, left, down and right",
+        Steering::Horizontal => "the arrow keys move you left and right",
+        Steering::Vertical => "the arrow keys move you up and down",
+        Steering::Ongoing => "you always move ahead; the arrow keys turn you",
+        Steering::Unsteered => "you always move ahead; no key changes that",
+    };
+    let mut text = if single { format!("You are the {name}: {keys}") } else { format!("As {name}: {keys}") };
+    if analysis.facts(avatar.stype).pace != 1.0 {
+        text += &format!(", {}", step(&info.traits));
+    }
+    if !avatar.shots.is_empty() {
+        let shots: Vec<String> = avatar.shots.iter().map(|&shot| a(game.name(shot))).collect();
+        let place =
+            if info.class == Some(SpriteClass::FlakAvatar) { "where you are" } else { "ahead of you" };
+        text += &format!("; the use key puts {} {place}", list(&shots, "or"));
+        if !avatar.ammo.is_empty() {
+            let ammo: Vec<&str> = avatar.ammo.iter().map(|&ammo| game.name(ammo)).collect();
+            text += &format!(" and costs {}", list(&ammo, "or"));
+        }
+    }
+    if info.traits.health != 0 {
+        text += &format!("; you start with {}", count(i64::from(info.traits.health), "health point"));
+    }
+    text + "."
+}
+
+/// One line for each character that the game's levels can use: what it places.
+pub(super) fn legend(analysis: &Analysis) -> Vec<String> {
+    let game = analysis.game();
+    let used = |symbol: &u8| {
+        let places = game.places(*symbol);
+        let own = |stype: &SpriteType| analysis.facts(*stype).symbols.contains(symbol);
+        !places.is_empty() && places.iter().any(own)
+    };
+    let line = |symbol: u8| {
+        let names: Vec<&str> = game.places(symbol).iter().map(|&stype| game.name(stype)).collect();
+        format!("{}  {}", char::from(symbol), names.join(", "))
+    };
+    (b'!'..=b'~').filter(used).map(line).collect()
+}

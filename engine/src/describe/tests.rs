@@ -1,0 +1,120 @@
+use super::*;
+
+/// A game in which most kinds of sentences occur.
+const ORCHARD: &str = "
+BasicGame
+    SpriteSet
+        wall > Immovable
+        pear > Resource limit=3
+        gate > Door
+        pond > Immovable
+        wasp > Chaser stype=picker speed=0.5
+        hive > SpawnPoint stype=wasp cooldown=8 prob=0.5 total=4
+        stone > Missile orientation=DOWN speed=0.8 cooldown=3
+        cart > Passive
+        pest >
+            slug > RandomNPC cooldown=4
+            snail > Fleeing stype=picker cooldown=2
+        net > Flicker limit=3 singleton=True
+        picker > ShootAvatar stype=net ammo=pear
+    LevelMapping
+        p > pear
+        g > gate
+        o > pond
+        h > hive
+        s > stone
+        c > cart
+        n > snail
+        k > slug
+        A > picker
+    InteractionSet
+        picker wall pond > stepBack
+        pear picker > collectResource scoreChange=1
+        gate picker > killIfOtherHasMore resource=pear limit=3 subtract=True scoreChange=5
+        picker wasp pest > killSprite scoreChange=-2
+        picker stone > killIfFromAbove
+        pest net > transformTo stype=pear
+        cart picker > bounceForward
+        cart pond > killBoth
+        EOS stone wasp > killSprite
+    TerminationSet
+        SpriteCounter stype=picker win=False
+        MultiSpriteCounter stype1=gate stype2=pest win=True
+        Timeout limit=600 win=False
+";
+
+#[test]
+fn a_guide_reads_well() {
+    let expected = "\
+How you play:
+  You are the picker: an arrow key turns you that way, or moves you if you face it already; the use key puts a net ahead of you and costs pear.
+
+How you win:
+  You win when no gate, slug or snail is left.
+
+How you lose:
+  You lose when you are gone.
+  You lose when tick 600 is reached.
+
+What the others do:
+  The pear can be held, up to 3.
+  The wasp chases the nearest picker, a cell every 2 ticks.
+  The hive makes a wasp every 8 ticks, with a chance of 50%, 4 in all.
+  The stone moves down, 80% of a cell every 3 ticks.
+  The slug wanders at random, a cell every 4 ticks.
+  The snail flees from the nearest picker, a cell every 2 ticks.
+  The net vanishes after 5 ticks; only one exists at a time.
+  The wall, gate, pond and cart only stand there.
+
+Words for several:
+  Any pest means the slug or snail.
+
+What happens when sprites meet:
+  You cannot enter the wall or pond.
+  You collect the pear. You gain 1 point.
+  The gate disappears on touching you if you hold at least 3 pear, which uses them up. You gain 5 points.
+  You die on touching the wasp or any pest. You lose 2 points.
+  You die if the stone falls on you from above.
+  Any pest turns into a pear on touching the net.
+  You push the cart.
+  The cart and the pond both disappear when they touch.
+  The stone or wasp disappears on touching the edge of the board.
+
+What the level's characters stand for:
+  A  picker
+  c  cart
+  g  gate
+  h  hive
+  k  slug
+  n  snail
+  o  pond
+  p  pear
+  s  stone
+  w  wall
+";
+    let game = Game::from_source(ORCHARD).unwrap();
+    assert_eq!(describe(&game), expected);
+}
+
+#[test]
+fn several_avatars_are_told_apart() {
+    let game = Game::from_source(
+        "BasicGame\n  SpriteSet\n    key > Immovable\n    door > Door\n    hero >\n      bare > MovingAvatar\n      armed > \
+         MovingAvatar\n  LevelMapping\n    k > key\n    d > door\n    A > bare\n  InteractionSet\n    bare key > transformTo \
+         stype=armed killSecond=True\n    bare door > stepBack\n    door armed > killSprite\n    hero EOS > stepBack\n  \
+         TerminationSet\n    SpriteCounter stype=door win=True\n",
+    )
+    .unwrap();
+    let guide = Guide::of(&game);
+    assert_eq!(guide.controls.len(), 2);
+    assert_eq!(
+        guide.meetings,
+        [
+            "You as bare turn into an armed on touching the key, and the key disappears.",
+            "You as bare cannot enter the door.",
+            "The door disappears on touching you as armed.",
+            "You cannot enter the edge of the board.",
+        ]
+    );
+    assert_eq!(guide.losing, Vec::<String>::new());
+}

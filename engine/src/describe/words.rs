@@ -1,0 +1,145 @@
+//! Names, numbers and verbs.
+
+use crate::analysis::Analysis;
+use crate::game::SpriteType;
+use std::fmt::Display;
+
+/// Somebody in a sentence.
+#[derive(Clone, Debug)]
+pub(super) struct Party {
+    /// As the subject or object: `you`, `the crate`, `any beast`, `the edge of the board`.
+    pub(super) name: String,
+    /// It is the player.
+    pub(super) you: bool,
+}
+
+impl Party {
+    pub(super) fn of(analysis: &Analysis, stype: SpriteType) -> Party {
+        let game = analysis.game();
+        let name = game.name(stype);
+        let covered = |other: SpriteType| analysis.applies(stype, other);
+        let avatars = analysis.avatars();
+        let own: Vec<_> = avatars.iter().filter(|avatar| covered(avatar.stype)).collect();
+        let possible = game.sprite_types().filter(|&other| covered(other) && analysis.facts(other).possible);
+        let all_you = !own.is_empty() && possible.count() == own.len();
+        if all_you && own.len() == avatars.len() {
+            return Party { name: "you".to_owned(), you: true };
+        }
+        if all_you {
+            return Party { name: format!("you as {name}"), you: true };
+        }
+        let article = if members(analysis, stype).is_empty() { "the" } else { "any" };
+        Party { name: format!("{article} {name}"), you: false }
+    }
+
+    pub(super) fn edge() -> Party {
+        Party { name: "the edge of the board".to_owned(), you: false }
+    }
+
+    /// Several as one: `the crab or butterfly`, `you or the sword`.
+    pub(super) fn any(parties: &[Party]) -> Party {
+        let mut names: Vec<&str> = parties.iter().map(|party| party.name.as_str()).collect();
+        for at in (1..names.len()).rev() {
+            if names[at - 1].starts_with("the ") {
+                names[at] = names[at].strip_prefix("the ").unwrap_or(names[at]);
+            }
+        }
+        Party { name: list(&names, "or"), you: parties.len() == 1 && parties[0].you }
+    }
+
+    /// The verb that fits: `you die`, `the crate dies`.
+    pub(super) fn verb<'a>(&self, with_you: &'a str, with_it: &'a str) -> &'a str {
+        if self.you { with_you } else { with_it }
+    }
+
+    /// For a second mention: `you` or `it`.
+    pub(super) fn again(&self) -> &'static str {
+        if self.you { "you" } else { "it" }
+    }
+
+    /// With a verb that people have and things have, too: `you hold`, `it holds`.
+    pub(super) fn again_holds(&self) -> &'static str {
+        if self.you { "you hold" } else { "it holds" }
+    }
+}
+
+/// The types below a type in the SpriteSet that can occur and have sprites; empty for a type of its own.
+pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType> {
+    let game = analysis.game();
+    let below = |stype: SpriteType| {
+        stype != group && game.0.types[stype.index()].path.contains(&group) && analysis.facts(stype).possible
+    };
+    game.sprite_types().filter(|&stype| below(stype)).collect()
+}
+
+/// With its article: `a crate`, `an eel`.
+pub(super) fn a(name: &str) -> String {
+    let vowel = name.starts_with(['a', 'e', 'i', 'o', 'u', 'A', 'E', 'I', 'O', 'U']);
+    format!("{} {name}", if vowel { "an" } else { "a" })
+}
+
+/// `a`, `a or b`, `a, b or c`.
+pub(super) fn list(names: &[impl Display], word: &str) -> String {
+    match names {
+        [] => String::new(),
+        [one] => one.to_string(),
+        [rest @ .., last] => {
+            let rest: Vec<String> = rest.iter().map(ToString::to_string).collect();
+            format!("{} {word} {last}", rest.join(", "))
+        }
+    }
+}
+
+/// With a capital at the start and a full stop at the end.
+pub(super) fn sentence(text: &str) -> String {
+    let mut characters = text.chars();
+    let first: String = characters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}.", characters.as_str())
+}
+
+/// `1 point`, `2 points`.
+pub(super) fn count(number: i64, noun: &str) -> String {
+    let ending = if number == 1 { "" } else { "s" };
+    format!("{number} {noun}{ending}")
+}
+
+/// A probability as a percentage with as many digits as it needs.
+pub(super) fn percent(probability: f64) -> String {
+    let thousandths = (probability * 100_000.0 + 0.5) as i64;
+    let (whole, rest) = (thousandths / 1000, thousandths % 1000);
+    let digits = format!("{whole}.{rest:03}");
+    format!("{}%", digits.trim_end_matches('0').trim_end_matches('.'))
+}
+
+/// How fast something moves that goes `speed` cells at a time, every `cooldown` ticks.
+pub(super) fn pace(speed: f64, cooldown: i32) -> String {
+    let per_cell = (1.0 / speed + 0.5) as i32;
+    let divides = (1.0 / speed - f64::from(per_cell)).abs() < 1e-9;
+    let (cells, ticks) = if speed <= 1.0 && divides {
+        ("a cell".to_owned(), per_cell * cooldown)
+    } else if speed < 1.0 {
+        (format!("{} of a cell", percent(speed)), cooldown)
+    } else {
+        (format!("{speed} cells"), cooldown)
+    };
+    if ticks == 1 { format!("{cells} a tick") } else { format!("{cells} every {ticks} ticks") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(
+            (percent(0.5), percent(0.025), percent(1.0)),
+            ("50%".into(), "2.5%".into(), "100%".into())
+        );
+        assert_eq!((pace(1.0, 1), pace(0.25, 1)), ("a cell a tick".into(), "a cell every 4 ticks".into()));
+        assert_eq!((pace(0.5, 6), pace(2.0, 1)), ("a cell every 12 ticks".into(), "2 cells a tick".into()));
+        assert_eq!(pace(0.8, 3), "80% of a cell every 3 ticks");
+        assert_eq!((count(1, "point"), count(2, "point")), ("1 point".into(), "2 points".into()));
+        assert_eq!(list(&["a", "b", "c"], "or"), "a, b or c");
+        assert_eq!(sentence("you win"), "You win.");
+    }
+}
