@@ -1,14 +1,21 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
-use crate::game::{Limit, Pass, SpriteType, TypeInfo};
+use crate::game::{Limit, Pass, SpriteType, Timed, TypeInfo};
+use crate::geometry::Rect;
 use crate::occupancy::Hits;
 use crate::ontology::effects;
-use crate::state::{NONE, Slot, flag, memory};
+use crate::state::{NONE, Slot, Timer, flag, memory};
 use crate::step::{Step, Watch};
 use smallvec::SmallVec;
 
 impl Step<'_> {
     pub(crate) fn events(&mut self, watch: &mut impl Watch) {
+        if !self.state.timers.is_empty() {
+            self.timers(watch);
+            if self.stopped.is_some() {
+                return;
+            }
+        }
         for at in 0..self.rules.edge.len() {
             let (stype, effect) = self.rules.edge[at];
             self.edge_pass(stype, effect, watch);
@@ -21,6 +28,66 @@ impl Step<'_> {
             if self.stopped.is_some() {
                 return;
             }
+        }
+    }
+
+    /// Effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
+    fn timers(&mut self, watch: &mut impl Watch) {
+        while let Some(&Timer { due, timed: number }) = self.state.timers.first() {
+            if due > self.state.tick {
+                return;
+            }
+            self.state.timers.remove(0);
+            let timed = &self.rules.timed[usize::from(number)];
+            match timed.target {
+                None => {
+                    watch.interaction(timed.line);
+                    let info = &self.rules.effects[usize::from(timed.effect)];
+                    effects::execute_alone(self, timed.effect, &info.effect);
+                    self.score(timed.apply_score, timed.score_change);
+                }
+                Some(stype) => self.timed_group(timed, stype, watch),
+            }
+            if self.stopped.is_some() {
+                return;
+            }
+            if timed.repeating {
+                let due = self.state.tick.saturating_add(timed.timer);
+                self.state.plan(Timer { due, timed: number });
+            }
+        }
+    }
+
+    /// A timed effect on every sprite of a type and its relatives; the score is the line's own, whatever the effect did.
+    fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut impl Watch) {
+        let rules = self.rules;
+        let info = &rules.effects[usize::from(timed.effect)];
+        for &stype in &rules.types[stype.index()].tree {
+            let mut slot = self.state.group(stype).head;
+            while slot != NONE {
+                if !self.state.sprite(slot).is(flag::KILLED | flag::DISABLED) {
+                    let tail = self.state.group(stype).tail;
+                    watch.interaction(timed.line);
+                    effects::execute(self, timed.effect, &info.effect, slot, None);
+                    self.score(timed.apply_score, timed.score_change);
+                    if self.state.group(stype).tail != tail {
+                        self.stop(Limit::SpawnIntoUpdatedType);
+                    }
+                    if self.stopped.is_some() {
+                        return;
+                    }
+                }
+                slot = self.state.sprite(slot).next;
+            }
+        }
+    }
+
+    fn score(&mut self, applies: bool, change: i32) {
+        if applies {
+            if self.state.avatar == NONE {
+                return self.stop(Limit::NoAvatar);
+            }
+            self.state.score += i64::from(change);
         }
     }
 
@@ -80,13 +147,22 @@ impl Step<'_> {
         watch: &mut impl Watch,
     ) {
         let mut hits = Hits::new();
+        let in_batch = self.rules.effects[usize::from(pass.effect)].in_batch;
         for &stype in &first.tree {
             let mut slot = self.state.group(stype).head;
             while slot != NONE && self.state.sprite(slot).id < newborn {
                 hits.clear();
-                self.state.overlapping(self.rules, second, slot, newborn, &mut hits);
+                if self.rules.types[stype.index()].ground_aware {
+                    self.look_down(slot, second, newborn, &mut hits);
+                } else {
+                    self.state.overlapping(self.rules, second, slot, newborn, &mut hits);
+                }
                 if hits.len() > 1 {
                     hits.sort_unstable_by_key(|&hit| self.rank(second, hit));
+                }
+                if in_batch && !hits.is_empty() {
+                    self.execute_batch(pass.effect, slot, &mut hits, watch);
+                    hits.clear();
                 }
                 for &hit in &hits {
                     self.meet(pass, slot, hit, watch);
@@ -136,6 +212,9 @@ impl Step<'_> {
 
     /// The second check before a hit counts: the first sprite is not dead and still there.
     fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut impl Watch) {
+        if self.rules.types[self.state.sprite(one).stype.index()].ground_aware {
+            self.notice_ground(one, two);
+        }
         let (first, second) = (self.state.sprite(one), self.state.sprite(two));
         if !first.is(flag::KILLED) && first.rect.intersects(second.rect) {
             self.execute(pass.effect, one, Some(two), watch);
@@ -147,12 +226,43 @@ impl Step<'_> {
         watch.interaction(info.line);
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
-        if remembered & memory::APPLY_SCORE != 0 {
-            let change = effects::score_change(info, remembered);
-            if self.state.avatar == NONE {
-                return self.stop(Limit::NoAvatar);
-            }
-            self.state.score += i64::from(change);
+        self.score(remembered & memory::APPLY_SCORE != 0, effects::score_change(info, remembered));
+    }
+
+    /// All partners at once; the score counts as often as the effect says.
+    fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Hits, watch: &mut impl Watch) {
+        let info = &self.rules.effects[usize::from(effect)];
+        watch.interaction(info.line);
+        let times = effects::execute_batch(self, &info.effect, one, partners);
+        self.score(info.apply_score, info.score_change * times);
+    }
+
+    /// The partners of a sprite that notices what it stands on: testing a solid one just below it is what it notices.
+    fn look_down(&mut self, slot: Slot, second: &TypeInfo, newborn: u32, hits: &mut Hits) {
+        let rect = self.state.sprite(slot).rect;
+        let around = Rect { h: rect.h + GROUND, ..rect };
+        self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);
+        for &hit in hits.iter() {
+            self.notice_ground(slot, hit);
+        }
+        hits.retain(|hit| self.state.sprite(*hit).rect.intersects(rect));
+    }
+
+    /// `spec/02` §2.5.
+    fn notice_ground(&mut self, one: Slot, two: Slot) {
+        let (sprite, other) = (*self.state.sprite(one), *self.state.sprite(two));
+        let solid = self.rules.types[other.stype.index()].traits.solid;
+        if sprite.is(flag::ON_GROUND) || !solid {
+            return;
+        }
+        let shifted = sprite.rect.at(sprite.rect.x, sprite.rect.y + GROUND);
+        let below = other.last.y > sprite.last.y + sprite.rect.h / 2;
+        let falling = sprite.rect.y > sprite.last.y;
+        if shifted.intersects(other.rect) && below && falling {
+            self.state.edit(one).set(flag::ON_GROUND, true);
         }
     }
 }
+
+/// Pixels below a sprite within which solid ground counts.
+const GROUND: i32 = 3;

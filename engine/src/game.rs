@@ -95,6 +95,10 @@ pub enum Limit {
     NoAvatar,
     /// A sprite of height 0 moved: the reference divides by it.
     FlatSprite,
+    /// A path was asked for in a game without `obs=`.
+    NoPaths,
+    /// An effect ran without the sprites that it needs.
+    NoSprite,
     /// A type turned into itself without end.
     EndlessTransform,
 }
@@ -106,6 +110,8 @@ impl fmt::Display for Limit {
             Limit::SpawnIntoUpdatedType => "a sprite was spawned into the type that is being updated",
             Limit::NoAvatar => "the score changed after the avatar was removed for good",
             Limit::FlatSprite => "a sprite of height 0 moved",
+            Limit::NoPaths => "a path was asked for in a game without `obs=`",
+            Limit::NoSprite => "an effect ran without the sprites that it needs",
             Limit::EndlessTransform => "a type was transformed into itself without end",
         })
     }
@@ -132,6 +138,8 @@ pub(crate) struct TypeInfo {
     pub(crate) resource_limit: i32,
     /// A leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
     pub(crate) leaf: bool,
+    /// Notices what it stands on when rules test what it meets.
+    pub(crate) ground_aware: bool,
 }
 
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
@@ -141,8 +149,8 @@ impl TypeInfo {
     pub(crate) fn leads_to(&self) -> Option<SpriteType> {
         use SpriteClass as C;
         let class = self.class?;
-        let has =
-            [C::Portal, C::SpawnPoint, C::Chaser, C::FlakAvatar, C::Spreader].iter().any(|&c| class.is_a(c));
+        let leading = [C::Portal, C::SpawnPoint, C::Chaser, C::PathChaser, C::FlakAvatar, C::Spreader];
+        let has = leading.iter().any(|&other| class.is_a(other));
         self.traits.stypes.first().copied().filter(|_| has)
     }
 
@@ -157,7 +165,26 @@ pub(crate) struct EffectInfo {
     pub(crate) effect: Effect,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
+    /// Runs once on all partners of a sprite together.
+    pub(crate) in_batch: bool,
     /// Index of the line in the description.
+    pub(crate) line: usize,
+}
+
+/// An effect that runs by the clock: written with TIME, or planned by addTimer (`spec/03` §6).
+#[derive(Debug)]
+pub(crate) struct Timed {
+    /// The effect, with the memory of its own.
+    pub(crate) effect: u16,
+    /// On which sprites; None: once, on none.
+    pub(crate) target: Option<SpriteType>,
+    /// Ticks from planning to running.
+    pub(crate) timer: i32,
+    pub(crate) repeating: bool,
+    /// The tick of the first run; None if addTimer plans it.
+    pub(crate) first_due: Option<i32>,
+    pub(crate) score_change: i32,
+    pub(crate) apply_score: bool,
     pub(crate) line: usize,
 }
 
@@ -192,6 +219,9 @@ pub(crate) struct Rules {
     /// Edge-of-screen passes, repeats expanded: the type and the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,
     pub(crate) passes: Vec<Pass>,
+    pub(crate) timed: Vec<Timed>,
+    /// `obs=`: types that path finding goes around.
+    pub(crate) obstacles: Vec<SpriteType>,
     pub(crate) terminations: Vec<Termination>,
     /// Whether anything can draw from the chance.
     pub(crate) draws: bool,

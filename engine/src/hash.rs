@@ -5,7 +5,7 @@
 //! [`State::search_key`] covers live behaviour only and is what transposition tables use.
 
 use crate::game::{Game, Rules};
-use crate::state::{Sprite, State, flag};
+use crate::state::{Extra, Sprite, State, Target, flag};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
@@ -97,7 +97,7 @@ pub(crate) fn sprite_hash(sprite: &Sprite) -> u128 {
     mixer.pair(sprite.orientation.x.to_bits(), sprite.orientation.y.to_bits());
     mixer.pair(sprite.speed.to_bits(), two(sprite.moved_at, kind));
     mixer.pair(two(sprite.health, sprite.max_health), two(sprite.time_to_live, i32::from(sprite.heading)));
-    mixer.pair(two(sprite.count, sprite.start), 0);
+    mixer.pair(two(sprite.count, sprite.start), u64::from(sprite.spawns.0));
     mixer.finish()
 }
 
@@ -126,6 +126,17 @@ impl State {
         for (id, held) in held {
             mixer.pair(u64::from(id), two(i32::from(held.resource.0), held.amount));
         }
+        let mut extras: Vec<_> =
+            self.extras.iter().map(|extra| (self.sprite(extra.holder).id, extra)).collect();
+        extras.sort_unstable_by_key(|(id, _)| *id);
+        for (id, extra) in extras {
+            mixer.pair(u64::from(id), u64::from(extra.block_time as u32));
+            self.extra_words(extra, &mut mixer);
+        }
+        for timer in &self.timers {
+            mixer.pair(u64::from(timer.timed), timer.due as u64);
+        }
+        mixer.pair(self.jumps.state(), (self.timers.len() as u64) << 1 | u64::from(self.can_end));
         for (chunk, bytes) in self.memory.chunks(8).enumerate() {
             mixer.pair(chunk as u64, bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
         }
@@ -133,6 +144,19 @@ impl State {
             mixer.pair(stype as u64, 1);
         }
         StateHash(mixer.finish())
+    }
+
+    fn extra_words(&self, extra: &Extra, mixer: &mut Mixer) {
+        mixer.pair(extra.rotation.to_bits(), extra.gravity.to_bits());
+        mixer.pair(extra.facing.x.to_bits(), extra.facing.y.to_bits());
+        let target = match extra.target {
+            Target::None => (0, 0),
+            Target::Sprite(slot) => (1, u64::from(self.sprite(slot).id)),
+            Target::Gone(rect) => (two(rect.x, rect.y) | 1 << 63, two(rect.w, rect.h)),
+        };
+        mixer.pair(target.0, target.1);
+        let known = extra.last_known.map_or((0, 0), |(x, y)| (1, two(x, y)));
+        mixer.pair(known.0, known.1);
     }
 
     fn outcome_code(&self) -> u64 {
@@ -151,13 +175,19 @@ impl State {
     pub fn search_key(&self, game: &Game) -> SearchKey {
         let rules: &Rules = &game.0;
         let mut mixer = Mixer::new(0x4B65_7900);
-        mixer.pair(self.outcome_code(), u64::from(self.messages));
+        mixer.pair(self.outcome_code(), u64::from(self.messages) << 1 | u64::from(self.can_end));
         if self.is_over() {
             return SearchKey(mixer.finish());
         }
         // The reference ends every game at its tick limit; a search that deep is not what keys are for.
         mixer.pair(if rules.reads_tick { self.tick as u64 } else { 0 }, self.population as u64);
-        mixer.pair(if rules.draws { self.chance.state() } else { 0 }, self.avatar_rank());
+        for timer in &self.timers {
+            mixer.pair(u64::from(timer.timed), timer.due.saturating_sub(self.tick) as u64);
+        }
+        mixer.pair(
+            if rules.draws { self.chance.state() ^ self.jumps.state().rotate_left(16) } else { 0 },
+            self.avatar_rank(),
+        );
         for stype in game.sprite_types() {
             if self.group(stype).count > 0 {
                 mixer.pair(u64::from(stype.0), u64::from(self.group(stype).count));
@@ -203,7 +233,11 @@ impl State {
             _ => 0,
         };
         mixer.pair(sprite.speed.to_bits(), two(phase, sprite.time_to_live));
-        mixer.pair(two(sprite.count, i32::from(sprite.heading)), 0);
+        mixer.pair(two(sprite.count, i32::from(sprite.heading)), u64::from(sprite.spawns.0));
+        if let Some(extra) = self.extras.get(usize::from(sprite.extra)) {
+            mixer.pair(1, u64::from(self.tick.saturating_sub(extra.block_time).min(6) as u32));
+            self.extra_words(extra, mixer);
+        }
         if frozen {
             // Only sprites without updates keep their last rectangle beyond this tick.
             mixer.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));

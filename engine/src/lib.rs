@@ -41,11 +41,13 @@ mod level;
 mod observe;
 mod occupancy;
 mod ontology;
+mod paths;
 mod sampler;
 mod seed;
 mod state;
 mod step;
 pub mod syntax;
+mod trigonometry;
 
 pub use analysis::Analysis;
 pub use chance::Chance;

@@ -102,7 +102,7 @@ impl Game {
                     health: sprite.health,
                     flags: sprite.flags & flag::RECORDED,
                     resources,
-                    rotation: 0.0,
+                    rotation: state.rotation(&self.0, slot),
                 }
             })
             .collect();

@@ -2,6 +2,7 @@
 //! in it. Kept as sprites move, so asking who overlaps a rectangle costs what stands there.
 
 use crate::game::{Rules, TypeInfo};
+use crate::geometry::Rect;
 use crate::state::{NONE, Slot, Sprite, State, flag};
 use smallvec::SmallVec;
 
@@ -76,20 +77,45 @@ impl State {
         // Sprites that are not aligned to one cell may reach over from the cells left and above.
         let reached = family.tree.iter().any(|&stype| self.group(stype).loose > 0);
         if flags & flag::LOOSE == 0 && !reached {
-            return self.overlapping_in(self.cell(column, row), family, slot, above, hits);
+            return self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
         }
         let reach = if reached { rules.reach.saturating_mul(self.block) - 1 } else { 0 };
         let columns =
             self.column(rect.x.saturating_sub(reach))..=self.column(rect.x.saturating_add(rect.w - 1));
         for row in self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h - 1)) {
             for column in columns.clone() {
-                self.overlapping_in(self.cell(column, row), family, slot, above, hits);
+                self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
             }
         }
     }
 
-    fn overlapping_in(&self, cell: usize, family: &TypeInfo, slot: Slot, above: u32, hits: &mut Hits) {
-        let rect = self.sprite(slot).rect;
+    /// The sprites of `family`'s tree that overlap a rectangle around a sprite, itself left out.
+    pub(crate) fn overlapping_rect(
+        &self,
+        rules: &Rules,
+        family: &TypeInfo,
+        (slot, rect): (Slot, Rect),
+        above: u32,
+        hits: &mut Hits,
+    ) {
+        let reach = rules.reach.saturating_mul(self.block) - 1;
+        let columns =
+            self.column(rect.x.saturating_sub(reach))..=self.column(rect.x.saturating_add(rect.w - 1));
+        for row in self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h - 1)) {
+            for column in columns.clone() {
+                self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
+            }
+        }
+    }
+
+    fn overlapping_in(
+        &self,
+        cell: usize,
+        family: &TypeInfo,
+        (slot, rect): (Slot, Rect),
+        above: u32,
+        hits: &mut Hits,
+    ) {
         let mut at = self.cells[cell];
         while at != NONE {
             let sprite = self.sprite(at);

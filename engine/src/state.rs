@@ -8,6 +8,7 @@
 use crate::chance::Chance;
 use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
+use crate::ontology::class::SpriteClass;
 
 /// An index into the sprites of a state.
 pub(crate) type Slot = u16;
@@ -20,6 +21,8 @@ pub(crate) mod flag {
     pub(crate) const DISABLED: u16 = 1;
     pub(crate) const AVATAR: u16 = 2;
     pub(crate) const FROM_AVATAR: u16 = 4;
+    /// Stands on something solid; of classes that notice.
+    pub(crate) const ON_GROUND: u16 = 8;
     /// What traces record.
     pub(crate) const RECORDED: u16 = 15;
     pub(crate) const FIRST_TICK: u16 = 16;
@@ -61,6 +64,10 @@ pub(crate) struct Sprite {
     pub(crate) start: i32,
     pub(crate) stype: SpriteType,
     pub(crate) flags: u16,
+    /// Spawners: what they make now; updateSpawnType changes it.
+    pub(crate) spawns: SpriteType,
+    /// Index into `State::extras`, or NONE.
+    pub(crate) extra: u16,
     /// NPC: the last drawn direction as an index into the base directions, 4 for none.
     pub(crate) heading: u16,
     /// The chain of the type.
@@ -111,6 +118,36 @@ pub(crate) struct Held {
     pub(crate) amount: i32,
 }
 
+/// What only few sprites have: those that turn, fall differently from their type, or pursue one target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Extra {
+    pub(crate) holder: Slot,
+    pub(crate) rotation: f64,
+    pub(crate) gravity: f64,
+    /// CarAvatar: 0 or 1 in x. WizardAvatar: where it looks.
+    pub(crate) facing: Direction,
+    /// WizardAvatar: the tick of its last block.
+    pub(crate) block_time: i32,
+    /// PathAltChaser: whom it pursues, and where it last knew a way to.
+    pub(crate) target: Target,
+    pub(crate) last_known: Option<(i32, i32)>,
+}
+
+/// Whom a PathAltChaser pursues. The reference keeps the object: a target that is gone is pursued where it was last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Target {
+    None,
+    Sprite(Slot),
+    Gone(Rect),
+}
+
+/// A timer of the time phase: which one, and when it is due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Timer {
+    pub(crate) due: i32,
+    pub(crate) timed: u16,
+}
+
 /// What an effect remembers between executions (`spec/03` §13), bits of one byte an effect.
 pub(crate) mod memory {
     /// The score changes when the effect runs; many effects set this as they go.
@@ -140,6 +177,8 @@ pub struct State {
     pub(crate) columns: i32,
     pub(crate) rows: i32,
     pub(crate) free: Slot,
+    /// Written by StopCounter: whether counters may end the game.
+    pub(crate) can_end: bool,
     /// Sum over the sprites of the hash of each, those in `stale` apart.
     pub(crate) sprite_hash: u128,
     pub(crate) sprites: Vec<Sprite>,
@@ -156,6 +195,13 @@ pub struct State {
     pub(crate) shields: Vec<(SpriteType, SpriteType, u16)>,
     /// Sprites that a pullWithIt effect has carried in this tick.
     pub(crate) pulled: Vec<(u16, Slot)>,
+    pub(crate) extras: Vec<Extra>,
+    /// Planned time effects, the next one first (`spec/03` §6.2).
+    pub(crate) timers: Vec<Timer>,
+    /// Cells that path finding goes around; empty without `obs=`.
+    pub(crate) obstacles: Vec<bool>,
+    /// The second stream of chance, which only WalkerJumper draws from.
+    pub(crate) jumps: Chance,
 }
 
 macro_rules! clone_fields {
@@ -176,8 +222,8 @@ macro_rules! clone_fields {
 }
 
 clone_fields! { to, from;
-    copy tick score outcome chance last_action avatar next_id population messages block columns rows free sprite_hash;
-    buffers sprites groups cells moved stale killed held memory templates shields pulled
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash jumps;
+    buffers sprites groups cells moved stale killed held memory templates shields pulled extras timers obstacles
 }
 
 impl State {
@@ -208,13 +254,13 @@ impl State {
 
     /// The same state with another future: for planners, who must not foresee the dice.
     pub fn fork(&self, seed: crate::Seed) -> State {
-        State { chance: seed.chance(), ..self.clone() }
+        State { chance: seed.chance(), jumps: seed.child("jumps", 0).chance(), ..self.clone() }
     }
 
     /// Overwrites this state with `source`, with a future of its own; keeps the buffers.
     pub fn fork_from(&mut self, source: &State, chance: Chance) {
         self.clone_from(source);
-        self.chance = chance;
+        (self.chance, self.jumps) = (chance, chance);
     }
 
     /// Pixels of a cell.
@@ -319,9 +365,68 @@ impl State {
         if !self.held.is_empty() {
             self.held.retain(|held| held.holder != slot);
         }
+        if !self.extras.is_empty() {
+            self.release_extra(slot);
+        }
         let sprite = &mut self.sprites[usize::from(slot)];
         (sprite.next, sprite.flags) = (self.free, flag::GONE);
         self.free = slot;
+    }
+
+    /// Pursuers of the sprite keep its last rectangle; its own extra goes.
+    fn release_extra(&mut self, slot: Slot) {
+        let Sprite { rect, extra, .. } = *self.sprite(slot);
+        for other in &mut self.extras {
+            if other.target == Target::Sprite(slot) {
+                other.target = Target::Gone(rect);
+            }
+        }
+        if extra != NONE {
+            self.extras.swap_remove(usize::from(extra));
+            if let Some(moved) = self.extras.get(usize::from(extra)) {
+                self.sprites[usize::from(moved.holder)].extra = extra;
+            }
+        }
+    }
+
+    /// The extra of a sprite, made from its type's traits if it has none yet.
+    pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
+        let Sprite { stype, extra, .. } = *self.sprite(slot);
+        if extra == NONE {
+            let traits = &rules.types[stype.index()].traits;
+            let is_car = rules.types[stype.index()].class == Some(SpriteClass::CarAvatar);
+            let facing = if is_car { Direction { x: traits.facing, y: 0.0 } } else { traits.facing_dir };
+            self.sprites[usize::from(slot)].extra = self.extras.len() as u16;
+            self.extras.push(Extra {
+                holder: slot,
+                rotation: traits.rotation,
+                gravity: traits.gravity,
+                facing,
+                block_time: traits.last_block_time,
+                target: Target::None,
+                last_known: None,
+            });
+        }
+        let extra = self.sprite(slot).extra;
+        &mut self.extras[usize::from(extra)]
+    }
+
+    pub(crate) fn rotation(&self, rules: &Rules, slot: Slot) -> f64 {
+        let Sprite { stype, extra, .. } = *self.sprite(slot);
+        let own = self.extras.get(usize::from(extra)).map(|extra| extra.rotation);
+        own.unwrap_or(rules.types[stype.index()].traits.rotation)
+    }
+
+    pub(crate) fn gravity(&self, rules: &Rules, slot: Slot) -> f64 {
+        let Sprite { stype, extra, .. } = *self.sprite(slot);
+        let own = self.extras.get(usize::from(extra)).map(|extra| extra.gravity);
+        own.unwrap_or(rules.types[stype.index()].traits.gravity)
+    }
+
+    /// Plans a timer before all that are due at the same tick (`spec/03` §6.2).
+    pub(crate) fn plan(&mut self, timer: Timer) {
+        let at = self.timers.partition_point(|other| other.due < timer.due);
+        self.timers.insert(at, timer);
     }
 
     /// Takes a slot for `sprite`, at the end of its type's chain; None if there are no more.

@@ -6,7 +6,7 @@ use crate::game::{Action, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::level::{Level, MAX_SPRITES};
 use crate::ontology::{avatars, sprites};
-use crate::state::{Group, NONE, Slot, Sprite, State, flag, memory};
+use crate::state::{Group, NONE, Slot, Sprite, State, Timer, flag, memory};
 
 /// The tick at which the reference ends every game.
 pub const MAX_TICKS: i32 = 2000;
@@ -62,6 +62,7 @@ impl Game {
             columns,
             rows,
             free: NONE,
+            can_end: true,
             sprite_hash: 0,
             sprites: Vec::new(),
             groups: vec![Group::EMPTY; rules.types.len()],
@@ -74,6 +75,10 @@ impl Game {
             templates: vec![false; rules.types.len()],
             shields: Vec::new(),
             pulled: Vec::new(),
+            extras: Vec::new(),
+            timers: Vec::new(),
+            obstacles: Vec::new(),
+            jumps: chance,
         };
         let mut step = Step { rules, state: &mut state, updating: -1, stopped: None };
         for (at, &symbol) in level.cells().iter().enumerate() {
@@ -83,6 +88,14 @@ impl Game {
             }
         }
         step.find_avatar();
+        for (at, timed) in rules.timed.iter().enumerate() {
+            if let Some(due) = timed.first_due {
+                state.plan(Timer { due, timed: at as u16 });
+            }
+        }
+        if !rules.obstacles.is_empty() {
+            state.mark_obstacles(rules);
+        }
         state.freshen();
         state
     }
@@ -228,10 +241,14 @@ impl Step<'_> {
     }
 
     fn terminate(&mut self) {
-        let rules = self.rules;
-        let ended = rules.terminations.iter().find(|termination| termination.holds(rules, self.state));
-        if let Some(termination) = ended {
-            self.state.outcome = if termination.win { Outcome::Won } else { Outcome::Lost };
+        for termination in &self.rules.terminations {
+            if let Some(can_end) = termination.permits(self.rules, self.state) {
+                self.state.can_end = can_end;
+            }
+            if termination.holds(self.rules, self.state) {
+                self.state.outcome = if termination.win { Outcome::Won } else { Outcome::Lost };
+                return;
+            }
         }
     }
 
@@ -294,6 +311,8 @@ impl Step<'_> {
             time_to_live: traits.time_to_live,
             count: traits.age,
             start: traits.start,
+            spawns: traits.stypes.first().copied().unwrap_or(stype),
+            extra: NONE,
             stype,
             flags,
             heading: sprites::NO_HEADING,

@@ -234,6 +234,28 @@ fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
             let change = Deed::Change { who: First, resource, by: value };
             always(with(change, kill_resource, Deed::Kill(Second)))
         }
+        Effect::KillIfSpeed { .. } | Effect::KillIfNotUpright => {
+            (smallvec![Deed::Kill(First)], Provided::Way)
+        }
+        Effect::RemoveScore { kill_second, .. } => {
+            always(if kill_second { smallvec![Deed::Kill(Second)] } else { smallvec![] })
+        }
+        Effect::UpdateSpawnType { stype, .. } => always(smallvec![Deed::Make(stype)]),
+        Effect::SpawnIfCounterSubTypes { stype, otherwise, .. } => {
+            (smallvec![Deed::Make(stype), Deed::Make(otherwise)], Provided::Way)
+        }
+        Effect::TransformIfCount(ref rule) => {
+            (with(Deed::Become(rule.stype), rule.kill_second, Deed::Kill(Second)), Provided::Way)
+        }
+        Effect::TransformToSingleton { stype, other, .. } => {
+            always(smallvec![Deed::Become(stype), Deed::BecomeAll(stype, other)])
+        }
+        Effect::WaterPhysics => always(smallvec![Deed::Speed(None)]),
+        Effect::BounceDirection { .. } => always(smallvec![Deed::Turn]),
+        Effect::WallStop => always(smallvec![Deed::Stop]),
+        Effect::WallBounce | Effect::WallReverse => always(smallvec![Deed::Stop, Deed::Turn]),
+        // What happens, happens later, to whom it may concern.
+        Effect::AddTimer { .. } => always(smallvec![]),
         Effect::ShieldFrom { stype, keyword } => {
             let keyword = crate::ontology::effects::NAMES[usize::from(keyword)];
             always(smallvec![Deed::Shield { from: stype, keyword }])

@@ -81,11 +81,15 @@ pub(super) fn goals(rules: &Rules) -> Vec<Goal> {
                 let types = stypes.iter().flat_map(|&stype| counted(rules, stype)).collect();
                 if *min { Condition::AtLeast(types, *limit) } else { Condition::Exactly(types, *limit) }
             }
+            Written::MultiSpriteCounterSubTypes { stype, limit, .. } => {
+                Condition::Exactly(counted(rules, *stype), *limit)
+            }
+            Written::StopCounter { .. } => return None,
             Written::Timeout { limit } => Condition::Tick(*limit),
         };
-        Goal { win: termination.win, condition, line }
+        Some(Goal { win: termination.win, condition, line })
     };
-    rules.terminations.iter().enumerate().map(goal).collect()
+    rules.terminations.iter().enumerate().filter_map(goal).collect()
 }
 
 fn counted(rules: &Rules, stype: SpriteType) -> Vec<SpriteType> {

@@ -3,7 +3,7 @@
 use super::params::{Expected, Value, convert, wrong_type};
 use super::{MAX_PASSES, Names};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{EffectInfo, Pass, SpriteType};
+use crate::game::{EffectInfo, Pass, SpriteType, Timed};
 use crate::ontology::effects::{self, Arguments, Effect, Moves};
 use crate::syntax::{Description, InteractionLine, Param, Word};
 
@@ -12,6 +12,7 @@ pub(super) struct Program {
     pub(super) effects: Vec<EffectInfo>,
     pub(super) edge: Vec<(SpriteType, u16)>,
     pub(super) passes: Vec<Pass>,
+    pub(super) timed: Vec<Timed>,
 }
 
 /// Parameters that every effect takes.
@@ -43,23 +44,32 @@ pub(super) fn program(
     let mut edge_effects: Vec<(SpriteType, u16)> = Vec::new();
     let mut keywords: Vec<u16> = Vec::new();
     for (at, line) in description.interactions.iter().enumerate() {
-        let mut reader = Reader { line, names, used: Vec::new(), problems: Vec::new() };
+        let timed = program.timed.len() as u16;
+        let mut reader = Reader { line, names, used: Vec::new(), problems: Vec::new(), timed, planned: None };
         let built = reader.line(at);
+        let clock = reader.clock();
+        let planned = reader.planned.take();
         problems.append(&mut reader.problems);
-        let first = partner(&line.first, names, problems);
         if line.second.is_empty() {
             let message = "an interaction needs a partner before the `>`";
             problems.push(Diagnostic::error("bad-interaction", line.first.span, message));
         }
+        let first = partner(&line.first, names, problems);
         let seconds: Vec<_> = line.second.iter().map(|word| partner(word, names, problems)).collect();
-        let Some((info, keyword, repeat)) = built else { continue };
+        let Some((Some(info), keyword, repeat)) = built else { continue };
         let index = program.effects.len() as u16;
-        let enabled = info.is_some();
-        program.effects.extend(info);
-        if !enabled {
+        let (score_change, apply_score) = (info.score_change, info.apply_score);
+        program.effects.push(info);
+        keywords.push(keyword);
+        if let Some((inner, keyword, timed)) = planned {
+            keywords.push(keyword);
+            program.timed.push(Timed { effect: index + 1, score_change, apply_score, line: at, ..timed });
+            program.effects.push(inner);
+        }
+        if let Some(target) = by_the_clock(line, first, &seconds, problems) {
+            program.timed.push(Timed { effect: index, target, score_change, apply_score, line: at, ..clock });
             continue;
         }
-        keywords.push(keyword);
         for (second, word) in seconds.into_iter().zip(&line.second) {
             match (first, second) {
                 (Partner::Sprite(one), Partner::Sprite(two)) => {
@@ -74,7 +84,7 @@ pub(super) fn program(
                     edges.push(stype);
                     edge_effects.push((stype, index));
                 }
-                (Partner::Unknown, _) | (_, Partner::Unknown) => {}
+                (Partner::Unknown | Partner::Clock, _) | (_, Partner::Unknown | Partner::Clock) => {}
                 (Partner::Edge, Partner::Edge) => {
                     let message = "the edge of the screen has no edge: one of the two is a sprite";
                     problems.push(Diagnostic::error("bad-interaction", word.span, message));
@@ -89,8 +99,12 @@ pub(super) fn program(
     for ((first, second), effects) in pairs {
         let disjoint =
             names.types[first.index()].tree.iter().all(|&t| !names.types[second.index()].in_tree(t));
+        let ground_aware =
+            names.types[first.index()].tree.iter().any(|&t| names.types[t.index()].ground_aware);
         for effect in effects {
-            let either_side = match program.effects[usize::from(effect)].effect.moves() {
+            let info = &program.effects[usize::from(effect)];
+            let either_side = match info.effect.moves() {
+                _ if ground_aware || info.in_batch => false,
                 Moves::Nothing => true,
                 Moves::First => disjoint,
                 Moves::Anything => false,
@@ -106,7 +120,38 @@ pub(super) fn program(
 enum Partner {
     Sprite(SpriteType),
     Edge,
+    Clock,
     Unknown,
+}
+
+/// Whether the line runs by the clock, and then on which type: `sprite TIME` or `TIME sprite` (`spec/03` §6).
+fn by_the_clock(
+    line: &InteractionLine,
+    first: Partner,
+    seconds: &[Partner],
+    problems: &mut Vec<Diagnostic>,
+) -> Option<Option<SpriteType>> {
+    let other = match (first, seconds) {
+        (Partner::Clock, [other, ..]) => *other,
+        (other, [Partner::Clock, ..]) => other,
+        _ => {
+            if let Some(at) = seconds.iter().position(|second| matches!(second, Partner::Clock)) {
+                let message = "TIME stands first, or first among the partners";
+                let problem = Diagnostic::error("bad-interaction", line.second[at].span, message);
+                problems.push(problem.help("write a line of its own: `sprite TIME > …`"));
+            }
+            return None;
+        }
+    };
+    if seconds.len() > 1 {
+        let message = "a line with TIME acts on one sprite only; the others are ignored";
+        let problem = Diagnostic::error("bad-interaction", line.second[1].span, message);
+        problems.push(problem.help("write a line for each"));
+    }
+    match other {
+        Partner::Sprite(stype) => Some(Some(stype)),
+        _ => Some(None),
+    }
 }
 
 fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Partner {
@@ -117,12 +162,11 @@ fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Par
         return Partner::Edge;
     }
     if word.text.eq_ignore_ascii_case("TIME") {
-        problems.push(Diagnostic::error("unsupported", word.span, "TIME effects are not supported yet"));
-        return Partner::Unknown;
+        return Partner::Clock;
     }
     let message = format!("no sprite named `{}`", word.text);
     let problem = Diagnostic::error("unknown-sprite", word.span, message).label("not in the SpriteSet");
-    let known = names.types.iter().map(|info| info.name.as_str()).chain(["EOS"]);
+    let known = names.types.iter().map(|info| info.name.as_str()).chain(["EOS", "TIME"]);
     problems.push(problem.suggest(&word.text, known));
     Partner::Unknown
 }
@@ -132,6 +176,10 @@ struct Reader<'a> {
     names: Names<'a>,
     used: Vec<&'a str>,
     problems: Vec<Diagnostic>,
+    /// The place that a planned effect of this line will have.
+    timed: u16,
+    /// What addTimer plans: the effect, its keyword's place, when it runs.
+    planned: Option<(EffectInfo, u16, Timed)>,
 }
 
 impl<'a> Reader<'a> {
@@ -141,14 +189,9 @@ impl<'a> Reader<'a> {
         let name = self.line.effect.text.as_str();
         let effect: Option<Effect> = effects::build(name, self);
         let Some(effect) = effect else {
-            let known = effects::NAMES.iter().chain(effects::LATER).copied();
-            self.problems.push(if effects::LATER.contains(&name) {
-                let message = format!("the effect `{name}` is not supported yet");
-                Diagnostic::error("unsupported", self.line.effect.span, message)
-            } else {
-                let message = format!("no effect named `{name}`");
-                Diagnostic::error("unknown-effect", self.line.effect.span, message).suggest(name, known)
-            });
+            let message = format!("no effect named `{name}`");
+            let problem = Diagnostic::error("unknown-effect", self.line.effect.span, message);
+            self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
             return None;
         };
         let keyword =
@@ -157,14 +200,41 @@ impl<'a> Reader<'a> {
         let apply_score = self.flag("applyScore", true);
         let repeat = self.int("repeat", 1);
         let enabled = self.flag("enabled", true);
-        if self.flag("inBatch", false) {
+        let batches = matches!(effect, Effect::WallBounce | Effect::WallReverse);
+        let in_batch = self.flag("inBatch", batches);
+        if in_batch && !batches {
             let message = "`inBatch=True` switches an effect off that has no batch form";
             let span = self.param("inBatch").map(Param::span).unwrap_or_default();
             self.problems.push(Diagnostic::error("bad-parameter", span, message).help("remove it"));
         }
+        if self.has_clock() {
+            self.used.extend(["timer", "nextExecution", "repeating"]);
+        }
         self.leftovers(name);
-        let info = EffectInfo { effect, score_change, apply_score, line: at };
+        let info = EffectInfo { effect, score_change, apply_score, in_batch, line: at };
         Some((enabled.then_some(info), keyword as u16, repeat.max(0) as usize))
+    }
+
+    fn has_clock(&self) -> bool {
+        let mut words = std::iter::once(&self.line.first).chain(&self.line.second);
+        words.any(|word| word.text.eq_ignore_ascii_case("TIME"))
+    }
+
+    /// When a line with TIME runs; its effect, target and score are filled in by the caller.
+    fn clock(&mut self) -> Timed {
+        let timer = self.int("timer", -1);
+        let repeating = self.flag("repeating", false);
+        // The value of `nextExecution` is not used: any but −1 means "first after `timer` ticks".
+        let first_due = if self.int("nextExecution", -1) == -1 { -1 } else { timer };
+        let endless = repeating && timer <= 0;
+        if endless && (self.has_clock() || self.line.effect.text == "addTimer") {
+            let message = "a repeating effect needs `timer=`, a number of ticks above 0";
+            let problem = Diagnostic::error("endless-timer", self.line.effect.span, message);
+            self.problems.push(problem.help("the reference engine would never return"));
+        }
+        let (effect, target, score_change, apply_score, line) = (0, None, 0, true, 0);
+        let first_due = Some(first_due);
+        Timed { effect, target, timer, repeating, first_due, score_change, apply_score, line }
     }
 
     /// Parameters that nothing has asked for.
@@ -297,6 +367,22 @@ impl Arguments for Reader<'_> {
             self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
             0
         }) as u16
+    }
+
+    fn timed(&mut self) -> u16 {
+        let keyword = self.keyword("ftype");
+        let name = effects::NAMES[usize::from(keyword)];
+        if name == "addTimer" {
+            let span = self.param("ftype").map(Param::span).unwrap_or_default();
+            self.problems.push(Diagnostic::error("bad-parameter", span, "addTimer cannot plan itself"));
+            return 0;
+        }
+        if let Some(effect) = effects::build(name, self) {
+            let timed = Timed { first_due: None, ..self.clock() };
+            let info = EffectInfo { effect, score_change: 0, apply_score: true, in_batch: false, line: 0 };
+            self.planned = Some((info, keyword, timed));
+        }
+        self.timed
     }
 
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]> {

@@ -33,6 +33,7 @@ pub(crate) fn compile(description: &Description) -> Result<Rules, Diagnostics> {
     let mapping = mapping(description, names, &mut problems);
     let program = interactions::program(description, names, &mut problems);
     let terminations = terminations::terminations(description, names, &mut problems);
+    let obstacles = obstacles(description, names, &mut problems);
     if program.passes.len() > MAX_PASSES {
         let message =
             format!("the game has {} interactions; the limit is {MAX_PASSES}", program.passes.len());
@@ -61,6 +62,8 @@ pub(crate) fn compile(description: &Description) -> Result<Rules, Diagnostics> {
         effects: program.effects,
         edge: program.edge,
         passes: program.passes,
+        timed: program.timed,
+        obstacles,
         reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. })),
         terminations,
         reach: factors.clone().fold(1, |reach, factor| reach.max((factor.ceil() as i32).min(MAX_REACH))),
@@ -81,7 +84,8 @@ fn header(description: &Description, problems: &mut Vec<Diagnostic>) -> Option<i
                 problems.push(Diagnostic::error("wrong-type", param.value.span, message));
             }
             ("no_players", Literal::Int(1)) | ("no_counters", Literal::Int(0)) | ("key_handler", _) => {}
-            ("no_players" | "no_counters" | "obs", _) => {
+            ("obs", _) => {}
+            ("no_players" | "no_counters", _) => {
                 let message = format!("`{}` is not supported yet", param.key.text);
                 problems.push(Diagnostic::error("unsupported", param.span(), message).help("remove it"));
             }
@@ -94,6 +98,14 @@ fn header(description: &Description, problems: &mut Vec<Diagnostic>) -> Option<i
         }
     }
     square_size
+}
+
+/// `obs=`: the types that path finding goes around.
+fn obstacles(description: &Description, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SpriteType> {
+    let given = description.header.params.iter().rev().find(|param| param.key.text == "obs");
+    let Some(param) = given else { return Vec::new() };
+    let word = |text: &str| Word { text: text.to_owned(), span: param.value.span };
+    param.value.text.split(',').filter_map(|name| names.resolve(&word(name), problems)).collect()
 }
 
 fn mapping(

@@ -158,12 +158,13 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "speed" => traits.speed = number()?,
         "cooldown" => traits.cooldown = int()?,
         "physicstype" => {
-            if int()? != 0 {
-                let message = "continuous physics is not supported yet";
-                return Err(
-                    Diagnostic::error("unsupported", param.span(), message).help("use `physicstype=GRID`")
-                );
+            let physics = int()?;
+            if !(0..=1).contains(&physics) {
+                let message = "`physicstype` takes GRID or CONT";
+                let problem = Diagnostic::error("wrong-type", param.value.span, message);
+                return Err(problem.help("use `physicstype=GRID`"));
             }
+            traits.continuous = physics == 1;
         }
         "orientation" => traits.orientation = direction()?,
         "is_oriented" => traits.is_oriented = boolean()?,
@@ -191,8 +192,23 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "singleton" | "is_stochastic" | "draw_arrow" | "autotiling" => drop(boolean()?),
         "hidden" => traits.hidden = switch()?,
         "invisible" => traits.invisible = switch()?,
-        "mass" | "gravity" | "friction" | "max_speed" | "jump_strength" | "rotation" | "shrinkfactor"
-        | "randomtiling" => drop(number()?),
+        "mass" => traits.mass = number()?,
+        "gravity" => traits.gravity = number()?,
+        "friction" => traits.friction = number()?,
+        "max_speed" => traits.max_speed = number()?,
+        "jump_strength" => traits.jump_strength = number()?,
+        "rotation" => traits.rotation = number()?,
+        "angle_diff" => traits.angle_diff = number()?,
+        "facing" => traits.facing = number()?,
+        "facing_dir" => traits.facing_dir = direction()?,
+        "last_block_time" => traits.last_block_time = int()?,
+        "ground_speedup_factor" => traits.ground_speedup = number()?,
+        "air_slowdown_factor" => traits.air_slowdown = number()?,
+        "airsteering" => traits.air_steering = boolean()?,
+        "probability" => traits.probability = number()?,
+        "epsilon" => traits.epsilon = number()?,
+        "randomTarget" => traits.random_target = boolean()?,
+        "shrinkfactor" | "randomtiling" => drop(number()?),
         "frameRate" => drop(int()?),
         "color" => match value {
             Value::Color(rgb) => traits.color = Some(rgb),
@@ -213,7 +229,8 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "counter" => drop(int()?),
         "minAmmo" => traits.min_ammo = int()?,
         "ammoCost" => traits.ammo_cost = int()?,
-        "stype" | "ammo" | "img" | "orientedImg" | "resource_name" => {}
+        "stype" | "stype1" | "stype2" | "stypes" | "stypeMissile" | "spawnBehind" | "ammo" | "img"
+        | "orientedImg" | "resource_name" => {}
         _ => unreachable!("every parameter of the tables is matched: {key}"),
     }
     Ok(())

@@ -4,7 +4,7 @@ use super::params::set_trait;
 use super::{Names, ranks};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{SpriteType, TypeInfo};
-use crate::ontology::class::{self, SpriteClass};
+use crate::ontology::class::SpriteClass;
 use crate::ontology::traits::Traits;
 use crate::syntax::{Description, Param, SpriteLine, Word};
 
@@ -56,8 +56,10 @@ pub(super) fn types(
     }
     for at in 0..types.len() {
         if let Some(class) = types[at].class {
-            let (stypes, ammo) = references(&registry[at], class, Names { types: &types }, problems);
-            (types[at].traits.stypes, types[at].traits.ammo) = (stypes.into(), ammo.into());
+            let found = references(&registry[at], class, Names { types: &types }, problems);
+            let traits = &mut types[at].traits;
+            (traits.stypes, traits.ammo) = (found.stypes.into(), found.ammo.into());
+            traits.spawn_behind = found.behind;
         }
     }
     (types, order)
@@ -195,33 +197,33 @@ fn type_info(
         order: None,
         singleton: sprite.line.is_some_and(|line| line.params.iter().any(singleton)),
         leaf: sprite.descendants.is_empty(),
+        ground_aware: class.is_some_and(SpriteClass::is_ground_aware),
     }
 }
 
 fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClass> {
     let found = SpriteClass::from_name(&word.text);
     if found.is_none() {
-        let later = class::LATER.contains(&word.text.as_str());
-        let problem = if later {
-            let message = format!("the class {} is not supported yet", word.text);
-            Diagnostic::error("unsupported", word.span, message)
-        } else {
-            let message = format!("no sprite class named `{}`", word.text);
-            let known = SpriteClass::ALL.iter().map(|class| class.name()).chain(class::LATER.iter().copied());
-            Diagnostic::error("unknown-class", word.span, message).suggest(&word.text, known)
-        };
-        problems.push(problem);
+        let message = format!("no sprite class named `{}`", word.text);
+        let problem = Diagnostic::error("unknown-class", word.span, message);
+        problems.push(problem.suggest(&word.text, SpriteClass::ALL.iter().map(|class| class.name())));
     }
     found
 }
 
-/// The sprites that `stype` and `ammo` name.
+/// The sprites that a type's parameters name.
+struct References {
+    stypes: Vec<SpriteType>,
+    ammo: Vec<SpriteType>,
+    behind: Option<SpriteType>,
+}
+
 fn references(
     sprite: &Resolved<'_>,
     class: SpriteClass,
     names: Names<'_>,
     problems: &mut Vec<Diagnostic>,
-) -> (Vec<SpriteType>, Vec<SpriteType>) {
+) -> References {
     use SpriteClass as C;
     let takes = class.parameters();
     let mut list = |key: &str, many: bool| -> Vec<SpriteType> {
@@ -242,15 +244,30 @@ fn references(
         }
         found
     };
-    let shoots = class.is_a(C::ShootAvatar);
-    let (stypes, ammo) = (list("stype", shoots), list("ammo", shoots));
-    let makes = shoots || class.is_a(C::SpawnPoint) || class == C::FlakAvatar || class == C::Spreader;
-    let needs = makes && class != C::Spreader || class.is_a(C::Chaser) || class == C::Portal;
-    let given = sprite.params.iter().find(|param| param.key.text == "stype");
+    let lists = class.is_a(C::ShootAvatar) || class == C::WizardAvatar;
+    // What a class makes or follows, under the name that the class has for it.
+    let key = match class {
+        C::SpawnPointMultiSprite => "stypes",
+        C::BomberRandomMissile => "stypeMissile",
+        class if class.is_a(C::AlternateChaser) => "stype1",
+        _ => "stype",
+    };
+    let stypes = list(key, lists || key != "stype");
+    if key == "stype1" {
+        list("stype2", true);
+    }
+    let ammo = list("ammo", class.is_a(C::ShootAvatar));
+    let behind = list("spawnBehind", false);
+    let makes = lists
+        || class.is_a(C::SpawnPoint)
+        || matches!(class, C::FlakAvatar | C::Spreader | C::SpawnPointMultiSprite);
+    let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
+    let needs = makes && class != C::Spreader || follows || class == C::Portal;
+    let given = sprite.params.iter().find(|param| param.key.text == key);
     let place = sprite.line.map(|line| line.name.span).unwrap_or_default();
     match given {
         None if needs && sprite.descendants.is_empty() => {
-            let message = format!("{} `{}` needs `stype=`, the name of a sprite", class.name(), sprite.name);
+            let message = format!("{} `{}` needs `{key}=`, the name of a sprite", class.name(), sprite.name);
             problems.push(Diagnostic::error("missing-parameter", place, message));
         }
         Some(param) if makes => {
@@ -273,7 +290,7 @@ fn references(
         }
         _ => {}
     }
-    (stypes, ammo)
+    References { stypes, ammo, behind: behind.first().copied() }
 }
 
 /// Drawing order: `wall`, the leaves as the file has them, `avatar` last; updates go backwards (`spec/01` §1.6.5).

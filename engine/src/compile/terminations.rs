@@ -4,7 +4,7 @@ use super::Names;
 use super::params::{Expected, Value, convert, wrong_type};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::SpriteType;
-use crate::ontology::terminations::{Condition, LATER, NAMES, Termination};
+use crate::ontology::terminations::{Condition, NAMES, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
 
 pub(super) fn terminations(
@@ -46,21 +46,14 @@ impl<'a> Reader<'a> {
         let name = self.line.class.text.as_str();
         let own: &[&str] = match name {
             "SpriteCounter" | "SpriteCounterMore" => &["stype"],
-            "MultiSpriteCounter" => &["stype1", "stype2", "stype3", "min"],
+            "MultiSpriteCounter" | "StopCounter" => &["stype1", "stype2", "stype3", "min"],
+            "MultiSpriteCounterSubTypes" => &["stype1", "subTypesNum"],
             "Timeout" => &[],
             _ => {
                 let span = self.line.class.span;
-                self.problems.push(if LATER.contains(&name) {
-                    Diagnostic::error(
-                        "unsupported",
-                        span,
-                        format!("the termination {name} is not supported yet"),
-                    )
-                } else {
-                    let known = NAMES.iter().chain(LATER).copied();
-                    Diagnostic::error("unknown-termination", span, format!("no termination named `{name}`"))
-                        .suggest(name, known)
-                });
+                let message = format!("no termination named `{name}`");
+                let problem = Diagnostic::error("unknown-termination", span, message);
+                self.problems.push(problem.suggest(name, NAMES.iter().copied()));
                 return None;
             }
         };
@@ -82,13 +75,22 @@ impl<'a> Reader<'a> {
         let condition = match name {
             "SpriteCounter" => Condition::SpriteCounter { stype: self.sprite("stype")?, limit },
             "SpriteCounterMore" => Condition::SpriteCounterMore { stype: self.sprite("stype")?, limit },
-            "MultiSpriteCounter" => {
+            "MultiSpriteCounterSubTypes" => {
+                let kinds = self.int("subTypesNum", -1);
+                Condition::MultiSpriteCounterSubTypes { stype: self.sprite("stype1")?, limit, kinds }
+            }
+            "MultiSpriteCounter" | "StopCounter" => {
                 let first = self.sprite("stype1")?;
                 let rest = ["stype2", "stype3"].into_iter().filter(|key| self.param(key).is_some());
                 let rest: Vec<&'static str> = rest.collect();
                 let rest: Vec<SpriteType> = rest.into_iter().filter_map(|key| self.sprite(key)).collect();
                 let stypes = std::iter::once(first).chain(rest).collect();
-                Condition::MultiSpriteCounter { stypes, limit, min: self.flag("min") }
+                let min = self.flag("min");
+                if name == "StopCounter" {
+                    Condition::StopCounter { stypes, limit, min }
+                } else {
+                    Condition::MultiSpriteCounter { stypes, limit, min }
+                }
             }
             _ => Condition::Timeout { limit },
         };
@@ -100,19 +102,24 @@ impl<'a> Reader<'a> {
     }
 
     fn limit(&mut self, name: &str) -> i32 {
-        let Some(param) = self.param("limit") else {
+        if self.param("limit").is_none() {
             if name == "Timeout" {
                 let message = "a Timeout without `limit` ends the game at once";
                 let problem = Diagnostic::warning("ends-at-once", self.line.class.span, message);
                 self.problems.push(problem.help("add `limit=` and a number of ticks"));
             }
             return 0;
-        };
-        let Value::Int(limit) = convert("limit", &param.value.text) else {
+        }
+        self.int("limit", 0)
+    }
+
+    fn int(&mut self, key: &str, default: i32) -> i32 {
+        let Some(param) = self.param(key) else { return default };
+        let Value::Int(int) = convert(key, &param.value.text) else {
             self.problems.push(wrong_type(param, Expected::Int));
-            return 0;
+            return default;
         };
-        limit
+        int
     }
 
     /// A list with an entry a player; a missing entry is a loss.

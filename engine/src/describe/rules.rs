@@ -196,6 +196,51 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
             };
             format!("{s} {verb} {number} {} {on}{}", name(*resource), and_gone(*kill_resource))
         }
+        Effect::KillIfSpeed { limit, fast } => {
+            let than = if *fast { "faster than" } else { "slower than" };
+            format!("{s} {die} {on} {than} {limit}")
+        }
+        Effect::KillIfNotUpright => format!("{s} {die} {on} unless upright"),
+        Effect::RemoveScore { .. } => format!("{when}, the score goes back to 0"),
+        Effect::UpdateSpawnType { stype, spawn_point } => {
+            format!("{when}, every {} makes {} from then on", name(*spawn_point), a(name(*stype)))
+        }
+        Effect::SpawnIfCounterSubTypes { stype, otherwise, counted, limit, .. } => format!(
+            "{when}, {} appears there if there are {limit} {} of the right kinds, else {}",
+            a(name(*stype)),
+            name(*counted),
+            a(name(*otherwise))
+        ),
+        Effect::TransformIfCount(rule) => {
+            let turn = one.verb("turn", "turns");
+            let many = match (rule.at_least, rule.at_most) {
+                (least, 10_000) => format!("at least {least}"),
+                (0, most) => format!("at most {most}"),
+                (least, most) => format!("{least} to {most}"),
+            };
+            let otherwise = rule
+                .otherwise
+                .map_or(String::new(), |other| format!(", and otherwise into {}", a(name(other))));
+            let (to, counted) = (a(name(rule.stype)), name(rule.counted));
+            format!("{s} {turn} into {to} {on} if there are {many} {counted}{otherwise}")
+        }
+        Effect::TransformToSingleton { stype, other, .. } => format!(
+            "{s} {} into the {} {on}, and who was that before becomes {}",
+            one.verb("turn", "turns"),
+            name(*stype),
+            a(name(*other))
+        ),
+        Effect::WaterPhysics => format!("{s} {} slowly from then on {on}", one.verb("sink", "sinks")),
+        Effect::BounceDirection { .. } => {
+            format!("{s} {} off {b}, the steeper the further from its middle", one.verb("bounce", "bounces"))
+        }
+        Effect::WallStop => format!("{s} {} at {b}, and can only go along it", one.verb("stop", "stops")),
+        Effect::WallBounce => format!("{s} {} off {b}", one.verb("bounce", "bounces")),
+        Effect::WallReverse => format!("{s} {} back at {b}", one.verb("turn", "turns")),
+        Effect::AddTimer { timed } => {
+            let ticks = analysis.game().0.timed[usize::from(*timed)].timer;
+            format!("{when}, something happens {} later", count(i64::from(ticks), "tick"))
+        }
         Effect::ShieldFrom { stype, .. } => {
             format!(
                 "while {s} {} {b}, {} {} safe from {}",

@@ -1,11 +1,13 @@
 //! What the player's sprite does with the player's action (`spec/02` §9).
 
 use super::class::SpriteClass;
+use super::sprites::walkers::jump;
 use crate::game::{Action, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::physics::{self, Movement};
 use crate::state::{Slot, flag};
 use crate::step::Step;
+use crate::trigonometry::{cos, sin};
 
 /// The update of the player's avatar, before all other sprites.
 pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
@@ -28,11 +30,8 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
         C::OrientedAvatar => {
             oriented(step, slot, direction);
         }
-        C::ShootAvatar => {
-            if oriented(step, slot, direction) == Movement::Still && action == Action::Use {
-                shoot(step, slot);
-            }
-        }
+        C::ShootAvatar => shooting(step, slot, direction, action),
+        C::ShootOnlyAvatar => shoot_only(step, slot, action),
         C::OngoingAvatar | C::OngoingShootAvatar => {
             if direction != Direction::NONE {
                 physics::turn(step, slot, direction);
@@ -42,14 +41,37 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
                 shoot(step, slot);
             }
         }
+        C::OngoingTurningAvatar => ongoing_turning(step, slot, direction),
         C::MissileAvatar => physics::passive(step, slot),
+        C::AimedAvatar => aimed(step, slot, direction, action),
+        C::SpaceshipAvatar => spaceship(step, slot, action),
+        C::CarAvatar => car(step, slot, action),
+        C::LanderAvatar => lander(step, slot, action),
+        C::BirdAvatar => bird(step, slot, direction, action),
+        C::PlatformerAvatar => {
+            platformer(step, slot, direction, action);
+            step.state.edit(slot).set(flag::ON_GROUND, false);
+        }
+        C::WizardAvatar => wizard(step, slot, direction, action),
         _ => {
             moving(step, slot, direction);
         }
     }
 }
 
+fn is_continuous(step: &Step<'_>, slot: Slot) -> bool {
+    step.rules.types[step.state.sprite(slot).stype.index()].traits.continuous
+}
+
+/// The passive movement that only continuous physics gives to avatars.
+fn glide(step: &mut Step<'_>, slot: Slot) {
+    if is_continuous(step, slot) {
+        physics::passive(step, slot);
+    }
+}
+
 fn moving(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
+    glide(step, slot);
     let speed = step.state.sprite(slot).speed;
     physics::active(step, slot, direction, speed)
 }
@@ -57,11 +79,17 @@ fn moving(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
 /// Faces where it went.
 fn oriented(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
     let movement = moving(step, slot, direction);
-    if movement == Movement::Move {
+    if movement == Movement::Move && !is_continuous(step, slot) {
         let facing = step.last_direction(slot).normalised();
         step.state.edit(slot).orientation = facing;
     }
     movement
+}
+
+fn shooting(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
+    if oriented(step, slot, direction) == Movement::Still && action == Action::Use {
+        shoot(step, slot);
+    }
 }
 
 /// Shoots from its own corner, if it has ammunition; the shot keeps its own orientation.
@@ -94,19 +122,31 @@ fn spend(step: &mut Step<'_>, slot: Slot, ammo: SpriteType, cost: i32) {
 
 /// Shoots the first kind of shot that it has ammunition for, one body length ahead.
 fn shoot(step: &mut Step<'_>, slot: Slot) {
+    let facing = step.state.sprite(slot).orientation.normalised();
+    shoot_towards(step, slot, facing);
+}
+
+fn shoot_towards(step: &mut Step<'_>, slot: Slot, facing: Direction) {
+    let kinds = step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes.len();
+    let ready = (0..kinds).find(|&kind| is_loaded(step, slot, kind));
+    if let Some(kind) = ready {
+        shoot_kind(step, slot, kind, facing);
+    }
+}
+
+fn is_loaded(step: &Step<'_>, slot: Slot, kind: usize) -> bool {
+    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
+    traits.ammo.get(kind).is_none_or(|&ammo| step.state.amount(slot, ammo) > 0)
+}
+
+fn shoot_kind(step: &mut Step<'_>, slot: Slot, kind: usize, facing: Direction) {
     let sprite = *step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    let ready = traits.stypes.iter().enumerate().find(|(kind, _)| match traits.ammo.get(*kind) {
-        Some(&ammo) => step.state.amount(slot, ammo) > 0,
-        None => true,
-    });
-    let Some((kind, &stype)) = ready else { return };
-    let facing = sprite.orientation.normalised();
     let ahead =
         |corner: i32, component: f64, size: i32| (f64::from(corner) + component * f64::from(size)) as i32;
     let x = ahead(sprite.rect.x, facing.x, sprite.last.w);
     let y = ahead(sprite.rect.y, facing.y, sprite.last.h);
-    if let Some(shot) = step.add(stype, x, y) {
+    if let Some(shot) = step.add(traits.stypes[kind], x, y) {
         if let Some(&ammo) = traits.ammo.get(kind) {
             step.state.add_amount(slot, ammo, -1);
         }
@@ -116,4 +156,172 @@ fn shoot(step: &mut Step<'_>, slot: Slot) {
         }
         new.set(flag::FROM_AVATAR, true);
     }
+}
+
+/// Each key shoots another kind, always the same way.
+fn shoot_only(step: &mut Step<'_>, slot: Slot, action: Action) {
+    glide(step, slot);
+    let kind = match action {
+        Action::Left => 0,
+        Action::Up => 1,
+        Action::Right => 2,
+        Action::Down => 3,
+        Action::Use => 4,
+        Action::Nil => return,
+    };
+    let sprite = *step.state.sprite(slot);
+    let kinds = step.rules.types[sprite.stype.index()].traits.stypes.len();
+    if kind < kinds && is_loaded(step, slot, kind) {
+        shoot_kind(step, slot, kind, sprite.orientation.normalised());
+    }
+}
+
+/// Turns to the sides only, and leaves something behind.
+fn ongoing_turning(step: &mut Step<'_>, slot: Slot, direction: Direction) {
+    let facing = step.state.sprite(slot).orientation;
+    if direction != Direction::NONE && direction.x * facing.x + direction.y * facing.y == 0.0 {
+        physics::turn(step, slot, direction);
+    }
+    physics::passive(step, slot);
+    let sprite = *step.state.sprite(slot);
+    if !sprite.rect.intersects(sprite.last) {
+        let traits = &step.rules.types[sprite.stype.index()].traits;
+        step.add(traits.spawn_behind.unwrap_or(SpriteType(0)), sprite.last.x, sprite.last.y);
+    }
+}
+
+fn heading(angle: f64) -> Direction {
+    Direction { x: cos(angle), y: sin(angle) }
+}
+
+/// Shoots twice, turns its aim up or down, and thrusts along it.
+fn aimed(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
+    shooting(step, slot, direction, action);
+    if action == Action::Use {
+        shoot(step, slot);
+    }
+    let sprite = *step.state.sprite(slot);
+    let diff = step.rules.types[sprite.stype.index()].traits.angle_diff;
+    let angle = match action {
+        Action::Up => -diff,
+        Action::Down => diff,
+        _ => 0.0,
+    };
+    let Direction { x, y } = sprite.orientation;
+    let turned = Direction { x: x * cos(angle) - y * sin(angle), y: x * sin(angle) + y * cos(angle) };
+    let rotation = libm::atan2(turned.y, turned.x);
+    step.state.edit(slot).orientation = turned;
+    step.state.extra(step.rules, slot).rotation = rotation;
+    thrust(step, slot, action);
+}
+
+/// Along the rotation, or against it.
+fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
+    let rotation = step.state.rotation(step.rules, slot);
+    let speed = step.state.sprite(slot).speed;
+    match action {
+        Action::Up => physics::active(step, slot, heading(rotation), speed),
+        Action::Down => physics::active(step, slot, heading(rotation + std::f64::consts::PI), speed),
+        _ => Movement::Still,
+    };
+}
+
+/// Left and right turn the rotation.
+fn steer(step: &mut Step<'_>, slot: Slot, action: Action) {
+    let diff = step.rules.types[step.state.sprite(slot).stype.index()].traits.angle_diff;
+    let extra = step.state.extra(step.rules, slot);
+    match action {
+        Action::Left => extra.rotation -= diff,
+        Action::Right => extra.rotation += diff,
+        _ => {}
+    }
+}
+
+fn spaceship(step: &mut Step<'_>, slot: Slot, action: Action) {
+    glide(step, slot);
+    if action == Action::Use {
+        let facing = heading(step.state.rotation(step.rules, slot));
+        shoot_towards(step, slot, facing);
+        shoot_towards(step, slot, facing);
+    }
+    steer(step, slot, action);
+    thrust(step, slot, action);
+}
+
+/// Forwards or backwards, always at the same thrust.
+fn car(step: &mut Step<'_>, slot: Slot, action: Action) {
+    glide(step, slot);
+    steer(step, slot, action);
+    let extra = step.state.extra(step.rules, slot);
+    match action {
+        Action::Up => extra.facing.x = 0.0,
+        Action::Down => extra.facing.x = 1.0,
+        _ => {}
+    }
+    let angle = extra.rotation + extra.facing.x * std::f64::consts::PI;
+    physics::active(step, slot, heading(angle), 5.0);
+}
+
+fn lander(step: &mut Step<'_>, slot: Slot, action: Action) {
+    glide(step, slot);
+    steer(step, slot, action);
+    if action == Action::Up {
+        thrust(step, slot, action);
+    }
+}
+
+fn bird(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
+    oriented(step, slot, direction);
+    let sprite = *step.state.sprite(slot);
+    let strength = step.rules.types[sprite.stype.index()].traits.jump_strength;
+    let push = if sprite.orientation.x.abs() < 0.5 { Direction::RIGHT } else { Direction::NONE };
+    if action == Action::Use {
+        step.state.edit(slot).orientation.y = 0.0;
+        physics::active(step, slot, Direction { x: 0.0, y: -strength }, sprite.speed);
+    }
+    let speed = step.state.sprite(slot).speed;
+    physics::active(step, slot, push, speed);
+    let facing = step.state.sprite(slot).orientation;
+    step.state.extra(step.rules, slot).rotation = libm::atan2(facing.y, facing.x);
+}
+
+/// Runs, and jumps off the ground that the last events found.
+fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
+    glide(step, slot);
+    let sprite = *step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    let grounded = sprite.is(flag::ON_GROUND);
+    if direction != Direction::NONE {
+        let x =
+            if grounded { direction.x * traits.ground_speedup } else { direction.x / traits.air_slowdown };
+        physics::active(step, slot, Direction { x, y: direction.y }, sprite.speed);
+    }
+    if action == Action::Use && grounded {
+        jump(step, slot, traits.jump_strength);
+    }
+}
+
+/// A platformer that puts blocks where it looks.
+fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
+    platformer(step, slot, direction, action);
+    let rules = step.rules;
+    let tick = step.state.tick;
+    let ready = step.state.extra(rules, slot).block_time + 5 <= tick;
+    if action == Action::Up && ready {
+        physics::active(step, slot, Direction::DOWN, -1.0);
+        let sprite = *step.state.sprite(slot);
+        let facing = step.state.extra(rules, slot).facing;
+        for &stype in &rules.types[sprite.stype.index()].traits.stypes {
+            let x = f64::from(sprite.rect.x) + facing.x * f64::from(sprite.last.w) * 1.2;
+            let y = f64::from(sprite.rect.y) + facing.y * f64::from(sprite.last.h);
+            step.add(stype, x as i32, y as i32);
+        }
+        step.state.extra(rules, slot).block_time = tick;
+    }
+    match action {
+        Action::Left => step.state.extra(rules, slot).facing = Direction::LEFT,
+        Action::Right => step.state.extra(rules, slot).facing = Direction::RIGHT,
+        _ => {}
+    }
+    step.state.edit(slot).set(flag::ON_GROUND, false);
 }

@@ -38,6 +38,7 @@ classes! {
     Passive: Passive, [];
     Conveyor: Conveyor, [];
     Resource: Passive, ["value", "limit", "resource_name"];
+    ResourcePack: Resource, [];
     Flicker: Flicker, ["limit", "age"];
     OrientedFlicker: Flicker, [];
     Spreader: Flicker, ["spreadprob", "stype"];
@@ -45,49 +46,44 @@ classes! {
     ErraticMissile: Missile, [];
     RandomMissile: Missile, [];
     RandomNPC: RandomNPC, ["cons"];
+    RandomInertial: RandomNPC, [];
     Chaser: RandomNPC, ["stype", "fleeing", "maxDistance"];
     Fleeing: Chaser, [];
+    LOSChaser: Chaser, [];
+    PathChaser: RandomNPC, ["stype", "fleeing", "maxDistance"];
+    AlternateChaser: RandomNPC, ["stype1", "stype2", "fleeing"];
+    RandomAltChaser: AlternateChaser, ["epsilon"];
+    PathAltChaser: AlternateChaser, ["randomTarget"];
+    RandomPathAltChaser: PathAltChaser, ["epsilon"];
+    Walker: Walker, ["airsteering"];
+    WalkerJumper: Walker, ["probability"];
     SpriteProducer: SpriteProducer, [];
     Portal: SpriteProducer, ["stype"];
     SpawnPoint: SpriteProducer, ["stype", "prob", "total", "spawnorientation", "start", "counter"];
     Bomber: SpawnPoint, [];
     RandomBomber: SpawnPoint, [];
+    BomberRandomMissile: SpawnPoint, ["stypeMissile"];
+    SpawnPointMultiSprite: SpriteProducer, ["stypes", "prob", "total", "spawnorientation", "start", "counter"];
     MovingAvatar: MovingAvatar, [];
     HorizontalAvatar: MovingAvatar, [];
     VerticalAvatar: MovingAvatar, [];
+    NullAvatar: MovingAvatar, [];
     FlakAvatar: HorizontalAvatar, ["stype", "ammo", "minAmmo", "ammoCost"];
     OrientedAvatar: MovingAvatar, [];
     ShootAvatar: OrientedAvatar, ["stype", "ammo"];
     OngoingAvatar: OrientedAvatar, [];
     OngoingShootAvatar: ShootAvatar, [];
+    OngoingTurningAvatar: OrientedAvatar, ["spawnBehind"];
     MissileAvatar: OrientedAvatar, [];
+    ShootOnlyAvatar: ShootAvatar, [];
+    AimedAvatar: ShootAvatar, ["angle_diff"];
+    SpaceshipAvatar: ShootAvatar, ["angle_diff"];
+    CarAvatar: OrientedAvatar, ["angle_diff", "facing"];
+    LanderAvatar: OrientedAvatar, ["angle_diff"];
+    BirdAvatar: OrientedAvatar, [];
+    PlatformerAvatar: MovingAvatar, ["ground_speedup_factor", "air_slowdown_factor"];
+    WizardAvatar: PlatformerAvatar, ["stype", "facing_dir", "last_block_time"];
 }
-
-/// Classes of the reference that the engine does not play yet; named so that a message can say so.
-pub(crate) const LATER: &[&str] = &[
-    "Walker",
-    "WalkerJumper",
-    "ResourcePack",
-    "PathChaser",
-    "RandomInertial",
-    "AlternateChaser",
-    "RandomAltChaser",
-    "PathAltChaser",
-    "RandomPathAltChaser",
-    "OngoingTurningAvatar",
-    "BomberRandomMissile",
-    "NullAvatar",
-    "AimedAvatar",
-    "PlatformerAvatar",
-    "BirdAvatar",
-    "SpaceshipAvatar",
-    "CarAvatar",
-    "WizardAvatar",
-    "LanderAvatar",
-    "ShootOnlyAvatar",
-    "SpawnPointMultiSprite",
-    "LOSChaser",
-];
 
 impl SpriteClass {
     /// The class of that name, exact case.
@@ -105,6 +101,11 @@ impl SpriteClass {
         self.is_a(SpriteClass::MovingAvatar)
     }
 
+    /// Whether sprites of the class notice what they stand on (`spec/02` §2.5).
+    pub(crate) fn is_ground_aware(self) -> bool {
+        self.is_a(SpriteClass::PlatformerAvatar) || self.is_a(SpriteClass::Walker)
+    }
+
     /// The parameters that this class has beyond the base sprite's, its parents' included.
     pub fn parameters(self) -> Vec<&'static str> {
         let inherited = if self.parent() == self { Vec::new() } else { self.parent().parameters() };
@@ -117,8 +118,12 @@ impl SpriteClass {
         match self {
             SpriteClass::HorizontalAvatar => &[Left, Right],
             SpriteClass::VerticalAvatar => &[Up, Down],
-            SpriteClass::FlakAvatar => &[Left, Right, Use],
-            SpriteClass::ShootAvatar | SpriteClass::OngoingShootAvatar => &[Up, Left, Down, Right, Use],
+            SpriteClass::NullAvatar => &[Action::Nil],
+            SpriteClass::FlakAvatar | SpriteClass::PlatformerAvatar => &[Left, Right, Use],
+            SpriteClass::WizardAvatar => &[Up, Left, Right, Use],
+            SpriteClass::AimedAvatar => &[Up, Down, Use],
+            SpriteClass::BirdAvatar => &[Use],
+            class if class.is_a(SpriteClass::ShootAvatar) => &[Up, Left, Down, Right, Use],
             class if class.is_avatar() => &[Up, Left, Down, Right],
             _ => &[],
         }
@@ -135,6 +140,6 @@ mod tests {
         assert!(!SpriteClass::Bomber.is_avatar());
         assert_eq!(SpriteClass::Fleeing.parameters(), ["cons", "stype", "fleeing", "maxDistance"]);
         assert_eq!(SpriteClass::from_name("missile"), None);
-        assert!(LATER.iter().all(|name| SpriteClass::from_name(name).is_none()));
+        assert_eq!(SpriteClass::ALL.len(), 50);
     }
 }

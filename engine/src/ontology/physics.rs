@@ -1,5 +1,6 @@
-//! Grid physics (`spec/02` §3.1).
+//! Grid and continuous physics (`spec/02` §3).
 
+use crate::game::Rules;
 use crate::geometry::{Direction, Rect};
 use crate::state::{Slot, flag};
 use crate::step::Step;
@@ -12,22 +13,49 @@ pub(crate) enum Movement {
     Move,
 }
 
+/// Pixels of a grid cell as physics sees it: continuous physics has a constant of its own.
+pub(crate) fn grid_size(step: &Step<'_>, slot: Slot) -> f64 {
+    if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.state.block) }
+}
+
+fn is_continuous(rules: &Rules, step: &Step<'_>, slot: Slot) -> bool {
+    rules.types[step.state.sprite(slot).stype.index()].traits.continuous
+}
+
 /// Moves a sprite along its own orientation. The first call only marks the sprite as having had it.
 pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
-    let block = f64::from(step.state.block);
-    let sprite = step.state.sprite(slot);
+    let sprite = *step.state.sprite(slot);
     if sprite.is(flag::FIRST_TICK) {
         step.state.edit(slot).set(flag::FIRST_TICK, false);
         return;
     }
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    if traits.continuous {
+        if sprite.speed == 0.0 {
+            return;
+        }
+        step.displace(slot, sprite.orientation, sprite.speed as i32);
+        let gravity = step.state.gravity(step.rules, slot);
+        if gravity > 0.0 && traits.mass > 0.0 && !step.state.sprite(slot).is(flag::ON_GROUND) {
+            active(step, slot, Direction { x: 0.0, y: gravity * traits.mass }, 0.0);
+        }
+        if traits.friction != 0.0 {
+            step.state.edit(slot).speed *= 1.0 - traits.friction;
+        }
+        return;
+    }
     let speed = if sprite.speed == -1.0 { 1.0 } else { sprite.speed };
     if speed != 0.0 && sprite.is(flag::ORIENTED) {
+        let block = f64::from(step.state.block);
         step.displace(slot, sprite.orientation, (speed * block) as i32);
     }
 }
 
-/// Moves a sprite where it, or its player, wants to go. A speed of 0 stands for the sprite's own, at least 1.
+/// Moves a sprite where it, or its player, wants to go. A speed of 0 stands for the sprite's own.
 pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, speed: f64) -> Movement {
+    if is_continuous(step.rules, step, slot) {
+        return accelerate(step, slot, direction, speed);
+    }
     let block = f64::from(step.state.block);
     let sprite = step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
@@ -45,6 +73,26 @@ pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, spee
     if step.displace(slot, direction, (speed * block) as i32) { Movement::Move } else { Movement::Still }
 }
 
+/// Continuous physics: a force changes orientation and speed; the next passive movement moves.
+fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> Movement {
+    let sprite = *step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    let speed = if speed == 0.0 || speed == -1.0 { sprite.speed } else { speed };
+    // The reference rounds the mass to 32 bits on the way.
+    let mass = f64::from(traits.mass as f32);
+    let velocity = Direction {
+        x: force.x / mass + sprite.orientation.x * speed,
+        y: force.y / mass + sprite.orientation.y * speed,
+    };
+    let length = (velocity.x * velocity.x + velocity.y * velocity.y).sqrt();
+    let limited =
+        if traits.max_speed == -1.0 || length <= traits.max_speed { length } else { traits.max_speed };
+    let sprite = step.state.edit(slot);
+    sprite.orientation = velocity.normalised();
+    sprite.speed = limited;
+    if force == Direction::NONE { Movement::Still } else { Movement::Move }
+}
+
 /// Changes the orientation if the sprite has one and it is another.
 pub(crate) fn turn(step: &mut Step<'_>, slot: Slot, direction: Direction) -> bool {
     let sprite = step.state.sprite(slot);
@@ -55,7 +103,8 @@ pub(crate) fn turn(step: &mut Step<'_>, slot: Slot, direction: Direction) -> boo
     true
 }
 
-/// Distance of top-left corners: Manhattan.
-pub(crate) fn distance(a: Rect, b: Rect) -> f64 {
-    (f64::from(a.y) - f64::from(b.y)).abs() + (f64::from(a.x) - f64::from(b.x)).abs()
+/// Distance of top-left corners: Manhattan on the grid, Euclidean in continuous physics.
+pub(crate) fn distance(continuous: bool, a: Rect, b: Rect) -> f64 {
+    let (dx, dy) = (f64::from(a.x) - f64::from(b.x), f64::from(a.y) - f64::from(b.y));
+    if continuous { (dy * dy + dx * dx).sqrt() } else { dy.abs() + dx.abs() }
 }

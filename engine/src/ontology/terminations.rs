@@ -20,25 +20,54 @@ pub(crate) enum Condition {
     SpriteCounterMore { stype: SpriteType, limit: i32 },
     /// Exactly so many of several types together; `min`: that many or more.
     MultiSpriteCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
+    /// Exactly so many of a type, of so many kinds.
+    MultiSpriteCounterSubTypes { stype: SpriteType, limit: i32, kinds: i32 },
+    /// Never holds, and keeps counters from ending the game while the sum is the limit (`min`: is above it).
+    StopCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
     /// The tick is reached.
     Timeout { limit: i32 },
 }
 
-/// The termination classes that the engine plays.
-pub(crate) const NAMES: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpriteCounter", "Timeout"];
-/// Those of the reference that it does not play yet.
-pub(crate) const LATER: &[&str] = &["MultiSpriteCounterSubTypes", "StopCounter"];
+/// The termination classes.
+pub(crate) const NAMES: &[&str] = &[
+    "SpriteCounter",
+    "SpriteCounterMore",
+    "MultiSpriteCounter",
+    "MultiSpriteCounterSubTypes",
+    "StopCounter",
+    "Timeout",
+];
 
 impl Termination {
+    /// Whether the game ends by it now.
     pub(crate) fn holds(&self, rules: &Rules, state: &State) -> bool {
-        match &self.condition {
+        let sum =
+            |stypes: &[SpriteType]| stypes.iter().map(|&stype| state.count_live(rules, stype)).sum::<i32>();
+        let counted = match &self.condition {
             Condition::SpriteCounter { stype, limit } => state.count_live(rules, *stype) <= *limit,
             Condition::SpriteCounterMore { stype, limit } => state.count_live(rules, *stype) >= *limit,
             Condition::MultiSpriteCounter { stypes, limit, min } => {
-                let sum: i32 = stypes.iter().map(|&stype| state.count_live(rules, stype)).sum();
+                let sum = sum(stypes);
                 sum == *limit || (*min && sum > *limit)
             }
-            Condition::Timeout { limit } => state.tick >= *limit,
-        }
+            Condition::MultiSpriteCounterSubTypes { stype, limit, kinds } => {
+                let tree = &rules.types[stype.index()].tree;
+                let alive = |&&stype: &&SpriteType| {
+                    state.group(stype).count > 0 && state.count_live(rules, stype) > 0
+                };
+                state.count_live(rules, *stype) == *limit
+                    && tree.iter().filter(alive).count() as i32 == *kinds
+            }
+            Condition::StopCounter { .. } => false,
+            Condition::Timeout { limit } => return state.tick >= *limit,
+        };
+        counted && state.can_end
+    }
+
+    /// Whether counters may end the game from here on, if this termination is one that says so.
+    pub(crate) fn permits(&self, rules: &Rules, state: &State) -> Option<bool> {
+        let Condition::StopCounter { stypes, limit, min } = &self.condition else { return None };
+        let sum: i32 = stypes.iter().map(|&stype| state.count_live(rules, stype)).sum();
+        Some(if *min { sum <= *limit } else { sum != *limit })
     }
 }

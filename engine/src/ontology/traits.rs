@@ -44,7 +44,31 @@ pub(crate) struct Traits {
     pub(crate) start: i32,
     pub(crate) min_ammo: i32,
     pub(crate) ammo_cost: i32,
-    /// `stype`: what it shoots, spawns, chases or leads to.
+    /// Continuous physics; grid physics otherwise.
+    pub(crate) continuous: bool,
+    pub(crate) mass: f64,
+    pub(crate) gravity: f64,
+    pub(crate) friction: f64,
+    /// −1 for none.
+    pub(crate) max_speed: f64,
+    pub(crate) jump_strength: f64,
+    /// Radians a tick.
+    pub(crate) angle_diff: f64,
+    pub(crate) rotation: f64,
+    /// CarAvatar: 0 forwards, 1 backwards.
+    pub(crate) facing: f64,
+    /// WizardAvatar: where it looks, and when it last made a block.
+    pub(crate) facing_dir: Direction,
+    pub(crate) last_block_time: i32,
+    pub(crate) ground_speedup: f64,
+    pub(crate) air_slowdown: f64,
+    pub(crate) air_steering: bool,
+    /// WalkerJumper: of a jump, each tick on the ground.
+    pub(crate) probability: f64,
+    pub(crate) epsilon: f64,
+    pub(crate) random_target: bool,
+    pub(crate) spawn_behind: Option<SpriteType>,
+    /// `stype`, `stype1`, `stypes` or `stypeMissile`: what it shoots, spawns, chases or leads to.
     pub(crate) stypes: SmallVec<[SpriteType; 2]>,
     /// `ammo`: the resources that shots cost.
     pub(crate) ammo: SmallVec<[SpriteType; 2]>,
@@ -88,6 +112,24 @@ impl Traits {
             start: -1,
             min_ammo: -1,
             ammo_cost: 1,
+            continuous: false,
+            mass: 1.0,
+            gravity: 0.0,
+            friction: 0.0,
+            max_speed: -1.0,
+            jump_strength: 0.0,
+            angle_diff: 0.0,
+            rotation: 0.0,
+            facing: 0.0,
+            facing_dir: Direction::RIGHT,
+            last_block_time: 0,
+            ground_speedup: 1.0,
+            air_slowdown: 2.0,
+            air_steering: false,
+            probability: 0.1,
+            epsilon: 0.0,
+            random_target: false,
+            spawn_behind: None,
             stypes: SmallVec::new(),
             ammo: SmallVec::new(),
         };
@@ -114,10 +156,12 @@ impl Traits {
             C::Conveyor => {
                 self.is_static = true;
                 self.is_oriented = true;
+                self.jump_strength = 1.0;
             }
-            C::Resource => {
+            C::Resource | C::ResourcePack => {
                 self.is_resource = true;
                 self.limit = 2;
+                self.is_static = class == C::ResourcePack;
             }
             C::Flicker | C::Spreader => self.limit = 1,
             C::OrientedFlicker => {
@@ -131,10 +175,20 @@ impl Traits {
                     self.orientation = Direction::NIL;
                 }
             }
-            C::RandomNPC | C::Chaser | C::Fleeing => {
+            class if class.is_a(C::RandomNPC) => {
                 self.speed = 1.0;
                 self.is_npc = true;
                 self.fleeing = class == C::Fleeing;
+                if class == C::RandomInertial {
+                    self.continuous = true;
+                    self.is_oriented = true;
+                }
+            }
+            C::Walker | C::WalkerJumper => {
+                self.speed = 5.0;
+                self.max_speed = 5.0;
+                self.is_oriented = true;
+                self.jump_strength = if class == C::WalkerJumper { 1.0 } else { 0.0 };
             }
             C::Portal => {
                 self.is_static = true;
@@ -144,12 +198,41 @@ impl Traits {
                 self.cooldown = 1;
                 self.is_static = true;
             }
-            C::Bomber | C::RandomBomber => {
+            C::SpawnPointMultiSprite => {
+                self.cooldown = 1;
+                self.is_static = true;
+                self.is_oriented = true;
+                self.orientation = Direction::RIGHT;
+                self.is_npc = true;
+            }
+            C::Bomber | C::RandomBomber | C::BomberRandomMissile => {
                 self.cooldown = 1;
                 self.is_oriented = true;
                 self.orientation = Direction::RIGHT;
                 self.is_npc = true;
                 self.speed = if class == C::RandomBomber { 1.0 } else { 0.0 };
+            }
+            C::AimedAvatar => {
+                self.speed = 0.0;
+                self.stationary = true;
+                self.angle_diff = 0.15;
+            }
+            C::SpaceshipAvatar | C::LanderAvatar => {
+                self.speed = 5.0;
+                self.orientation = Direction::NONE;
+                self.angle_diff = 0.3;
+            }
+            C::CarAvatar => {
+                self.speed = 0.0;
+                self.angle_diff = 0.15;
+            }
+            C::BirdAvatar => self.jump_strength = 10.0,
+            C::PlatformerAvatar | C::WizardAvatar => {
+                self.jump_strength = 10.0;
+                self.max_speed = 30.0;
+                if class == C::WizardAvatar {
+                    self.speed = 0.0;
+                }
             }
             _ => {}
         }

@@ -1,6 +1,6 @@
 //! From an interaction line to an [`Effect`]: keywords, required and optional parameters (`spec/03` §2).
 
-use super::{Effect, SpeedChange};
+use super::{Effect, SpeedChange, TransformIfCount};
 use crate::game::SpriteType;
 
 /// The parameters of a line, typed on demand. Getters report what is wrong and go on with a default, so that one line
@@ -17,6 +17,8 @@ pub(crate) trait Arguments {
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
     /// The keyword of another effect.
     fn keyword(&mut self, key: &'static str) -> u16;
+    /// The effect that addTimer plans: another line of the program.
+    fn timed(&mut self) -> u16;
     /// A type and all that relates to it, itself left out.
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
 }
@@ -25,8 +27,10 @@ pub(crate) trait Arguments {
 pub(crate) const NAMES: &[&str] = &[
     "addHealthPoints",
     "addHealthPointsToMax",
+    "addTimer",
     "align",
     "attractGaze",
+    "bounceDirection",
     "bounceForward",
     "changeResource",
     "cloneSprite",
@@ -39,14 +43,18 @@ pub(crate) const NAMES: &[&str] = &[
     "killAll",
     "killBoth",
     "killIfAlive",
+    "killIfFast",
     "killIfFromAbove",
     "killIfFrontal",
     "killIfHasLess",
     "killIfHasMore",
     "killIfNotFrontal",
+    "killIfNotUpright",
     "killIfOtherHasMore",
+    "killIfSlow",
     "killSprite",
     "pullWithIt",
+    "removeScore",
     "reverseDirection",
     "setSpeedForAll",
     "shieldFrom",
@@ -54,6 +62,7 @@ pub(crate) const NAMES: &[&str] = &[
     "spawnAbove",
     "spawnBehind",
     "spawnBelow",
+    "spawnIfCounterSubTypes",
     "spawnIfHasLess",
     "spawnIfHasMore",
     "spawnLeft",
@@ -61,30 +70,19 @@ pub(crate) const NAMES: &[&str] = &[
     "stepBack",
     "subtractHealthPoints",
     "teleportToExit",
+    "transformIfCount",
     "transformTo",
     "transformToAll",
     "transformToRandomChild",
+    "transformToSingleton",
     "turnAround",
     "undoAll",
-    "wrapAround",
-];
-
-/// Keywords of the reference that the engine does not play yet.
-pub(crate) const LATER: &[&str] = &[
-    "addTimer",
-    "bounceDirection",
-    "killIfFast",
-    "killIfNotUpright",
-    "killIfSlow",
-    "removeScore",
-    "spawnIfCounterSubTypes",
-    "transformIfCount",
-    "transformToSingleton",
     "updateSpawnType",
     "wallBounce",
     "wallReverse",
     "wallStop",
     "waterPhysics",
+    "wrapAround",
 ];
 
 /// The effect of that keyword; None if there is none.
@@ -184,6 +182,47 @@ pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> 
             kill_resource: args.flag("killResource", false),
         },
         "shieldFrom" => Effect::ShieldFrom { stype: args.sprite("stype"), keyword: args.keyword("ftype") },
+        "killIfFast" | "killIfSlow" => {
+            Effect::KillIfSpeed { limit: args.number("limspeed", 1.0), fast: keyword == "killIfFast" }
+        }
+        "killIfNotUpright" => Effect::KillIfNotUpright,
+        "removeScore" => Effect::RemoveScore {
+            stype: args.optional_sprite("stype"),
+            kill_second: args.flag("killSecond", false),
+        },
+        "updateSpawnType" => {
+            Effect::UpdateSpawnType { stype: args.sprite("stype"), spawn_point: args.sprite("spawnPoint") }
+        }
+        "spawnIfCounterSubTypes" => Effect::SpawnIfCounterSubTypes {
+            stype: args.sprite("stype"),
+            otherwise: args.sprite("estype"),
+            counted: args.sprite("stypeCount"),
+            limit: args.int("limit", 0),
+            kinds: args.int("subTypesNum", -1),
+        },
+        "transformIfCount" => Effect::TransformIfCount(Box::new(TransformIfCount {
+            stype: args.sprite("stype"),
+            counted: args.sprite("stypeCount"),
+            at_least: args.int("geq", 0),
+            at_most: args.int("leq", 10_000),
+            otherwise: args.optional_sprite("estype"),
+            kill_second: args.flag("killSecond", false),
+            force_orientation: args.flag("forceOrientation", false),
+        })),
+        "transformToSingleton" => Effect::TransformToSingleton {
+            stype: args.sprite("stype"),
+            other: args.sprite("stype_other"),
+            take_orientation: args.flag("takeOrientation", false),
+        },
+        "waterPhysics" => Effect::WaterPhysics,
+        // Degrees to radians as the reference does it.
+        "bounceDirection" => Effect::BounceDirection {
+            most: args.number("maxBounceAngleDeg", 60.0) * 0.017_453_292_519_943_295,
+        },
+        "wallStop" => Effect::WallStop,
+        "wallBounce" => Effect::WallBounce,
+        "wallReverse" => Effect::WallReverse,
+        "addTimer" => Effect::AddTimer { timed: args.timed() },
         _ => return None,
     })
 }

@@ -37,11 +37,7 @@ pub(super) fn subtract(
     limit: i32,
     stype: Option<SpriteType>,
 ) {
-    let mut target = one;
-    if let Some(stype) = stype {
-        let groups = step.rules.types[stype.index()].tree.iter().map(|&stype| step.state.group(stype).head);
-        target = groups.rev().find(|&head| head != NONE).unwrap_or(one);
-    }
+    let target = stype.and_then(|stype| last_of(step, stype)).unwrap_or(one);
     let sprite = step.state.edit(target);
     sprite.health = sprite.health.saturating_sub(value);
     let killed = sprite.health <= limit;
@@ -49,4 +45,10 @@ pub(super) fn subtract(
     if killed {
         step.kill(target);
     }
+}
+
+/// The first sprite of the last of a tree's groups that has any.
+pub(super) fn last_of(step: &Step<'_>, stype: SpriteType) -> Option<Slot> {
+    let groups = step.rules.types[stype.index()].tree.iter().map(|&stype| step.state.group(stype).head);
+    groups.rev().find(|&head| head != NONE)
 }

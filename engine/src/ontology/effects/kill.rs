@@ -2,7 +2,7 @@
 
 use crate::game::SpriteType;
 use crate::geometry::Direction;
-use crate::state::Slot;
+use crate::state::{Slot, flag};
 use crate::step::Step;
 
 /// Kills if `hit`; the score applies only then.
@@ -35,4 +35,47 @@ pub(super) fn if_frontal(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, 
     let still = u == Direction::NONE;
     let head_on = u.x + v.x == 0.0 && u.y + v.y == 0.0;
     when(step, index, one, still || head_on == frontal);
+}
+
+/// killIfFast and killIfSlow: the speed of the one that moves, or the difference of orientations if both do.
+pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fast: bool) {
+    let (first, second) = (*step.state.sprite(one), *step.state.sprite(two));
+    let is_static = |stype: SpriteType| step.rules.types[stype.index()].traits.is_static;
+    let speed = if is_static(first.stype) {
+        second.speed
+    } else if is_static(second.stype) {
+        first.speed
+    } else {
+        let x = first.orientation.x - second.orientation.x;
+        let y = first.orientation.y - second.orientation.y;
+        (x * x + y * y).sqrt()
+    };
+    if if fast { speed > limit } else { speed < limit } {
+        step.kill(one);
+    }
+}
+
+/// Upright is a rotation of about 3π/2: nose up.
+pub(super) fn if_not_upright(step: &mut Step<'_>, one: Slot) {
+    let full = 2.0 * std::f64::consts::PI;
+    let rotation = (step.state.rotation(step.rules, one) + full) % full;
+    if !(rotation > 4.4 && rotation < 5.0) {
+        step.kill(one);
+    }
+}
+
+/// The score goes to 0: of the sprite if it is the avatar, or of all avatars of a type.
+pub(super) fn remove_score(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: Option<SpriteType>) {
+    let avatars = match stype {
+        None => usize::from(step.state.sprite(one).is(flag::AVATAR)),
+        Some(stype) => {
+            step.state.slots(stype).filter(|&slot| step.state.sprite(slot).is(flag::AVATAR)).count()
+        }
+    };
+    for _ in 0..avatars {
+        step.state.score = 0;
+        if let Some(victim) = victim {
+            step.remove(victim);
+        }
+    }
 }

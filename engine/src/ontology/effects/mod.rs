@@ -7,51 +7,186 @@ mod motion;
 mod resource;
 mod spawn;
 mod transform;
+mod walls;
 
-use crate::game::{EffectInfo, Pass, SpriteType};
-use crate::state::{Slot, flag, memory};
+use crate::game::{EffectInfo, Limit, Pass, SpriteType};
+use crate::occupancy::Hits;
+use crate::state::{Slot, Timer, flag, memory};
 use crate::step::Step;
-pub(crate) use build::{Arguments, LATER, NAMES, build};
+pub(crate) use build::{Arguments, NAMES, build};
 
 /// An effect with its parameters, named as in VGDL.
 #[derive(Clone, Debug)]
 pub(crate) enum Effect {
     KillSprite,
     KillBoth,
-    KillAll { stype: SpriteType },
+    KillAll {
+        stype: SpriteType,
+    },
     KillIfAlive,
     KillIfFromAbove,
-    KillIfHasLess { resource: SpriteType, limit: i32 },
-    KillIfHasMore { resource: SpriteType, limit: i32 },
-    KillIfOtherHasMore { resource: SpriteType, limit: i32, subtract: bool },
-    KillIfFrontal { frontal: bool },
-    AddHealthPoints { value: i32, kill_second: bool, to_max: bool },
-    SubtractHealthPoints { value: i32, limit: i32, stype: Option<SpriteType>, score_if_killed: i32 },
-    StepBack { pixel_perfect: bool },
-    UndoAll { spare: Box<[SpriteType]> },
+    KillIfHasLess {
+        resource: SpriteType,
+        limit: i32,
+    },
+    KillIfHasMore {
+        resource: SpriteType,
+        limit: i32,
+    },
+    KillIfOtherHasMore {
+        resource: SpriteType,
+        limit: i32,
+        subtract: bool,
+    },
+    KillIfFrontal {
+        frontal: bool,
+    },
+    KillIfSpeed {
+        limit: f64,
+        fast: bool,
+    },
+    KillIfNotUpright,
+    AddHealthPoints {
+        value: i32,
+        kill_second: bool,
+        to_max: bool,
+    },
+    SubtractHealthPoints {
+        value: i32,
+        limit: i32,
+        stype: Option<SpriteType>,
+        score_if_killed: i32,
+    },
+    StepBack {
+        pixel_perfect: bool,
+    },
+    UndoAll {
+        spare: Box<[SpriteType]>,
+    },
     TurnAround,
     ReverseDirection,
     FlipDirection,
     HalfSpeed,
-    WrapAround { offset: f64 },
-    Align { orient: bool },
-    AttractGaze { align: bool, prob: f64 },
+    WrapAround {
+        offset: f64,
+    },
+    Align {
+        orient: bool,
+    },
+    AttractGaze {
+        align: bool,
+        prob: f64,
+    },
     BounceForward,
-    PullWithIt { pixel_perfect: bool },
+    PullWithIt {
+        pixel_perfect: bool,
+    },
     TeleportToExit,
-    ChangeSpeed { stype: SpriteType, value: f64, how: SpeedChange },
-    Spawn { stype: SpriteType, prob: f64 },
-    SpawnIf { resource: SpriteType, limit: i32, stype: SpriteType, spend: i32, prob: f64, more: bool },
-    SpawnBeside { stype: SpriteType, shift: (i32, i32), step_back: bool, prob: f64 },
-    SpawnBehind { stype: SpriteType, prob: f64 },
+    ChangeSpeed {
+        stype: SpriteType,
+        value: f64,
+        how: SpeedChange,
+    },
+    Spawn {
+        stype: SpriteType,
+        prob: f64,
+    },
+    SpawnIf {
+        resource: SpriteType,
+        limit: i32,
+        stype: SpriteType,
+        spend: i32,
+        prob: f64,
+        more: bool,
+    },
+    SpawnBeside {
+        stype: SpriteType,
+        shift: (i32, i32),
+        step_back: bool,
+        prob: f64,
+    },
+    SpawnBehind {
+        stype: SpriteType,
+        prob: f64,
+    },
     CloneSprite,
-    TransformTo { stype: SpriteType, kill_second: bool, force_orientation: bool },
-    TransformToAll { stype: SpriteType, to: SpriteType, kill_second: bool, force_orientation: bool },
-    TransformToRandomChild { options: Box<[SpriteType]>, kill_second: bool, force_orientation: bool },
-    CollectResource { kill_resource: bool },
-    CollectResourceIfHeld { held: SpriteType, value: i32, kill_resource: bool },
-    ChangeResource { resource: SpriteType, value: i32, kill_resource: bool },
-    ShieldFrom { stype: SpriteType, keyword: u16 },
+    TransformTo {
+        stype: SpriteType,
+        kill_second: bool,
+        force_orientation: bool,
+    },
+    TransformToAll {
+        stype: SpriteType,
+        to: SpriteType,
+        kill_second: bool,
+        force_orientation: bool,
+    },
+    TransformToRandomChild {
+        options: Box<[SpriteType]>,
+        kill_second: bool,
+        force_orientation: bool,
+    },
+    CollectResource {
+        kill_resource: bool,
+    },
+    CollectResourceIfHeld {
+        held: SpriteType,
+        value: i32,
+        kill_resource: bool,
+    },
+    ChangeResource {
+        resource: SpriteType,
+        value: i32,
+        kill_resource: bool,
+    },
+    ShieldFrom {
+        stype: SpriteType,
+        keyword: u16,
+    },
+    RemoveScore {
+        stype: Option<SpriteType>,
+        kill_second: bool,
+    },
+    UpdateSpawnType {
+        stype: SpriteType,
+        spawn_point: SpriteType,
+    },
+    SpawnIfCounterSubTypes {
+        stype: SpriteType,
+        otherwise: SpriteType,
+        counted: SpriteType,
+        limit: i32,
+        kinds: i32,
+    },
+    TransformIfCount(Box<TransformIfCount>),
+    TransformToSingleton {
+        stype: SpriteType,
+        other: SpriteType,
+        take_orientation: bool,
+    },
+    WaterPhysics,
+    BounceDirection {
+        most: f64,
+    },
+    WallStop,
+    WallBounce,
+    WallReverse,
+    /// Plans one of the game's timed effects.
+    AddTimer {
+        timed: u16,
+    },
+}
+
+/// The parameters of transformIfCount.
+#[derive(Clone, Debug)]
+pub(crate) struct TransformIfCount {
+    pub(crate) stype: SpriteType,
+    pub(crate) counted: SpriteType,
+    pub(crate) at_least: i32,
+    pub(crate) at_most: i32,
+    pub(crate) otherwise: Option<SpriteType>,
+    pub(crate) kill_second: bool,
+    pub(crate) force_orientation: bool,
 }
 
 /// How increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll differ.
@@ -80,8 +215,9 @@ impl Effect {
             | Effect::AttractGaze { .. }
             | Effect::BounceForward
             | Effect::PullWithIt { .. }
-            | Effect::TeleportToExit => Moves::First,
-            Effect::UndoAll { .. } => Moves::Anything,
+            | Effect::TeleportToExit
+            | Effect::WallStop => Moves::First,
+            Effect::UndoAll { .. } | Effect::WallBounce | Effect::WallReverse => Moves::Anything,
             _ => Moves::Nothing,
         }
     }
@@ -147,6 +283,16 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             let shielded = step.state.sprite(one).stype;
             step.state.shields.push((shielded, *stype, *keyword));
         }
+        (Effect::KillIfNotUpright, _) => kill::if_not_upright(step, one),
+        (Effect::RemoveScore { stype, kill_second }, _) => {
+            kill::remove_score(step, one, two.filter(|_| *kill_second), *stype);
+        }
+        (Effect::UpdateSpawnType { stype, spawn_point }, _) => {
+            spawn::update_type(step, two.is_some(), *stype, *spawn_point);
+        }
+        (Effect::SpawnIfCounterSubTypes { .. }, _) => spawn::if_counter_subtypes(step, index, one, effect),
+        (Effect::WaterPhysics, _) => step.state.extra(step.rules, one).gravity = 0.2,
+        (Effect::AddTimer { timed }, _) => add_timer(step, *timed),
         (_, None) => step.message(),
         (Effect::KillBoth, Some(two)) => {
             step.kill(one);
@@ -159,6 +305,15 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         }
         (Effect::KillIfFromAbove, Some(two)) => kill::if_from_above(step, index, one, two),
         (Effect::KillIfFrontal { frontal }, Some(two)) => kill::if_frontal(step, index, one, two, *frontal),
+        (Effect::KillIfSpeed { limit, fast }, Some(two)) => kill::if_speed(step, one, two, *limit, *fast),
+        (Effect::TransformIfCount(rule), Some(two)) => transform::if_count(step, index, one, two, rule),
+        (Effect::TransformToSingleton { stype, other, take_orientation }, Some(two)) => {
+            transform::to_singleton(step, one, two, *stype, *other, *take_orientation);
+        }
+        (Effect::BounceDirection { most }, Some(two)) => walls::bounce_direction(step, one, two, *most),
+        (Effect::WallStop, Some(two)) => walls::stop(step, one, two),
+        (Effect::WallBounce, Some(two)) => walls::bounce(step, one, two),
+        (Effect::WallReverse, Some(two)) => walls::reverse(step, one, two),
         (Effect::KillIfOtherHasMore { resource, limit, subtract }, Some(two)) => {
             let hit = step.state.amount(two, *resource) >= *limit;
             kill::when(step, index, one, hit);
@@ -189,6 +344,44 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             resource::change(step, index, one, two, (*resource, *value), *kill_resource);
         }
     }
+}
+
+/// Runs a batch effect on a sprite and all its partners; returns how often it counts.
+pub(crate) fn execute_batch(step: &mut Step<'_>, effect: &Effect, one: Slot, partners: &mut Hits) -> i32 {
+    match effect {
+        Effect::WallBounce => walls::bounce_batch(step, one, partners),
+        Effect::WallReverse => walls::reverse_batch(step, one, partners),
+        _ => 0,
+    }
+}
+
+/// Runs an effect by the clock, on no sprites at all (`spec/03` §6.4).
+pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
+    match effect {
+        Effect::KillAll { stype } => kill::all(step, *stype),
+        Effect::UndoAll { spare } => motion::undo_all(step, spare),
+        Effect::ChangeSpeed { stype, value, how } => motion::change_speed(step, *stype, *value, *how),
+        Effect::TransformToAll { stype, to, force_orientation, .. } => {
+            transform::all(step, None, *stype, *to, *force_orientation);
+        }
+        Effect::SubtractHealthPoints { value, limit, stype: Some(stype), .. } => {
+            match health::last_of(step, *stype) {
+                Some(target) => health::subtract(step, index, target, *value, *limit, Some(*stype)),
+                None => step.stop(Limit::NoSprite),
+            }
+        }
+        Effect::AddTimer { timed } => add_timer(step, *timed),
+        Effect::KillIfNotUpright | Effect::WaterPhysics => step.stop(Limit::NoSprite),
+        Effect::UpdateSpawnType { stype, spawn_point } => {
+            spawn::update_type(step, false, *stype, *spawn_point)
+        }
+        _ => step.message(),
+    }
+}
+
+fn add_timer(step: &mut Step<'_>, timed: u16) {
+    let due = step.state.tick.saturating_add(step.rules.timed[usize::from(timed)].timer);
+    step.state.plan(Timer { due, timed });
 }
 
 /// What an execution adds to the score.

@@ -16,7 +16,7 @@ pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>
 }
 
 /// Flush with the partner on the side the sprite came from; its last rectangle if it did not come straight.
-fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
+pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
     let (sprite, other) = (step.state.sprite(one), step.state.sprite(two).rect);
     let (now, before) = (sprite.rect.centre(), sprite.last.centre());
     let came = Direction { x: now.0 - before.0, y: now.1 - before.1 }.normalised();
@@ -137,8 +137,13 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
     }
     step.state.pulled.push((index, one));
     let direction = step.last_direction(two).normalised();
-    let amount = (step.state.sprite(two).speed * f64::from(step.state.block)) as i32;
+    let amount = (step.state.sprite(two).speed * physics::grid_size(step, one)) as i32;
     step.displace(one, direction, amount);
+    if step.rules.types[step.state.sprite(one).stype.index()].traits.continuous {
+        let (rect, carrier) = (step.state.sprite(one).rect, step.state.sprite(two).rect);
+        step.place(one, rect.at(rect.x, carrier.y - carrier.h));
+        step.state.edit(one).orientation.y = 0.0;
+    }
     if onto {
         let rect = step.state.sprite(two).rect;
         step.place(one, rect);

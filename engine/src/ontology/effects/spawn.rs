@@ -1,8 +1,9 @@
 //! Effects that make sprites (`spec/03` §7.4). The draw comes first, also where the outcome is certain.
 
 use super::Effect;
-use crate::game::SpriteType;
-use crate::state::Slot;
+use crate::game::{Limit, SpriteType};
+use crate::ontology::class::SpriteClass;
+use crate::state::{NONE, Slot};
 use crate::step::Step;
 
 pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64) {
@@ -65,4 +66,41 @@ pub(super) fn behind(step: &mut Step<'_>, two: Slot, stype: SpriteType, prob: f6
 pub(super) fn clone(step: &mut Step<'_>, one: Slot) {
     let sprite = step.state.sprite(one);
     step.add(sprite.stype, sprite.rect.x, sprite.rect.y);
+}
+
+/// One type or another, by how many there are of a third and of how many kinds.
+pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, effect: &Effect) {
+    let Effect::SpawnIfCounterSubTypes { stype, otherwise, counted, limit, kinds } = *effect else { return };
+    let rules = step.rules;
+    let rect = step.state.sprite(one).rect;
+    let mut met = false;
+    if step.state.count_live(rules, counted) == limit {
+        let tree = &rules.types[counted.index()].tree;
+        let alive = tree.iter().filter(|&&stype| step.state.count_live(rules, stype) > 0).count();
+        met = (alive / 2) as i32 == kinds;
+    }
+    step.apply_score(index, met);
+    step.add(if met { stype } else { otherwise }, rect.x, rect.y);
+}
+
+/// Spawn points of a type and its relatives make another type from now on.
+pub(super) fn update_type(
+    step: &mut Step<'_>,
+    has_partner: bool,
+    stype: SpriteType,
+    spawn_point: SpriteType,
+) {
+    let rules = step.rules;
+    for &family in &rules.types[spawn_point.index()].tree {
+        let is_spawner =
+            rules.types[family.index()].class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
+        let mut slot = step.state.group(family).head;
+        while slot != NONE && is_spawner {
+            if !has_partner {
+                return step.stop(Limit::NoSprite);
+            }
+            step.state.edit(slot).spawns = stype;
+            slot = step.state.sprite(slot).next;
+        }
+    }
 }

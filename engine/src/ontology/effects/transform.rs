@@ -1,5 +1,6 @@
 //! Effects that turn sprites into others (`spec/03` §5.8, §7.5, §8.5).
 
+use super::TransformIfCount;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::state::{NONE, Slot, flag};
@@ -51,6 +52,59 @@ pub(super) fn random_child(
     }
 }
 
+/// By how many there are of a type: killed and disabled ones count.
+pub(super) fn if_count(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, rule: &TransformIfCount) {
+    let count = step.state.count(step.rules, rule.counted);
+    let met = (rule.at_least..=rule.at_most).contains(&count);
+    step.apply_score(index, met);
+    let Some(stype) = (if met { Some(rule.stype) } else { rule.otherwise }) else { return };
+    let rect = step.state.sprite(one).rect;
+    if let Some(new) = step.add_forced(stype, rect.x, rect.y) {
+        hand_over(step, one, new, Some(two).filter(|_| rule.kill_second), rule.force_orientation);
+    }
+}
+
+/// The sprite becomes the one of its kind; who was that before becomes something else.
+pub(super) fn to_singleton(
+    step: &mut Step<'_>,
+    one: Slot,
+    two: Slot,
+    stype: SpriteType,
+    other: SpriteType,
+    take_orientation: bool,
+) {
+    if stype == other && step.state.group(stype).head != NONE {
+        return step.stop(Limit::EndlessTransform);
+    }
+    let mut slot = step.state.group(stype).head;
+    while slot != NONE {
+        let rect = step.state.sprite(slot).rect;
+        if let Some(new) = step.add(other, rect.x, rect.y) {
+            inherit(step, slot, new);
+        }
+        slot = step.state.sprite(slot).next;
+    }
+    let rect = step.state.sprite(one).rect;
+    if let Some(new) = step.add(stype, rect.x, rect.y) {
+        inherit(step, one, new);
+        if take_orientation {
+            let facing = step.state.sprite(two).orientation.reversed();
+            let sprite = step.state.edit(new);
+            sprite.set(flag::ORIENTED, true);
+            sprite.orientation = facing;
+        }
+    }
+}
+
+/// As [`hand_over`], but the orientation goes over whatever it is, and health does not.
+fn inherit(step: &mut Step<'_>, old: Slot, new: Slot) {
+    let before = *step.state.sprite(old);
+    if before.is(flag::ORIENTED) && step.state.sprite(new).is(flag::ORIENTED) {
+        step.state.edit(new).orientation = before.orientation;
+    }
+    pass_on(step, old, new);
+}
+
 /// What the new sprite takes over from the old one, and the end of the old one.
 fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
     let before = *step.state.sprite(old);
@@ -60,6 +114,15 @@ fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, fo
         sprite.orientation = before.orientation;
     }
     sprite.health = before.health;
+    pass_on(step, old, new);
+    if let Some(victim) = victim {
+        step.remove(victim);
+    }
+}
+
+/// The last rectangle, resources and the player; then the old sprite goes.
+fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
+    let before = *step.state.sprite(old);
     step.set_last(new, before.last);
     for at in 0..step.state.held.len() {
         let held = step.state.held[at];
@@ -76,8 +139,5 @@ fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, fo
         step.kill(old);
     } else {
         step.remove(old);
-    }
-    if let Some(victim) = victim {
-        step.remove(victim);
     }
 }

@@ -3,6 +3,7 @@
 mod npcs;
 mod plain;
 mod producers;
+pub(in crate::ontology) mod walkers;
 
 use super::class::SpriteClass;
 use super::traits::Traits;
@@ -17,7 +18,7 @@ pub(crate) const NO_HEADING: u16 = 4;
 pub(crate) fn is_idle(class: SpriteClass, traits: &Traits) -> bool {
     use SpriteClass as C;
     match class {
-        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::Portal => {
+        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack | C::Portal => {
             let stays = traits.is_static || traits.only_active || traits.speed == 0.0;
             stays && traits.time_to_live < 0
         }
@@ -29,7 +30,10 @@ pub(crate) fn is_idle(class: SpriteClass, traits: &Traits) -> bool {
 /// Whether sprites of the class can draw from the chance.
 pub(crate) fn draws(class: SpriteClass) -> bool {
     use SpriteClass as C;
-    class.is_a(C::RandomNPC) || class.is_a(C::SpawnPoint) || matches!(class, C::RandomMissile | C::Spreader)
+    class.is_a(C::RandomNPC)
+        || class.is_a(C::SpawnPoint)
+        || class.is_a(C::Walker)
+        || matches!(class, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
 }
 
 /// One update. The avatar is updated in `avatars`.
@@ -38,25 +42,48 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot) {
     let stype = step.state.sprite(slot).stype;
     let class = step.rules.types[stype.index()].class.expect("sprites are made of types with a class");
     match class {
-        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::Portal => base(step, slot),
+        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack | C::Portal => {
+            base(step, slot)
+        }
         C::Missile | C::ErraticMissile => base(step, slot),
         C::RandomMissile => plain::random_missile(step, slot),
         C::Flicker | C::OrientedFlicker => plain::flicker(step, slot),
         C::Spreader => plain::spreader(step, slot),
-        C::RandomNPC => npcs::random_npc(step, slot),
+        C::RandomNPC | C::RandomInertial => npcs::random_npc(step, slot),
         C::Chaser | C::Fleeing => npcs::chaser(step, slot),
+        C::LOSChaser => npcs::los_chaser(step, slot),
+        C::PathChaser => npcs::path_chaser(step, slot),
+        C::AlternateChaser => npcs::alternate_chaser(step, slot),
+        C::RandomAltChaser => npcs::or_random(step, slot, npcs::alternate_chaser),
+        C::PathAltChaser => npcs::path_alt_chaser(step, slot),
+        C::RandomPathAltChaser => npcs::or_random(step, slot, npcs::path_alt_chaser),
+        C::Walker => walkers::walker(step, slot),
+        C::WalkerJumper => walkers::walker_jumper(step, slot),
         C::SpawnPoint | C::Bomber => producers::spawn_point(step, slot),
         C::RandomBomber => producers::random_bomber(step, slot),
-        C::SpriteProducer => {}
-        C::MovingAvatar
+        C::BomberRandomMissile => producers::bomber_random_missile(step, slot),
+        C::SpawnPointMultiSprite => producers::multi_sprite(step, slot),
+        // Avatars are updated as the player's or not at all.
+        C::SpriteProducer
+        | C::MovingAvatar
         | C::HorizontalAvatar
         | C::VerticalAvatar
+        | C::NullAvatar
         | C::FlakAvatar
         | C::OrientedAvatar
         | C::ShootAvatar
+        | C::ShootOnlyAvatar
         | C::OngoingAvatar
         | C::OngoingShootAvatar
-        | C::MissileAvatar => {}
+        | C::OngoingTurningAvatar
+        | C::MissileAvatar
+        | C::AimedAvatar
+        | C::SpaceshipAvatar
+        | C::CarAvatar
+        | C::LanderAvatar
+        | C::BirdAvatar
+        | C::PlatformerAvatar
+        | C::WizardAvatar => {}
     }
 }
 

@@ -1,6 +1,7 @@
 //! Sprites that make sprites (`spec/02` §8).
 
 use super::base;
+use crate::game::SpriteType;
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::state::Slot;
@@ -8,6 +9,17 @@ use crate::step::Step;
 
 /// SpawnPoint and Bomber: a draw in every update; a sprite when the tick and the draw allow it.
 pub(super) fn spawn_point(step: &mut Step<'_>, slot: Slot) {
+    let stype = step.state.sprite(slot).spawns;
+    produce(step, slot, &[stype]);
+}
+
+/// SpawnPointMultiSprite: one of each.
+pub(super) fn multi_sprite(step: &mut Step<'_>, slot: Slot) {
+    let stypes = &step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
+    produce(step, slot, stypes);
+}
+
+fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
     let tick = step.state.tick;
     if step.state.sprite(slot).start == -1 {
         step.state.edit(slot).start = tick;
@@ -16,8 +28,8 @@ pub(super) fn spawn_point(step: &mut Step<'_>, slot: Slot) {
     let sprite = *step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if sprite.start.wrapping_add(tick) % traits.cooldown == 0 && draw < traits.prob {
-        let made = step.add(traits.stypes[0], sprite.rect.x, sprite.rect.y);
-        if let Some(made) = made {
+        for &stype in stypes {
+            let Some(made) = step.add(stype, sprite.rect.x, sprite.rect.y) else { continue };
             step.state.edit(slot).count += 1;
             let new = step.state.edit(made);
             if traits.spawn_orientation != Direction::NONE {
@@ -38,5 +50,13 @@ pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
     let direction = Direction::BASE[step.state.chance.below(4) as usize];
     let speed = step.state.sprite(slot).speed;
     physics::active(step, slot, direction, speed);
+    spawn_point(step, slot);
+}
+
+/// Draws what it would make, in every update.
+pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
+    let stypes = &step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
+    let drawn = stypes[step.state.chance.below(stypes.len() as i32) as usize];
+    step.state.edit(slot).spawns = drawn;
     spawn_point(step, slot);
 }

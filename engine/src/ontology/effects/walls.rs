@@ -1,0 +1,164 @@
+//! Effects of continuous physics at walls and paddles (`spec/03` §5.11, §5.12, §8.3, §9).
+
+use super::motion::pixel_perfect;
+use crate::geometry::{Direction, Rect};
+use crate::occupancy::Hits;
+use crate::ontology::physics;
+use crate::state::Slot;
+use crate::step::Step;
+use crate::trigonometry::{cos, sin};
+
+/// Whether a sprite met a rectangle from the side, and from above or below; both or neither are possible.
+fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
+    let sprite = step.state.sprite(one);
+    let rect = sprite.rect;
+    let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| (a + a_size).min(b + b_size) - a.max(b);
+    let horizontal = rect.h == overlap(rect.y, rect.h, other.y, other.h);
+    let vertical = rect.w == overlap(rect.x, rect.w, other.x, other.w);
+    if horizontal || vertical {
+        return (horizontal, vertical);
+    }
+    let speed = sprite.speed;
+    let velocity = Direction { x: sprite.orientation.x * speed, y: sprite.orientation.y * speed };
+    let time = |last: i32, size: i32, from: i32, extent: i32, velocity: f64| {
+        let gap = if velocity > 0.0 {
+            last + size - from
+        } else if velocity < 0.0 {
+            from + extent - last
+        } else {
+            last - from
+        };
+        (f64::from(gap.abs()) / velocity).abs()
+    };
+    let across = time(sprite.last.x, rect.w, other.x, other.w, velocity.x);
+    let along = time(sprite.last.y, rect.h, other.y, other.h, velocity.y);
+    (across < along, along < across)
+}
+
+/// The rectangle that several partners make together, and how many of them it is: two that are aligned count as two.
+fn joined(step: &Step<'_>, one: Slot, partners: &mut Hits) -> (i32, Rect) {
+    let rect = |slot: Slot| step.state.sprite(slot).rect;
+    if let [first, second] = partners[..] {
+        let (a, b) = (rect(first), rect(second));
+        if a.centre().0 == b.centre().0 {
+            return (2, Rect { x: a.x, y: a.y.min(b.y), w: a.w, h: 2 * a.h });
+        }
+        if a.centre().1 == b.centre().1 {
+            return (2, Rect { x: a.x.min(b.x), y: a.y, w: 2 * a.w, h: a.h });
+        }
+    }
+    if partners.len() > 1 {
+        let own = step.state.sprite(one).last.centre();
+        let distance = |slot: &Slot| {
+            let centre = step.state.sprite(*slot).last.centre();
+            let (x, y) = (centre.0 - own.0, centre.1 - own.1);
+            (x * x + y * y).sqrt()
+        };
+        partners.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    }
+    (1, rect(partners[0]))
+}
+
+/// Everybody who met goes back to where it was.
+fn separate(step: &mut Step<'_>, one: Slot, partners: &[Slot]) {
+    for &slot in std::iter::once(&one).chain(partners) {
+        let last = step.state.sprite(slot).last;
+        step.place(slot, last);
+    }
+}
+
+fn reflect(step: &mut Step<'_>, one: Slot, wall: Rect) {
+    let (horizontal, vertical) = collision(step, one, wall);
+    let facing = &mut step.state.edit(one).orientation;
+    if vertical {
+        facing.y = -facing.y;
+    } else if horizontal {
+        facing.x = -facing.x;
+    } else {
+        *facing = facing.reversed();
+    }
+}
+
+pub(super) fn bounce_batch(step: &mut Step<'_>, one: Slot, partners: &mut Hits) -> i32 {
+    let (count, wall) = joined(step, one, partners);
+    reflect(step, one, wall);
+    separate(step, one, partners);
+    count
+}
+
+pub(super) fn bounce(step: &mut Step<'_>, one: Slot, two: Slot) {
+    if step.state.gravity(step.rules, one) > 0.0 {
+        physics::active(step, one, Direction::UP, 0.0);
+    }
+    let wall = step.state.sprite(two).rect;
+    reflect(step, one, wall);
+    separate(step, one, &[two]);
+}
+
+/// Keeps only what is left of a velocity; gravity is the least speed.
+fn slow(step: &mut Step<'_>, one: Slot, rest: Direction) {
+    let gravity = step.state.gravity(step.rules, one);
+    let length = (rest.x * rest.x + rest.y * rest.y).sqrt();
+    let sprite = step.state.edit(one);
+    sprite.orientation = rest.normalised();
+    sprite.speed *= length;
+    if sprite.speed < gravity {
+        sprite.speed = gravity;
+    }
+}
+
+fn turn_back(step: &mut Step<'_>, one: Slot, wall: Rect) {
+    let (_, vertical) = collision(step, one, wall);
+    let ahead = step.state.sprite(one).orientation.x;
+    slow(step, one, Direction { x: if vertical { ahead } else { -ahead }, y: 0.0 });
+}
+
+pub(super) fn reverse_batch(step: &mut Step<'_>, one: Slot, partners: &mut Hits) -> i32 {
+    let (count, wall) = joined(step, one, partners);
+    turn_back(step, one, wall);
+    separate(step, one, partners);
+    count
+}
+
+pub(super) fn reverse(step: &mut Step<'_>, one: Slot, two: Slot) {
+    let wall = step.state.sprite(two).rect;
+    turn_back(step, one, wall);
+    separate(step, one, &[two]);
+}
+
+/// Flush with the wall, going on along it.
+pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
+    let rect = pixel_perfect(step, one, two);
+    step.place(one, rect);
+    let (own, wall) = (step.state.sprite(one).rect.centre(), step.state.sprite(two).rect.centre());
+    let facing = step.state.sprite(one).orientation;
+    let beside = (own.0 - wall.0).abs() > (own.1 - wall.1).abs();
+    let rest = if beside { Direction { x: 0.0, y: facing.y } } else { Direction { x: facing.x, y: 0.0 } };
+    slow(step, one, rest);
+}
+
+/// Off a paddle: the further from its middle, the steeper.
+pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: f64) {
+    let (ball, paddle) = (*step.state.sprite(one), step.state.sprite(two).rect);
+    let velocity = Direction { x: ball.orientation.x * ball.speed, y: ball.orientation.y * ball.speed };
+    let gap = |last: i32, size: i32, from: i32, extent: i32| {
+        f64::from((last - (from + extent)).abs().min((last + size - from).abs()))
+    };
+    let across = (gap(ball.last.x, ball.rect.w, paddle.x, paddle.w) / velocity.x).abs();
+    let along = (gap(ball.last.y, ball.rect.h, paddle.y, paddle.h) / velocity.y).abs();
+    let (own, other) = (ball.rect.centre(), paddle.centre());
+    let share = |distance: f64, size: i32| (distance / (0.5 * f64::from(size))).clamp(-1.0, 1.0);
+    let facing = if along < across {
+        let side = if own.1 < other.1 { 1.0 } else { -1.0 };
+        let angle = share(own.0 - other.0, paddle.w) * most;
+        Direction { x: sin(angle), y: -cos(angle) * side }
+    } else if across < along {
+        let side = if own.0 > other.0 { 1.0 } else { -1.0 };
+        let angle = share(other.1 - own.1, paddle.h) * most;
+        Direction { x: cos(angle) * side, y: -sin(angle) }
+    } else {
+        step.state.edit(one).orientation.x = -ball.orientation.x;
+        return;
+    };
+    step.state.edit(one).orientation = facing.normalised();
+}

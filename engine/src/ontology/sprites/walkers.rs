@@ -1,0 +1,59 @@
+//! Walkers: they follow the ground and turn at walls (`spec/02` §7.6).
+
+use crate::geometry::Direction;
+use crate::ontology::physics;
+use crate::state::{Slot, flag};
+use crate::step::Step;
+
+fn passive(step: &mut Step<'_>, slot: Slot) {
+    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
+    if !traits.is_static && !traits.only_active {
+        physics::passive(step, slot);
+    }
+}
+
+pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
+    passive(step, slot);
+    let sprite = *step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    if traits.air_steering || sprite.rect.x == sprite.last.x {
+        let ahead = sprite.orientation.x;
+        let x = if ahead > 0.0 {
+            1.0
+        } else if ahead < 0.0 {
+            -1.0
+        } else {
+            [-1.0, 1.0][step.state.chance.below(2) as usize]
+        };
+        let direction = Direction { x, y: 0.0 };
+        step.state.edit(slot).orientation = direction;
+        physics::active(step, slot, direction, traits.max_speed);
+    }
+    let sprite = step.state.edit(slot);
+    sprite.speed = traits.max_speed;
+    sprite.set(flag::ON_GROUND, false);
+}
+
+/// Jumps now and then; the reference decides it with a generator apart from the game's.
+pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
+    passive(step, slot);
+    let sprite = *step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    if sprite.is(flag::ON_GROUND) && traits.probability > step.state.jumps.double() {
+        jump(step, slot, traits.jump_strength);
+    } else {
+        physics::active(step, slot, sprite.orientation, sprite.speed);
+    }
+    step.state.edit(slot).set(flag::ON_GROUND, false);
+}
+
+/// Upwards, and off the ground at once.
+pub(in crate::ontology) fn jump(step: &mut Step<'_>, slot: Slot, strength: f64) {
+    let sprite = step.state.edit(slot);
+    sprite.orientation.y = 0.0;
+    let speed = sprite.speed;
+    physics::active(step, slot, Direction { x: 0.0, y: -strength }, speed);
+    let cooldown = step.rules.types[step.state.sprite(slot).stype.index()].traits.cooldown;
+    step.set_age(slot, cooldown);
+    step.displace(slot, Direction::UP, 5);
+}

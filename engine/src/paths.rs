@@ -1,0 +1,117 @@
+//! Path finding for games with `obs=` (`spec/01` §8).
+
+use crate::game::Rules;
+use crate::geometry::Direction;
+use crate::state::{Slot, State};
+
+/// A frontier that breaks ties as the reference's binary heap does.
+#[derive(Default)]
+struct Heap {
+    /// Cost and cell.
+    items: Vec<(u32, u32)>,
+}
+
+impl Heap {
+    fn push(&mut self, item: (u32, u32)) {
+        let mut at = self.items.len();
+        self.items.push(item);
+        while at > 0 {
+            let parent = (at - 1) / 2;
+            if self.items[parent].0 <= item.0 {
+                break;
+            }
+            self.items[at] = self.items[parent];
+            at = parent;
+        }
+        self.items[at] = item;
+    }
+
+    fn pop(&mut self) -> Option<(u32, u32)> {
+        let first = *self.items.first()?;
+        let last = self.items.pop().expect("there is a first");
+        let count = self.items.len();
+        if count == 0 {
+            return Some(first);
+        }
+        let mut at = 0;
+        while 2 * at + 1 < count {
+            let (left, right) = (2 * at + 1, 2 * at + 2);
+            let child = if right < count && self.items[left].0 > self.items[right].0 { right } else { left };
+            if last.0 <= self.items[child].0 {
+                break;
+            }
+            self.items[at] = self.items[child];
+            at = child;
+        }
+        self.items[at] = last;
+        Some(first)
+    }
+}
+
+impl State {
+    /// Notes which cells hold an obstacle now, at the start: they stay obstacles. Hidden sprites are not seen.
+    pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
+        let mut obstacles = vec![false; (self.columns * self.rows) as usize];
+        for &stype in rules.obstacles.iter().filter(|stype| !rules.types[stype.index()].traits.hidden) {
+            for slot in self.slots(stype) {
+                let rect = self.sprite(slot).rect;
+                let (column, row) = (rect.x / self.block, rect.y / self.block);
+                obstacles[(row * self.columns + column) as usize] = true;
+            }
+        }
+        self.obstacles = obstacles;
+    }
+
+    /// The first step of the path between two pixels; None if there is none, or none to go. Cost: O(cells).
+    pub(crate) fn first_step(&self, rules: &Rules, from: (i32, i32), to: (i32, i32)) -> Option<Direction> {
+        let start = self.path_cell(from)?;
+        let goal = self.path_cell(to)?;
+        if start == goal || self.obstacles[start] || self.obstacles[goal] {
+            return None;
+        }
+        let (up, down) = (Direction::UP, Direction::DOWN);
+        let (left, right) = (Direction::LEFT, Direction::RIGHT);
+        let sideways = self.avatar_actions(rules) == 3;
+        let ways: &[Direction] = if sideways { &[left, right] } else { &[up, down, left, right] };
+        // For each reached cell, the first step of the way there.
+        let mut first: Vec<Option<Direction>> = vec![None; self.obstacles.len()];
+        let mut frontier = Heap::default();
+        frontier.push((0, start as u32));
+        while let Some((cost, cell)) = frontier.pop() {
+            let (column, row) = (cell as i32 % self.columns, cell as i32 / self.columns);
+            for &way in ways {
+                let (column, row) = (column + way.x as i32, row + way.y as i32);
+                if !(0..self.columns).contains(&column) || !(0..self.rows).contains(&row) {
+                    continue;
+                }
+                let next = (row * self.columns + column) as usize;
+                if self.obstacles[next] || first[next].is_some() || next == start {
+                    continue;
+                }
+                let step = first[cell as usize].unwrap_or(way);
+                if next == goal {
+                    return Some(step);
+                }
+                first[next] = Some(step);
+                frontier.push((cost + 1, next as u32));
+            }
+        }
+        None
+    }
+
+    /// The reference multiplies by the reciprocal of the block, which for some sizes falls short of the cell.
+    fn path_cell(&self, (x, y): (i32, i32)) -> Option<usize> {
+        let reciprocal = 1.0 / f64::from(self.block);
+        let column = (f64::from(x) * reciprocal) as i32;
+        let row = (f64::from(y) * reciprocal) as i32;
+        let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
+        inside.then_some((row * self.columns + column) as usize)
+    }
+
+    /// How many actions the avatar has, doing nothing left out.
+    fn avatar_actions(&self, rules: &Rules) -> usize {
+        let avatar: Slot = self.avatar;
+        let Some(sprite) = self.sprites.get(usize::from(avatar)) else { return 0 };
+        rules.types[sprite.stype.index()].class.map_or(0, |class| class.actions().len())
+    }
+}
