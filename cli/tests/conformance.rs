@@ -27,7 +27,8 @@ fn the_six_games_are_identical_in_every_field_of_every_tick() {
     assert_eq!(text(&output.stdout).lines().last(), Some("identical: 60 of 60 episodes"));
 }
 
-/// Games with classes or effects that the engine does not play yet are refused; every other must be identical.
+/// All of the reference's grammar is played. Seven games, with faults that the reference overlooks, are refused; every
+/// episode of the others must be identical.
 #[test]
 fn whatever_loads_is_identical() {
     let Some(reference) = reference() else { return };
@@ -39,7 +40,7 @@ fn whatever_loads_is_identical() {
     for episode in report["differing"].as_array().unwrap() {
         assert!(episode["refused"].is_string(), "{episode}");
     }
-    assert!(report["identical"].as_u64().unwrap() >= 798, "{} identical", report["identical"]);
+    assert!(report["identical"].as_u64().unwrap() >= 1048, "{} identical", report["identical"]);
 }
 
 #[test]

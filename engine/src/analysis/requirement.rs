@@ -44,7 +44,6 @@ pub(super) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
         types.dedup();
         types
     };
-    let count = |number: i32| u32::try_from(number).unwrap_or(0);
     let starts: Vec<SpriteType> = analysis.avatars.iter().map(|avatar| avatar.stype).collect();
     let (types, reason) = (placeable(&starts), Reason::Avatar);
     list.push(Requirement { types, at_least: 1, at_most: Some(1), reason });
@@ -78,6 +77,11 @@ pub(super) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
         new
     });
     list
+}
+
+/// A number of sprites; negative ones count as none.
+fn count(number: i32) -> u32 {
+    u32::try_from(number).unwrap_or(0)
 }
 
 /// What makes the sprites that a win asks for, or ends those that it wants gone where the avatar's touch does not.
@@ -130,7 +134,7 @@ fn keys(analysis: &Analysis) -> Vec<Requirement> {
         let least = lock.givers.iter().filter(placed).map(|giver| giver.1.max(1)).min();
         let (Some(least), false) = (least, types.is_empty()) else { continue };
         let at_least = match lock.key {
-            Key::Resource { amount, .. } => u32::try_from((amount.max(1) + least - 1) / least).unwrap_or(1),
+            Key::Resource { amount, .. } => count(amount).max(1).div_ceil(count(least).max(1)),
             Key::Avatar(_) | Key::Switch(..) => 1,
         };
         list.push(Requirement { types, at_least, at_most: None, reason: Reason::Lock(lock.stype) });

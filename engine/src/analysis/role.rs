@@ -198,7 +198,7 @@ impl Basis<'_> {
         let ends = self.touches.iter().any(|row| row[at].ends_other());
         let door = traits.portal || self.rules.types[at].class == Some(SpriteClass::Door);
         let wanted = self.aims.remove.contains(&stype);
-        (wanted && ends && (door || locked) && !self.facts[at].is_resource)
+        (wanted && (locked || (ends && door)) && !self.facts[at].is_resource)
             || self.touches.iter().any(creates)
     }
 

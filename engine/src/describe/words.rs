@@ -113,10 +113,11 @@ pub(super) fn percent(probability: f64) -> String {
 
 /// How fast something moves that goes `speed` cells at a time, every `cooldown` ticks.
 pub(super) fn pace(speed: f64, cooldown: i32) -> String {
-    let per_cell = (1.0 / speed + 0.5) as i32;
-    let divides = (1.0 / speed - f64::from(per_cell)).abs() < 1e-9;
+    let cooldown = i64::from(cooldown);
+    let per_cell = (1.0 / speed + 0.5) as i64;
+    let divides = (1.0 / speed - per_cell as f64).abs() < 1e-9;
     let (cells, ticks) = if speed <= 1.0 && divides {
-        ("a cell".to_owned(), per_cell * cooldown)
+        ("a cell".to_owned(), per_cell.saturating_mul(cooldown))
     } else if speed < 1.0 {
         (format!("{} of a cell", percent(speed)), cooldown)
     } else {

@@ -87,6 +87,7 @@ impl Builder<'_> {
             }
             Role::Enemy | Role::Boulder if from_start < self.respect(stype) => 0,
             Role::Enemy | Role::Prey | Role::Spawner if self.apart_from(cell, Role::Ward) < 4 => 0,
+            Role::Enemy if self.is_on_prey(cell, stype) => 0,
             Role::Enemy => self.weigh_mover(cell, stype, share),
             Role::Prey if from_start < 3 => 0,
             Role::Prey => own_kind * (2 + share / 20),
@@ -130,6 +131,15 @@ impl Builder<'_> {
             }
             _ => u32::from(from_start >= 2) * own_kind,
         }
+    }
+
+    /// Close to what it chases, if that is not the avatar: there should be time to step in.
+    fn is_on_prey(&self, cell: usize, stype: SpriteType) -> bool {
+        let Motion::Chasing(target) = self.analysis.facts(stype).motion else { return false };
+        let hunted = |other: SpriteType| {
+            self.analysis.applies(target, other) && self.analysis.role(other) != Role::Avatar
+        };
+        self.apart(cell, hunted) < self.respect(stype).max(4)
     }
 
     /// For what moves by itself: room to move, and not straight at the avatar.
@@ -201,7 +211,7 @@ impl Builder<'_> {
     }
 
     /// As many keys as the locks that were placed need, each before its lock.
-    fn keys(&mut self, gates: &[SpriteType]) {
+    pub(crate) fn keys(&mut self, gates: &[SpriteType]) {
         let placed = self.log.iter().map(|(_, stype)| *stype);
         let exits: Vec<SpriteType> = placed.filter(|&stype| self.role(stype) == Role::Exit).collect();
         let keyed = plan::furnishable(self.analysis, self.palette, Role::Key);
@@ -222,7 +232,7 @@ impl Builder<'_> {
             };
             let adds = matches!(lock.key, Key::Resource { spent: true, .. });
             match needs.iter_mut().find(|(givers, _)| *givers == lock.givers) {
-                Some((_, total)) if adds => *total += amount,
+                Some((_, total)) if adds => *total = total.saturating_add(amount),
                 Some((_, total)) => *total = (*total).max(amount),
                 None => needs.push((lock.givers, amount)),
             }
@@ -243,14 +253,19 @@ impl Builder<'_> {
                 0.8 * (1.0 - self.difficulty())
             };
             let spare = plan::round(spare, &mut self.sampler) as i32;
-            let mut left = needed + if keyed.is_empty() { 0 } else { spare };
+            let placed = |(giver, amount): &(SpriteType, i32)| {
+                amount.saturating_mul(self.board.count(self.analysis, *giver) as i32)
+            };
+            let held = givers.iter().map(placed).fold(0, i32::saturating_add);
+            let mut left = needed.saturating_sub(held);
+            left = left.saturating_add(if keyed.is_empty() || held > 0 { 0 } else { spare });
             while left > 0 {
                 let (giver, amount) = *self.sampler.choose(&givers);
                 let held = self.board.count(self.analysis, giver);
                 if self.analysis.facts(giver).singleton && held > 0 || self.place_key(giver).is_none() {
                     break;
                 }
-                left -= amount.max(1);
+                left = left.saturating_sub(amount.max(1));
             }
         }
     }
@@ -356,7 +371,7 @@ impl Builder<'_> {
     }
 
     /// Fills most of what is left with soil, leaving burrows around what moves.
-    fn soil(&mut self) {
+    pub(crate) fn soil(&mut self) {
         let types = plan::furnishable(self.analysis, self.palette, Role::Soil);
         let Some(&stype) = types.first() else { return };
         let burrow = |builder: &Self, cell: usize| {

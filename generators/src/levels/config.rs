@@ -1,11 +1,19 @@
 //! How large and how hard levels are to be.
 
+use serde::{Deserialize, Serialize};
+
+/// Columns and rows at least: below, a border leaves no room.
+const LEAST: usize = 4;
+/// Columns and rows at most: the cost of a level grows with the square of its cells.
+const MOST: usize = 64;
+
 /// What a level generator is asked for.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct LevelConfig {
-    /// Columns, from and to, both included; the border counts.
+    /// Columns, from and to, both included; the border counts. Between 4 and 64.
     pub columns: (usize, usize),
-    /// Rows, from and to, both included; the border counts.
+    /// Rows, from and to, both included; the border counts. Between 4 and 64.
     pub rows: (usize, usize),
     /// From 0.0, the easiest, to 1.0, the hardest: more that harms, longer ways, fewer helps.
     pub difficulty: f64,
@@ -21,10 +29,9 @@ impl LevelConfig {
     /// What is wrong with it, if anything is.
     pub(crate) fn problem(&self) -> Option<String> {
         for (name, (low, high)) in [("columns", self.columns), ("rows", self.rows)] {
-            if low < 4 || low > high || high > engine::MAX_SIDE {
-                let most = engine::MAX_SIDE;
+            if low < LEAST || low > high || high > MOST {
                 return Some(format!(
-                    "{name} from {low} to {high} asked; both lie between 4 and {most}, in order"
+                    "{name} from {low} to {high} asked; both lie between {LEAST} and {MOST}, in order"
                 ));
             }
         }

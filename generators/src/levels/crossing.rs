@@ -3,6 +3,7 @@
 
 use super::builder::{Builder, way};
 use super::grid::Grid;
+use super::palette::Palette;
 use super::plan;
 use engine::analysis::{Deed, Motion, Role};
 use engine::{Analysis, SpriteType};
@@ -18,30 +19,46 @@ pub(crate) enum Row {
     Lane(SpriteType),
 }
 
-/// The types that drive from edge to edge: they go left or right, harm, and come in again at the other side.
-pub(crate) fn traffic(analysis: &Analysis, palette: &super::palette::Palette) -> Vec<SpriteType> {
-    let enemies = plan::furnishable(analysis, palette, Role::Enemy).into_iter();
-    let drives = |stype: &SpriteType| {
-        let sideways = match analysis.facts(*stype).motion {
-            Motion::Straight(direction) => way(direction).is_some_and(|(x, _)| x != 0),
-            _ => false,
-        };
-        let returns = analysis.at_edge(*stype).any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
-        sideways && returns
+/// What drives across the board.
+#[derive(Clone, Debug)]
+pub(crate) struct Traffic {
+    pub(crate) types: Vec<SpriteType>,
+    /// It comes in again at the other side; else it turns at the walls.
+    pub(crate) wraps: bool,
+}
+
+/// The enemies that drive left or right, if they make the game a crossing: they come in again at the other side, or some
+/// go left and some right, turning at walls, on the way to an exit.
+pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic> {
+    let enemies = plan::furnishable(analysis, palette, Role::Enemy);
+    let sideways = |stype: &SpriteType| match analysis.facts(*stype).motion {
+        Motion::Straight(direction) => way(direction).map(|(x, _)| x).filter(|&x| x != 0),
+        _ => None,
     };
-    enemies.filter(drives).collect()
+    let returns = |stype: &SpriteType| {
+        let wraps = analysis.at_edge(*stype).any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
+        wraps && sideways(stype).is_some()
+    };
+    let wrapping: Vec<SpriteType> = enemies.iter().copied().filter(returns).collect();
+    if !wrapping.is_empty() {
+        return Some(Traffic { types: wrapping, wraps: true });
+    }
+    let types: Vec<SpriteType> = enemies.into_iter().filter(|stype| sideways(stype).is_some()).collect();
+    let goes = |x: i32| types.iter().any(|stype| sideways(stype) == Some(x));
+    let exit = !plan::furnishable(analysis, palette, Role::Exit).is_empty();
+    (goes(-1) && goes(1) && exit).then_some(Traffic { types, wraps: false })
 }
 
 impl Builder<'_> {
     /// Draws what each row is for: lanes in groups of one to three between verges.
-    pub(crate) fn rows(&mut self, grid: Grid, ring: bool, traffic: &[SpriteType]) -> Vec<Row> {
+    pub(crate) fn rows(&mut self, grid: Grid, ring: bool, traffic: &Traffic) -> Vec<Row> {
         let edge = usize::from(ring);
         let (first, last) = (edge, grid.rows - 1 - edge);
         let mut rows = vec![Row::Border; grid.rows];
         rows[first..=last].fill(Row::Verge);
         let mut at = first + 1;
         let longest = 1 + plan::round(1.0 + 1.2 * self.difficulty(), &mut self.sampler);
-        let mut types: Vec<SpriteType> = traffic.to_vec();
+        let mut types: Vec<SpriteType> = traffic.types.clone();
         self.sampler.shuffle(&mut types);
         let mut next = 0;
         while at < last {
@@ -55,18 +72,19 @@ impl Builder<'_> {
         rows
     }
 
-    /// Walls only above and below the lanes, where nothing drives through them; `closed`: at the sides of verges too.
-    pub(crate) fn lane_walls(grid: Grid, rows: &[Row], ring: bool) -> Vec<bool> {
+    /// Walls above and below; at the sides of verges, and of lanes whose traffic turns there.
+    pub(crate) fn lane_walls(grid: Grid, rows: &[Row], ring: bool, traffic: &Traffic) -> Vec<bool> {
+        let side = |cell: usize| grid.x(cell) == 0 || grid.x(cell) + 1 == grid.columns;
         let wall = |cell: usize| match rows[grid.y(cell)] {
             Row::Border => true,
-            Row::Verge => ring && (grid.x(cell) == 0 || grid.x(cell) + 1 == grid.columns),
-            Row::Lane(_) => false,
+            Row::Verge => ring && side(cell),
+            Row::Lane(_) => ring && side(cell) && !traffic.wraps,
         };
         (0..grid.len()).map(wall).collect()
     }
 
     /// Furnishes the rows.
-    pub(crate) fn crossing(&mut self, rows: &[Row]) {
+    pub(crate) fn crossing(&mut self, rows: &[Row], traffic: &Traffic) {
         let grid = self.board.grid;
         let verges: Vec<usize> = (0..grid.rows).filter(|&row| rows[row] == Row::Verge).collect();
         let (top, bottom) = (verges[0], verges[verges.len() - 1]);
@@ -92,14 +110,16 @@ impl Builder<'_> {
         for &cell in &lanes {
             self.board.kept[cell] = true;
         }
-        let done: Vec<SpriteType> = traffic(self.analysis, self.palette);
+        self.keys(&[]);
         let (area, difficulty) = (self.board.area(), self.difficulty());
         let wishes = plan::wishes(self.analysis, self.palette, area, difficulty, &mut self.sampler);
-        let others = wishes.into_iter().filter(|wish| !done.contains(&wish.stype) && wish.role != Role::Exit);
+        let others =
+            wishes.into_iter().filter(|wish| !traffic.types.contains(&wish.stype) && wish.role != Role::Exit);
         let (goods, rest): (Vec<_>, Vec<_>) = others.partition(|wish| wish.role == Role::Collectable);
         for wish in rest {
             self.fulfil(wish);
         }
+        self.soil();
         for &cell in &lanes {
             self.board.kept[cell] = false;
         }

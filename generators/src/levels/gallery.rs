@@ -129,7 +129,13 @@ impl Builder<'_> {
             let now = left.min(fits);
             for at in 0..now {
                 let middle = (2 * at + 1) * field.length / (2 * now);
-                let along = (middle + self.sampler.below(2)).min(field.length - 1);
+                let mut along = (middle + self.sampler.below(2)).min(field.length - 1);
+                // Nothing starts right over the avatar.
+                let home = field.along(self, self.board.start);
+                if along.abs_diff(home) < 3 {
+                    along =
+                        if along < home { home.saturating_sub(3) } else { (home + 3).min(field.length - 1) };
+                }
                 let cell = field.cell(self, along, deep);
                 if self.board.is_free(cell) {
                     self.put(cell, wish.stype);
@@ -149,7 +155,12 @@ impl Builder<'_> {
                 let deep = field.deep(builder, cell);
                 let outer = along.min(length - 1 - along);
                 let apart = builder.apart_from(cell, Role::Spawner).min(12) as u32;
-                if deep > (home / 4).max(1) { 0 } else { apart * if outer < length / 5 { 4 } else { 1 } }
+                let over = along.abs_diff(field.along(builder, builder.board.start)) < 3;
+                if deep > (home / 4).max(1) || over {
+                    0
+                } else {
+                    apart * if outer < length / 5 { 4 } else { 1 }
+                }
             });
         }
     }

@@ -8,7 +8,7 @@ use engine::{Action, Level, Outcome, Seed, State};
 /// Ticks that a player who does nothing should live through.
 const GRACE: usize = 12;
 /// Futures in which that is tried.
-const FUTURES: u64 = 3;
+const FUTURES: u64 = 4;
 
 impl ConstructiveLevels<'_> {
     /// Whether a board makes a level; and whether the player has time to look around.

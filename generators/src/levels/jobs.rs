@@ -2,7 +2,7 @@
 
 use super::palette::{Palette, Walk};
 use super::plan::{furnishable, round};
-use engine::analysis::{Fate, Key, Pushable, Role, Sink, Steering};
+use engine::analysis::{Fate, Key, Lock, Pushable, Role, Sink, Steering};
 use engine::{Analysis, Sampler, SpriteType};
 
 /// Push a sprite onto a partner.
@@ -29,6 +29,10 @@ pub(crate) struct Jobs {
     pub(crate) bridge: bool,
     /// A door that the last job opens.
     pub(crate) door: Option<SpriteType>,
+    /// A gate before what is to be visited at last, if neither a bridge nor a door is in the way.
+    pub(crate) gate: Option<SpriteType>,
+    /// How many of the visits are to the keys of the gate; they come first.
+    pub(crate) keys: usize,
     /// Things to push that are merely in the way, with their types.
     pub(crate) loose: Vec<SpriteType>,
     /// What the avatar has to touch at last, in order: keys, then exits and goods.
@@ -82,6 +86,7 @@ impl Jobs {
             plan.removals(&wanted, remove, count, sampler);
             plan.visits = visits(analysis, palette);
         }
+        plan.guard(analysis, palette, sampler);
         let placed = |stype: &&SpriteType| palette.symbol(**stype).is_some();
         let done = |stype: &SpriteType| {
             plan.visits.contains(stype)
@@ -131,7 +136,8 @@ impl Jobs {
             .collect();
         if !switches.is_empty() {
             let (door, job) = sampler.choose(&switches);
-            self.door = Some(*door);
+            // What is opened may be the exit itself.
+            self.door = Some(*door).filter(|door| !self.visits.contains(door));
             self.jobs.push((*job).clone());
         } else {
             let bridging: Vec<&Job> = options.iter().filter(|job| bridges(job)).collect();
@@ -144,6 +150,48 @@ impl Jobs {
             }
         }
     }
+}
+
+impl Jobs {
+    /// Whether something bars the way to what is to be visited at last.
+    pub(crate) fn is_barred(&self) -> bool {
+        self.bridge || self.door.is_some() || self.gate.is_some()
+    }
+
+    /// A gate bars the way to the exit, if there is one to be had and nothing else does.
+    fn guard(&mut self, analysis: &Analysis, palette: &Palette, sampler: &mut Sampler) {
+        if self.is_barred() || self.visits.is_empty() {
+            return;
+        }
+        let mut options: Vec<(SpriteType, SpriteType, usize)> = Vec::new();
+        for stype in furnishable(analysis, palette, Role::Gate) {
+            let Some(lock) =
+                analysis.locks().iter().find(|lock| lock.stype == stype && !is_pushed_open(lock))
+            else {
+                continue;
+            };
+            let amount = if let Key::Resource { amount, .. } = lock.key { amount.max(1) } else { 1 };
+            for &(giver, each) in &lock.givers {
+                let count = amount.saturating_add(each - 1) / each.max(1);
+                let lies = palette.symbol(giver).is_some() && !palette.ground.contains(&giver);
+                if lies && count <= 3 && !self.visits.contains(&giver) {
+                    options.push((stype, giver, count as usize));
+                }
+            }
+        }
+        if options.is_empty() {
+            return;
+        }
+        let (gate, giver, count) = *sampler.choose(&options);
+        self.gate = Some(gate);
+        self.keys = count;
+        self.visits.splice(0..0, std::iter::repeat_n(giver, count));
+    }
+}
+
+/// Whether a lock opens by pushing something onto something.
+fn is_pushed_open(lock: &Lock) -> bool {
+    matches!(lock.key, Key::Switch(_, Some(_)))
 }
 
 /// The partner can be placed, and pushing onto it spoils nothing.
@@ -179,7 +227,8 @@ fn visits(analysis: &Analysis, palette: &Palette) -> Vec<SpriteType> {
     let exits = furnishable(analysis, palette, Role::Exit);
     let mut visits: Vec<SpriteType> = Vec::new();
     for &exit in exits.iter().take(1) {
-        if let Some(lock) = analysis.locks().iter().find(|lock| lock.stype == exit) {
+        let own = |lock: &&Lock| lock.stype == exit && !is_pushed_open(lock);
+        if let Some(lock) = analysis.locks().iter().find(own) {
             let keys =
                 lock.givers.iter().map(|(giver, _)| *giver).filter(|&giver| palette.symbol(giver).is_some());
             visits.extend(keys.take(1));

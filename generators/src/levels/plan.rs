@@ -38,7 +38,7 @@ pub(crate) fn wishes(
             wish.count = wish.count.min(1);
         }
     }
-    require(analysis, &mut wishes);
+    require(analysis, area, &mut wishes);
     wishes
 }
 
@@ -141,7 +141,7 @@ fn share(mut types: Vec<SpriteType>, role: Role, total: usize, sampler: &mut Sam
 }
 
 /// Raises counts, or lowers them, until no termination holds at the start.
-fn require(analysis: &Analysis, wishes: &mut [Wish]) {
+fn require(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     for requirement in analysis.requirements() {
         if matches!(requirement.reason, Reason::Avatar | Reason::Lock(_)) {
             continue;
@@ -150,7 +150,8 @@ fn require(analysis: &Analysis, wishes: &mut [Wish]) {
             let listed = wishes.iter().filter(|wish| requirement.types.contains(&wish.stype));
             listed.map(|wish| wish.count).sum()
         };
-        while sum(wishes) < requirement.at_least as usize {
+        // More than the board can hold is not worth counting.
+        while sum(wishes) < (requirement.at_least as usize).min(area) {
             let fewest = wishes.iter_mut().filter(|wish| requirement.types.contains(&wish.stype));
             let Some(wish) = fewest.min_by_key(|wish| wish.count) else { break };
             wish.count += 1;

@@ -221,12 +221,13 @@ impl Pulls {
             ways.push(push.way);
             avatar = push.from;
         }
-        if done == plan.jobs.len()
-            && let Some(door) = opens
-        {
-            now.closed[door] = false;
-        }
-        for &cell in visits {
+        // A door opens with the last job, a gate once its keys have been visited.
+        let mut opened = plan.keys == 0 && done == plan.jobs.len();
+        for (at, &cell) in visits.iter().enumerate() {
+            opened |= plan.keys > 0 && at >= plan.keys;
+            if let Some(door) = opens.filter(|_| opened) {
+                now.closed[door] = false;
+            }
             now.closed[cell] = false;
             walk(&now, avatar, cell, &mut ways)?;
             avatar = cell;

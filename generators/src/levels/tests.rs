@@ -106,10 +106,30 @@ fn what_no_level_can_serve_is_refused() {
     };
     refuse(source("A > avatar avatar", "gem"), LevelConfig::default(), "exactly one avatar");
     refuse(source("g > gem", "ghost"), LevelConfig::default(), "termination 1");
+    refuse(source("g > gem", "gem limit=2147483647"), LevelConfig::default(), "termination 1");
     let narrow = LevelConfig { columns: (3, 9), ..LevelConfig::default() };
     refuse(source("g > gem", "gem"), narrow, "columns from 3 to 9");
     let hard = LevelConfig { difficulty: 1.5, ..LevelConfig::default() };
     refuse(source("g > gem", "gem"), hard, "difficulty 1.5");
+}
+
+/// Numbers that no level can meet cost no time and break nothing.
+#[test]
+fn absurd_numbers_are_survived() {
+    let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    gem > Resource limit=2147483647 value=1\n    \
+                  door > Door\n    gate > Door\n    foe > Chaser stype=hero speed=1e300 cooldown=2147483647\n    \
+                  hero > MovingAvatar\n  LevelMapping\n    w > wall\n    g > gem\n    d > door\n    t > gate\n    \
+                  f > foe\n    h > hero\n  InteractionSet\n    hero wall gate > stepBack\n    gem hero > collectResource\n    \
+                  door hero > killIfOtherHasMore resource=gem limit=2147483647 subtract=True\n    \
+                  gate hero > killIfOtherHasMore resource=gem limit=2147483647 subtract=True\n    \
+                  hero foe > killIfHasLess resource=gem limit=2147483647\n  TerminationSet\n    \
+                  SpriteCounter stype=door limit=0 win=True\n    SpriteCounter stype=gem limit=-2147483648 win=True\n    \
+                  MultiSpriteCounter stype1=foe stype2=gem limit=2147483647 win=False\n";
+    let game = Game::from_source(source).unwrap();
+    assert!(!engine::describe(&game).is_empty());
+    let levels = ConstructiveLevels::new(&game, LevelConfig::default()).unwrap();
+    let made = levels.generate(Seed::from_text("absurd"));
+    assert!(matches!(made, Err(GenerateError::Unlucky(_))), "{made:?}");
 }
 
 #[test]
@@ -131,6 +151,34 @@ fn harder_levels_hold_more_that_harms() {
     let (easy, middle, hard) = (harmful(0.0), harmful(0.5), harmful(1.0));
     assert!(easy < middle && middle < hard, "{easy} {middle} {hard}");
 }
+
+/// A golden vector: if it moves, GENERATION must be bumped.
+#[test]
+fn levels_are_frozen() {
+    let game = Game::from_source(
+        "BasicGame\n  SpriteSet\n    wall > Immovable\n    gem > Resource limit=9\n    gate > Door\n    exit > Door\n    \
+         bat > RandomNPC cooldown=2\n    hero > MovingAvatar\n  LevelMapping\n    w > wall\n    g > gem\n    d > gate\n    \
+         x > exit\n    b > bat\n    h > hero\n  InteractionSet\n    hero wall gate > stepBack\n    \
+         gem hero > collectResource\n    gate hero > killIfOtherHasMore resource=gem limit=2\n    bat wall gate > stepBack\n    \
+         exit hero > killSprite\n    hero bat > killSprite\n  TerminationSet\n    SpriteCounter stype=hero win=False\n    \
+         SpriteCounter stype=exit win=True\n",
+    )
+    .unwrap();
+    let levels = ConstructiveLevels::new(&game, LevelConfig::default()).unwrap();
+    let level = levels.generate(Seed::from_text("golden")).unwrap();
+    assert_eq!(level.to_string(), GOLDEN, "\n{level}");
+}
+
+const GOLDEN: &str = "\
+wwwwwwwwwwwwwwww
+w     w     g  w
+w    xw     w  w
+w ww wwww www  w
+w b   w     w  w
+w     w  b  w hw
+w     d    gw  w
+wwwwwwwwwwwwwwww
+";
 
 #[test]
 fn solutions_win() {

@@ -14,8 +14,8 @@ impl Builder<'_> {
     pub(crate) fn warehouse(&mut self, plan: &Jobs) -> Option<Vec<(i32, i32)>> {
         let grid = self.board.grid;
         let mut pulls = Pulls::new(grid, self.board.wall.clone());
-        // What lies behind a door or a bridge, and the cell of that door or bridge.
-        let barrier = if plan.bridge || plan.door.is_some() {
+        // What lies behind a bridge, a door or a gate, and the cell of that.
+        let barrier = if plan.is_barred() {
             let cells: Vec<usize> = self.board.free().collect();
             self.board.start = *self.sampler.choose(&cells);
             let bottleneck = self.bottleneck(plan.bridge).or_else(|| self.build_vault(plan.bridge))?;
@@ -25,7 +25,7 @@ impl Builder<'_> {
             None
         };
         let behind = |cell: usize| barrier.as_ref().is_some_and(|barrier| barrier.behind.contains(&cell));
-        let door = barrier.as_ref().filter(|_| plan.door.is_some()).map(|barrier| barrier.cell);
+        let door = barrier.as_ref().filter(|_| !plan.bridge).map(|barrier| barrier.cell);
         let visits =
             self.place_visits(plan, &mut pulls, &behind, barrier.as_ref().map(|barrier| barrier.cell))?;
         if let Some(door) = door {
@@ -51,13 +51,8 @@ impl Builder<'_> {
                     if job.fills && !job.stays { None } else { Some((job.partner, walkable)) };
             }
         }
-        if let Some(&last) = visits.last() {
-            pulls.avatar = Some(last);
-        }
-        // The exit and the like are behind what the last job opens: the avatar comes out of there, backwards.
-        if barrier.is_some() && !plan.bridge {
-            pulls.avatar = None;
-        }
+        // Backwards, the avatar comes from what it visited after the last push; or out of a door that is closed now.
+        pulls.avatar = if plan.door.is_some() { None } else { visits.first().copied() };
         self.scatter(plan, &sockets, &mut pulls);
         let depth = 3.0 + 7.0 * self.difficulty();
         for (job, &cell) in plan.jobs.iter().zip(&sockets).rev() {
@@ -90,13 +85,7 @@ impl Builder<'_> {
                 let inside = behind(cell);
                 let cut = builder.board.would_cut(builder.palette, cell);
                 let near = barrier.is_some_and(|barrier| grid.manhattan(cell, barrier) < 1);
-                let side = if barrier.is_none() {
-                    true
-                } else if last {
-                    inside
-                } else {
-                    inside || !near
-                };
+                let side = if at < plan.keys { !inside } else { inside || barrier.is_none() || !last };
                 let walls = builder.board.walls_around(cell) as u32;
                 let apart = visits.iter().map(|&other| grid.manhattan(cell, other)).min().unwrap_or(9) as u32;
                 if !side || cut || near || Some(cell) == barrier { 0 } else { (1 + walls) * apart.min(9) }
@@ -104,7 +93,7 @@ impl Builder<'_> {
             pulls.barred[cell] = true;
             let blocked = self.board.placed[cell]
                 .is_some_and(|symbol| !matches!(self.palette.walk(symbol), Walk::Open | Walk::Breakable));
-            pulls.closed[cell] = blocked && !last;
+            pulls.closed[cell] = blocked;
             visits.push(cell);
         }
         Some(visits)
@@ -216,7 +205,7 @@ impl Builder<'_> {
                 used[ahead] = true;
             }
         }
-        if let (Some(cell), Some(stype)) = (door, plan.door) {
+        if let (Some(cell), Some(stype)) = (door, plan.door.or(plan.gate)) {
             self.put(cell, stype);
         }
         for cell in 0..grid.len() {
@@ -254,6 +243,10 @@ impl Builder<'_> {
     /// After the puzzle: what else the game has, where it is in nobody's way.
     pub(crate) fn garnish(&mut self, plan: &Jobs) {
         self.board.pushing = true;
+        if plan.gate.is_none() {
+            let gates = self.gates();
+            self.keys(&gates);
+        }
         let (area, difficulty) = (self.board.area(), self.difficulty());
         let wishes = super::plan::wishes(self.analysis, self.palette, area, difficulty, &mut self.sampler);
         let used: Vec<SpriteType> = plan.jobs.iter().flat_map(|job| [job.pushed, job.partner]).collect();
@@ -265,5 +258,6 @@ impl Builder<'_> {
             }
         }
         self.other_walls();
+        self.soil();
     }
 }

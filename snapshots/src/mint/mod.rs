@@ -265,7 +265,7 @@ impl Mint<'_> {
                 deterministic: game.is_deterministic(),
                 digest: game.digest(),
                 origin,
-                rules: String::new(),
+                rules: engine::describe(&game),
                 levels: levels.iter().map(|level| level.card.clone()).collect(),
             },
             levels,
