@@ -8,7 +8,7 @@ pub(in crate::ontology) mod walkers;
 use super::class::SpriteClass;
 use super::traits::Traits;
 use crate::ontology::physics;
-use crate::state::{Slot, flag};
+use crate::state::Slot;
 use crate::step::Step;
 
 /// `heading` of an NPC that has not drawn a direction.
@@ -87,17 +87,21 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot) {
     }
 }
 
-/// The update of every sprite that does not replace it: passive movement, then the time to live.
-fn base(step: &mut Step<'_>, slot: Slot) {
-    let sprite = *step.state.sprite(slot);
-    let traits = &step.rules.types[sprite.stype.index()].traits;
+/// Passive movement, of those that are not static; what every update begins with.
+fn passive(step: &mut Step<'_>, slot: Slot) {
+    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
     if !traits.is_static && !traits.only_active {
         physics::passive(step, slot);
     }
-    if sprite.time_to_live > 0 {
+}
+
+/// The update of every sprite that does not replace it: passive movement, then the time to live.
+fn base(step: &mut Step<'_>, slot: Slot) {
+    passive(step, slot);
+    let time_to_live = step.state.sprite(slot).time_to_live;
+    if time_to_live > 0 {
         step.state.edit(slot).time_to_live -= 1;
-    } else if sprite.time_to_live == 0 {
+    } else if time_to_live == 0 {
         step.kill(slot);
     }
-    debug_assert!(!sprite.is(flag::GONE), "only live sprites are updated");
 }

@@ -1,6 +1,6 @@
 //! Characters that move by chance or after others (`spec/02` §7).
 
-use super::NO_HEADING;
+use super::{NO_HEADING, passive};
 use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::physics;
@@ -15,14 +15,6 @@ pub(super) fn random_npc(step: &mut Step<'_>, slot: Slot) {
     passive(step, slot);
     let direction = random_move(step, slot);
     walk(step, slot, direction);
-}
-
-/// NPCs replace the base update, but keep its passive movement.
-fn passive(step: &mut Step<'_>, slot: Slot) {
-    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
-    if !traits.is_static && !traits.only_active {
-        physics::passive(step, slot);
-    }
 }
 
 fn walk(step: &mut Step<'_>, slot: Slot, direction: Direction) {

@@ -1,16 +1,10 @@
 //! Walkers: they follow the ground and turn at walls (`spec/02` §7.6).
 
+use super::passive;
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::state::{Slot, flag};
 use crate::step::Step;
-
-fn passive(step: &mut Step<'_>, slot: Slot) {
-    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
-    if !traits.is_static && !traits.only_active {
-        physics::passive(step, slot);
-    }
-}
 
 pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
     passive(step, slot);
