@@ -41,9 +41,10 @@ impl LevelInput {
 }
 
 impl GameInput {
-    /// Compiles the game.
-    pub(crate) fn compile(&self) -> Result<Game, Failure> {
-        Game::from_source(&self.source.text)
+    /// Compiles the game; `as_reference`: with the reference's recovery from faults.
+    pub(crate) fn compile(&self, as_reference: bool) -> Result<Game, Failure> {
+        let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
+        load(&self.source.text)
             .map_err(|problems| Failure::malformed(crate::render::problems(&self.source, &problems.0)))
     }
 

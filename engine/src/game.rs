@@ -18,6 +18,9 @@ use std::sync::Arc;
 pub struct SpriteType(pub u16);
 
 impl SpriteType {
+    /// No type: what an undeclared name stands for, in games loaded as the reference does.
+    pub(crate) const NONE: SpriteType = SpriteType(u16::MAX);
+
     /// As an index into tables with one entry a type.
     pub fn index(self) -> usize {
         usize::from(self.0)
@@ -97,6 +100,8 @@ pub enum Limit {
     FlatSprite,
     /// A path was asked for in a game without `obs=`.
     NoPaths,
+    /// A sprite of a type without a class, or of an undeclared type, was to be made or sought.
+    NoType,
     /// An effect ran without the sprites that it needs.
     NoSprite,
     /// A type turned into itself without end.
@@ -111,6 +116,9 @@ impl fmt::Display for Limit {
             Limit::NoAvatar => "the score changed after the avatar was removed for good",
             Limit::FlatSprite => "a sprite of height 0 moved",
             Limit::NoPaths => "a path was asked for in a game without `obs=`",
+            Limit::NoType => {
+                "a sprite of an unknown type, or of a type without a class, was to be made or sought"
+            }
             Limit::NoSprite => "an effect ran without the sprites that it needs",
             Limit::EndlessTransform => "a type was transformed into itself without end",
         })
@@ -138,6 +146,8 @@ pub(crate) struct TypeInfo {
     pub(crate) resource_limit: i32,
     /// A leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
     pub(crate) leaf: bool,
+    /// Messages that the reference logs when it makes the first sprite: parameters that the class does not have.
+    pub(crate) unknown_parameters: u32,
     /// Notices what it stands on when rules test what it meets.
     pub(crate) ground_aware: bool,
 }
@@ -206,6 +216,10 @@ pub(crate) struct Rules {
     pub(crate) description: Description,
     pub(crate) digest: Digest,
     pub(crate) warnings: Vec<Diagnostic>,
+    /// Loaded as the reference does: levels are, too.
+    pub(crate) as_reference: bool,
+    /// Messages that the reference has logged when the rules are loaded.
+    pub(crate) messages: u32,
     /// Pixels of a cell, if the game says so.
     pub(crate) square_size: Option<i32>,
     pub(crate) types: Vec<TypeInfo>,
@@ -272,6 +286,19 @@ impl Game {
     /// The syntax tree that the game was compiled from.
     pub fn description(&self) -> &Description {
         &self.0.description
+    }
+
+    /// Parses and compiles as the reference does: it drops, ignores or overlooks faults where it can, and counts messages
+    /// (`spec/01` §1). For comparing with it; everywhere else an error is an error.
+    ///
+    /// # Errors
+    /// What the reference dies of.
+    pub fn from_source_as_reference(source: &str) -> Result<Game, Diagnostics> {
+        let (description, problems) = crate::syntax::parse_as_reference(source);
+        if Diagnostics::has_errors(&problems) {
+            return Err(Diagnostics(problems));
+        }
+        crate::compile::compile_as_reference(&description).map(|rules| Game(Arc::new(rules)))
     }
 
     /// What is legal in the file but surely not meant.

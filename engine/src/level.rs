@@ -16,6 +16,9 @@ pub const MAX_LEVEL_TEXT: usize = 1 << 18;
 /// Problems of one kind that are reported one by one.
 const MAX_REPEATS: usize = 10;
 
+/// In levels that are loaded as the reference does: a character without a mapping.
+const UNMAPPED: u8 = 0;
+
 /// A level that fits one game: row-major characters, every one in the game's LevelMapping or a blank.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Level {
@@ -23,6 +26,8 @@ pub struct Level {
     rows: usize,
     cells: Vec<u8>,
     warnings: Vec<Diagnostic>,
+    /// Messages that the reference logs when it builds the level.
+    pub(crate) messages: u32,
 }
 
 impl Level {
@@ -146,6 +151,9 @@ impl LevelReader<'_> {
             }
         }
         let mapped = rules.description.mapping.iter().any(|line| line.symbol == symbol);
+        if !mapped && places.is_empty() && symbol != ' ' && rules.as_reference {
+            return UNMAPPED;
+        }
         if !mapped && places.is_empty() && symbol != ' ' {
             let message = format!("`{}` is not in the LevelMapping", symbol.escape_default());
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
@@ -201,11 +209,17 @@ impl LevelReader<'_> {
                 Diagnostic::error("no-avatar", Span::new(0, end.min(1)), "the level places no avatar");
             self.problem(problem.help(help));
         }
+        let mut messages = 0;
+        if self.game.0.as_reference {
+            let undefined = |&&symbol: &&u8| symbol == UNMAPPED;
+            messages = cells.iter().filter(undefined).count() as u32;
+            self.problems.retain(|problem| problem.code == "too-large");
+        }
         let problems = Diagnostics::sorted(self.problems);
         if Diagnostics::has_errors(&problems.0) {
             return Err(problems);
         }
-        Ok(Level { columns, rows, cells, warnings: problems.0 })
+        Ok(Level { columns, rows, cells, warnings: problems.0, messages })
     }
 }
 

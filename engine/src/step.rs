@@ -57,7 +57,7 @@ impl Game {
             avatar: NONE,
             next_id: 0,
             population: 0,
-            messages: 0,
+            messages: rules.messages + level.messages,
             block,
             columns,
             rows,
@@ -87,7 +87,11 @@ impl Game {
                 step.add(stype, column * block, row * block);
             }
         }
+        step.remove_extra_avatars();
         step.find_avatar();
+        if let Some(limit) = step.stopped {
+            state.outcome = Outcome::Stopped(limit);
+        }
         for (at, timed) in rules.timed.iter().enumerate() {
             if let Some(due) = timed.first_due {
                 state.plan(Timer { due, timed: at as u16 });
@@ -203,6 +207,19 @@ impl Step<'_> {
         }
     }
 
+    /// The reference removes all avatars but the first made, with a message; checked levels have one.
+    fn remove_extra_avatars(&mut self) {
+        let slots = 0..self.state.sprites.len() as Slot;
+        let avatars: Vec<Slot> = slots.filter(|&slot| self.state.sprite(slot).is(flag::AVATAR)).collect();
+        let Some((_, extra @ [_, ..])) = avatars.split_first() else { return };
+        self.message();
+        for &slot in extra {
+            self.state.release(slot);
+            self.state.stale.retain(|&stale| stale != slot);
+            self.state.moved.retain(|&moved| moved != slot);
+        }
+    }
+
     /// Makes a sprite the player's: from now on it is updated, and ages.
     pub(crate) fn control(&mut self, slot: Slot) {
         self.state.avatar = slot;
@@ -264,6 +281,10 @@ impl Step<'_> {
     /// Makes a sprite unless a singleton of its line exists or there are too many (`spec/01` §3.5).
     pub(crate) fn add(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         let rules = self.rules;
+        if stype == SpriteType::NONE {
+            self.stop(Limit::NoType);
+            return None;
+        }
         for &ancestor in &rules.types[stype.index()].path {
             if rules.types[ancestor.index()].singleton && self.state.count(rules, ancestor) > 0 {
                 return None;
@@ -279,11 +300,18 @@ impl Step<'_> {
             self.message();
             return None;
         }
+        if info.class.is_none() {
+            self.stop(Limit::NoType);
+            return None;
+        }
         let traits = &info.traits;
         let block = self.state.block;
         let scaled = |factor: f64| (f64::from(block) * factor) as i32;
         let rect = Rect { x, y, w: scaled(traits.width_factor), h: scaled(traits.height_factor) };
         let first = !std::mem::replace(&mut self.state.templates[stype.index()], true);
+        if first {
+            self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
+        }
         let is_avatar = info.class.is_some_and(|class| class.is_avatar());
         // Sprites of avatar classes are updated, and age, only as the player's.
         let order = info.order.map(i32::from).filter(|_| !is_avatar);
@@ -311,7 +339,7 @@ impl Step<'_> {
             time_to_live: traits.time_to_live,
             count: traits.age,
             start: traits.start,
-            spawns: traits.stypes.first().copied().unwrap_or(stype),
+            spawns: traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
             extra: NONE,
             stype,
             flags,

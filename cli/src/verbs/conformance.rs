@@ -131,7 +131,7 @@ fn load_game(games: &Path, name: &str) -> Result<Result<Game, String>, Failure> 
         return Err(Failure::malformed(message));
     };
     let source = input::read_text(&path, engine::MAX_SOURCE)?;
-    Ok(Game::from_source(&source).map_err(|problems| {
+    Ok(Game::from_source_as_reference(&source).map_err(|problems| {
         let first = problems.0.first().map_or(String::new(), |first| first.message.clone());
         format!("{} does not load: {} problems, the first: {first}", path.display(), problems.0.len())
     }))

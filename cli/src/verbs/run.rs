@@ -36,6 +36,9 @@ pub(crate) struct Args {
     /// Text that all seeds come from
     #[arg(long, value_name = "TEXT", default_value = "run")]
     seed: String,
+    /// Load games as the reference engine does: overlook faults that it overlooks
+    #[arg(long)]
+    as_reference: bool,
     /// Also write one line an episode to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -72,7 +75,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut subjects = Vec::new();
     for name in &args.games {
         for input in input::games(name)? {
-            let game = input.compile()?;
+            let game = input.compile(args.as_reference)?;
             let levels =
                 input.levels()?.iter().map(|text| level(&game, text)).collect::<Result<Vec<_>, _>>()?;
             if levels.is_empty() {

@@ -30,6 +30,9 @@ pub(crate) struct Args {
     /// Text that the judges' seed comes from
     #[arg(long, value_name = "TEXT", default_value = "validate")]
     seed: String,
+    /// Load the game as the reference engine does: overlook faults that it overlooks
+    #[arg(long)]
+    as_reference: bool,
     /// Write the winning episode here (one level only)
     #[arg(long, value_name = "FILE")]
     witness: Option<PathBuf>,
@@ -58,7 +61,8 @@ struct LevelDocument {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
-    let game = match Game::from_source(&input.source.text) {
+    let load = if args.as_reference { Game::from_source_as_reference } else { Game::from_source };
+    let game = match load(&input.source.text) {
         Ok(game) => game,
         Err(problems) => {
             let problems_placed = render::placed(&input.source, &problems.0);

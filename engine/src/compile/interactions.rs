@@ -116,6 +116,33 @@ pub(super) fn program(
     program
 }
 
+/// What the reference makes of a line: all of it, the partners before the first unknown one, or nothing; and how many
+/// messages it logs about parameters.
+pub(super) fn usable(line: &InteractionLine, names: Names<'_>) -> (Option<InteractionLine>, u32) {
+    let mut reader = Reader { line, names, used: Vec::new(), problems: Vec::new(), timed: 0, planned: None };
+    let built = reader.line(0);
+    reader.clock();
+    let fatal = |problem: &Diagnostic| super::FATAL.contains(&problem.code);
+    if built.is_none() || reader.problems.iter().any(fatal) {
+        return (None, 0);
+    }
+    let silent = reader.has_clock() || line.effect.text == "addTimer";
+    let unknown = reader.problems.iter().filter(|problem| problem.code == "unknown-parameter").count() as u32;
+    let passes = if line.effect.text == "transformIfCount" { 2 } else { 1 };
+    let logged = if silent { 0 } else { passes * unknown };
+    let known = |word: &&Word| !matches!(partner(word, names, &mut Vec::new()), Partner::Unknown);
+    let by_the_clock = reader.has_clock();
+    if !by_the_clock && !known(&&line.first) {
+        return (None, logged);
+    }
+    let second: Vec<Word> =
+        line.second.iter().take_while(|word| by_the_clock || known(word)).cloned().collect();
+    if second.is_empty() {
+        return (None, logged);
+    }
+    (Some(InteractionLine { second, ..line.clone() }), logged)
+}
+
 #[derive(Clone, Copy)]
 enum Partner {
     Sprite(SpriteType),

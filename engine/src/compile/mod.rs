@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::ontology::sprites as behaviour;
 use crate::ontology::terminations::Condition;
-use crate::syntax::{Description, Literal, Word, literal, print_bare};
+use crate::syntax::{Description, Literal, Section, Word, literal, print_bare};
 use smallvec::SmallVec;
 
 /// Sprite types at most.
@@ -20,10 +20,84 @@ const MAX_PASSES: usize = 20_000;
 /// Cells that the largest sprite may cover along one side.
 const MAX_REACH: i32 = 64;
 
+/// What to do about faults.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Policy {
+    /// Errors are errors.
+    Strict,
+    /// Drops, ignores and overlooks as the reference does.
+    Reference,
+}
+
 pub(crate) fn compile(description: &Description) -> Result<Rules, Diagnostics> {
+    compile_with(description, Policy::Strict, 0)
+}
+
+/// Faults that end the reference's reading of the file: the rest is missing.
+const FATAL: [&str; 6] = [
+    "unknown-effect",
+    "unknown-sprite",
+    "missing-parameter",
+    "bad-interaction",
+    "unknown-termination",
+    "no-class",
+];
+
+/// What is read of the file is what comes before the first fault that ends the reading.
+pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, Diagnostics> {
+    let mut read = Description {
+        mapping: Vec::new(),
+        interactions: Vec::new(),
+        terminations: Vec::new(),
+        ..description.clone()
+    };
+    let mut messages = description.messages;
+    let (types, _) = sprites::types(description, Policy::Reference, &mut Vec::new());
+    let names = Names { types: &types };
+    let is_fatal = |problems: &[Diagnostic]| problems.iter().any(|problem| FATAL.contains(&problem.code));
+    for section in &description.order {
+        let mut aborted = false;
+        match section {
+            Section::SpriteSet => {}
+            Section::LevelMapping => read.mapping.clone_from(&description.mapping),
+            Section::InteractionSet => {
+                for line in &description.interactions {
+                    let (usable, logged) = interactions::usable(line, names);
+                    messages += logged;
+                    aborted = usable.as_ref() != Some(line);
+                    read.interactions.extend(usable);
+                    if aborted {
+                        break;
+                    }
+                }
+            }
+            Section::TerminationSet => {
+                for line in &description.terminations {
+                    let mut problems = Vec::new();
+                    let alone = Description { terminations: vec![line.clone()], ..Description::default() };
+                    terminations::terminations(&alone, names, &mut problems);
+                    aborted = is_fatal(&problems);
+                    messages +=
+                        problems.iter().filter(|problem| problem.code == "unknown-parameter").count() as u32;
+                    if aborted {
+                        break;
+                    }
+                    read.terminations.push(line.clone());
+                }
+            }
+        }
+        if aborted {
+            messages += 1;
+            break;
+        }
+    }
+    compile_with(&read, Policy::Reference, messages)
+}
+
+fn compile_with(description: &Description, policy: Policy, messages: u32) -> Result<Rules, Diagnostics> {
     let mut problems = Vec::new();
     let square_size = header(description, &mut problems);
-    let (types, order) = sprites::types(description, &mut problems);
+    let (types, order) = sprites::types(description, policy, &mut problems);
     if types.len() > MAX_TYPES {
         let message = format!("the game has {} sprite types; the limit is {MAX_TYPES}", types.len());
         problems.push(Diagnostic::error("too-large", description.header.class.span, message));
@@ -38,6 +112,10 @@ pub(crate) fn compile(description: &Description) -> Result<Rules, Diagnostics> {
         let message =
             format!("the game has {} interactions; the limit is {MAX_PASSES}", program.passes.len());
         problems.push(Diagnostic::error("too-large", description.header.class.span, message));
+    }
+    if policy == Policy::Reference {
+        // What is left is what the reference overlooks.
+        problems.retain(|problem| problem.code == "too-large");
     }
     let problems = Diagnostics::sorted(problems);
     if Diagnostics::has_errors(&problems.0) {
@@ -54,6 +132,8 @@ pub(crate) fn compile(description: &Description) -> Result<Rules, Diagnostics> {
         digest: Digest::of(print_bare(description).as_bytes()),
         description: description.clone(),
         warnings: problems.0,
+        as_reference: policy == Policy::Reference,
+        messages,
         square_size,
         movers: order.iter().rev().copied().filter(moves).collect(),
         order,
@@ -127,7 +207,9 @@ fn mapping(
         seen.push(line.symbol);
         let types = line.names.iter().filter_map(|name| {
             let stype = names.resolve(name, problems)?;
-            names.instantiable(stype, name, problems).then_some(stype)
+            // The reference dies of a type without a class when it makes the sprite.
+            names.instantiable(stype, name, problems);
+            Some(stype)
         });
         let types = types.collect();
         if let Some(entry) =

@@ -1,7 +1,7 @@
 //! The SpriteSet: registry, inheritance, update order (`spec/01` §1.6).
 
 use super::params::set_trait;
-use super::{Names, ranks};
+use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
@@ -23,6 +23,7 @@ struct Resolved<'a> {
 /// The compiled types, in registry order, and the drawing order.
 pub(super) fn types(
     description: &Description,
+    policy: Policy,
     problems: &mut Vec<Diagnostic>,
 ) -> (Vec<TypeInfo>, Vec<SpriteType>) {
     let mut resolved = Vec::new();
@@ -34,21 +35,20 @@ pub(super) fn types(
         .map(|sprite| sprite.name.clone())
         .collect();
 
-    // `wall` and `avatar` come first in every registry, declared or not.
-    let mut registry: Vec<Resolved<'_>> = Vec::new();
-    for (name, class) in [("wall", "Immovable"), ("avatar", "MovingAvatar")] {
-        let declared = resolved.iter().position(|sprite| sprite.name == name);
-        registry.push(declared.map_or_else(|| built_in(name, class), |at| resolved.remove(at)));
-    }
+    // `wall` and `avatar` come first in every registry, declared or not. A name keeps its place; of several definitions
+    // the last one counts (in files without faults there is one).
+    let mut registry: Vec<Resolved<'_>> =
+        vec![built_in("wall", "Immovable"), built_in("avatar", "MovingAvatar")];
     for sprite in resolved {
-        if registry.iter().all(|known| known.name != sprite.name) {
-            registry.push(sprite);
+        match registry.iter_mut().find(|known| known.name == sprite.name) {
+            Some(known) => *known = sprite,
+            None => registry.push(sprite),
         }
     }
 
     let mut rejected = Rejected::default();
     let mut types: Vec<TypeInfo> =
-        registry.iter().map(|sprite| type_info(sprite, &registry, &mut rejected, problems)).collect();
+        registry.iter().map(|sprite| type_info(sprite, &registry, policy, &mut rejected, problems)).collect();
     problems.extend(rejected.by_all());
     let order = update_order(&leaves, &types);
     for (at, stype) in order.iter().enumerate() {
@@ -146,6 +146,7 @@ fn duplicates(resolved: &[Resolved<'_>], problems: &mut Vec<Diagnostic>) {
 fn type_info(
     sprite: &Resolved<'_>,
     registry: &[Resolved<'_>],
+    policy: Policy,
     rejected: &mut Rejected,
     problems: &mut Vec<Diagnostic>,
 ) -> TypeInfo {
@@ -154,16 +155,26 @@ fn type_info(
         SpriteType(at.expect("every line is registered") as u16)
     };
     let path: Box<[SpriteType]> = sprite.path.iter().map(id).collect();
-    let tree: Box<[SpriteType]> = sprite.path.iter().chain(&sprite.descendants).map(id).collect();
+    let mut tree: Vec<SpriteType> = sprite.path.iter().map(id).collect();
+    for descendant in sprite.descendants.iter().map(id) {
+        if !tree.contains(&descendant) {
+            tree.push(descendant);
+        }
+    }
+    let tree: Box<[SpriteType]> = tree.into();
     let class = sprite.class.as_ref().and_then(|word| class_named(word, problems));
     let mut traits = Traits::of_class(class.unwrap_or(SpriteClass::Passive));
     if sprite.line.is_none() && sprite.name == "wall" {
         traits.solid = true;
     }
+    let mut unknown_parameters = 0;
     if let Some(class) = class {
         for param in &sprite.params {
             match set_trait(class, &mut traits, param) {
-                Err(problem) if problem.code == "unknown-parameter" => rejected.problems.push(problem),
+                Err(problem) if problem.code == "unknown-parameter" => {
+                    unknown_parameters += 1;
+                    rejected.problems.push(problem);
+                }
                 Err(problem) => problems.push(problem),
                 Ok(()) => rejected.taken.push(param.key.span),
             }
@@ -197,6 +208,7 @@ fn type_info(
         order: None,
         singleton: sprite.line.is_some_and(|line| line.params.iter().any(singleton)),
         leaf: sprite.descendants.is_empty(),
+        unknown_parameters: if policy == Policy::Reference { unknown_parameters } else { 0 },
         ground_aware: class.is_some_and(SpriteClass::is_ground_aware),
     }
 }

@@ -104,7 +104,9 @@ fn flak(step: &mut Step<'_>, slot: Slot) {
             return;
         }
     }
-    if let Some(shot) = step.add(traits.stypes[0], sprite.rect.x, sprite.rect.y) {
+    if let Some(shot) =
+        step.add(traits.stypes.first().copied().unwrap_or(SpriteType::NONE), sprite.rect.x, sprite.rect.y)
+    {
         if let Some(ammo) = ammo {
             spend(step, slot, ammo, traits.ammo_cost);
         }

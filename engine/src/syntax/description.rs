@@ -135,6 +135,10 @@ pub struct Description {
     pub has: [bool; 4],
     /// Comments below the last line.
     pub tail: Vec<String>,
+    /// The sections in the order of the file; what the reference reads after a fault is missing.
+    pub order: Vec<Section>,
+    /// Messages that the reference would have logged while reading the lines.
+    pub messages: u32,
 }
 
 impl Description {

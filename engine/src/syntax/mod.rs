@@ -10,5 +10,5 @@ pub use description::{
     Word,
 };
 pub(crate) use parse::{Literal, literal};
-pub use parse::{MAX_SOURCE, parse};
+pub use parse::{MAX_SOURCE, parse, parse_as_reference};
 pub use print::{print, print_bare};

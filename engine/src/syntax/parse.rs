@@ -20,11 +20,21 @@ const MAX_DIAGNOSTICS: usize = 100;
 #[grammar = "syntax/vgdl.pest"]
 struct Grammar;
 
+/// Reads a game file as the reference does: faulty lines are dropped, with a message each; lines indented deeper than
+/// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostics are those that the reference dies of.
+pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
+    read(source, true)
+}
+
 /// Reads a game file. The tree holds every line that could be read; the diagnostics, sorted by place, name the rest.
 ///
 /// Cost: linear in the text. Texts above [`MAX_SOURCE`] bytes give one diagnostic and an empty tree.
 pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
-    let mut reader = Reader::default();
+    read(source, false)
+}
+
+fn read(source: &str, as_reference: bool) -> (Description, Vec<Diagnostic>) {
+    let mut reader = Reader { as_reference, ..Reader::default() };
     if source.len() > MAX_SOURCE {
         let message = format!("the game is {} bytes long; at most {MAX_SOURCE} are read", source.len());
         reader
@@ -37,6 +47,11 @@ pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
             .push(Diagnostic::error("not-text", Span::new(at, at + 1), message).help("is this a VGDL file?"));
     } else {
         reader.read(source);
+    }
+    if as_reference {
+        let fatal =
+            ["too-large", "not-text", "empty-game", "unknown-game-class", "missing-section", "too-deep"];
+        reader.problems.retain(|problem| fatal.contains(&problem.code));
     }
     let mut problems = crate::diagnostic::Diagnostics::sorted(reader.problems).0;
     if problems.len() > MAX_DIAGNOSTICS {
@@ -52,6 +67,9 @@ pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
 struct Reader {
     description: Description,
     problems: Vec<Diagnostic>,
+    as_reference: bool,
+    /// The line being read has a token that the reference drops the whole line for.
+    broken: bool,
 }
 
 enum Token {
@@ -80,10 +98,13 @@ impl Reader {
             let end =
                 body.iter().position(|line| Self::names_section(line.text).is_some()).unwrap_or(body.len());
             at += end;
-            self.body(section, line, &body[..end]);
+            if !(self.as_reference && line.text != section.name()) {
+                self.description.order.push(section);
+                self.body(section, line, &body[..end]);
+            }
         }
         for (has, section) in self.description.has.into_iter().zip(Section::ALL) {
-            if !has {
+            if !has && !(self.as_reference && section != Section::SpriteSet) {
                 let problem = Diagnostic::error(
                     "missing-section",
                     header.span,
@@ -179,7 +200,12 @@ impl Reader {
         }
         let indent = inside.first().map_or(0, |line| line.indent);
         for line in inside {
-            if line.indent != indent {
+            if self.as_reference && line.indent != indent {
+                if line.indent > indent {
+                    continue;
+                }
+                self.description.messages += 1;
+            } else if line.indent != indent {
                 let problem =
                     Diagnostic::error("stray-indent", line.span, "this line is indented unlike the others")
                         .label("the reference engine ignores such a line")
@@ -217,6 +243,10 @@ impl Reader {
                 self.problems.push(problem);
             }
             let mut sprite = self.sprite(line);
+            if self.as_reference && sprite.is_none() {
+                // A line without `>` ends its list of siblings.
+                return;
+            }
             let children = &lines[at + 1..at + 1 + deeper];
             match &mut sprite {
                 Some(sprite) => self.sprites(children, &mut sprite.children, depth + 1),
@@ -247,6 +277,9 @@ impl Reader {
                 Diagnostic::error("missing-arrow", line.span, "a sprite line is `name > Class key=value …`")
                     .help("put ` > ` after the name, with a blank on both sides");
             self.problems.push(problem);
+        }
+        if self.as_reference && !arrow {
+            return None;
         }
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
@@ -295,6 +328,17 @@ impl Reader {
                 Token::Param(param) => interaction.params.push(param),
             }
         }
+        if self.as_reference {
+            if self.broken || !arrow || effects.is_empty() || names.is_empty() {
+                self.description.messages += 1;
+                return;
+            }
+            interaction.first = names.remove(0);
+            interaction.second = names;
+            interaction.effect = effects.pop().expect("there is one");
+            self.description.interactions.push(interaction);
+            return;
+        }
         let shape = "an interaction is `sprite partner … > effect key=value …`";
         if !arrow || names.len() < 2 || effects.len() != 1 {
             let help = match (arrow, names.len(), effects.len()) {
@@ -324,6 +368,10 @@ impl Reader {
                 Token::Param(param) => termination.params.push(param),
             }
         }
+        if self.as_reference && self.broken {
+            self.description.messages += 1;
+            return;
+        }
         if termination.class.text.is_empty() {
             let message = "a termination is `Class key=value …`";
             self.problems.push(Diagnostic::error("bad-termination", line.span, message));
@@ -341,6 +389,7 @@ impl Reader {
             }
         };
         let mut tokens = Vec::new();
+        self.broken = false;
         for pair in pairs.next().expect("the rule matched").into_inner() {
             match pair.as_rule() {
                 Rule::word => tokens.push(Token::Word(word(line, &pair))),
@@ -351,6 +400,7 @@ impl Reader {
                     tokens.push(Token::Param(Param { key: part(), value: part() }));
                 }
                 Rule::broken => {
+                    self.broken = true;
                     let message = format!("`{}` is not `key=value`", pair.as_str());
                     let problem = Diagnostic::error("bad-parameter", span(line, &pair), message);
                     self.problems

@@ -23,7 +23,7 @@ pub(crate) fn describe(draft: &Draft) -> Description {
         interactions: rules.iter().map(|rule| interaction(draft, rule)).collect(),
         terminations: terminations(draft),
         has: [true; 4],
-        tail: Vec::new(),
+        ..Description::default()
     }
 }
 

@@ -69,7 +69,7 @@ fn chase_visible(step: &mut Step<'_>, slot: Slot, sees: impl Fn(Rect, Rect) -> b
     passive(step, slot);
     let own = *step.state.sprite(slot);
     let traits = &step.rules.types[own.stype.index()].traits;
-    let targets = own_or_related(step, traits.stypes[0]);
+    let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
     let visible = targets.into_iter().map(|target| step.state.sprite(target).rect);
     let mut options = Options::new();
     for target in closest(traits.continuous, own.rect, visible.filter(|&target| sees(own.rect, target))) {
@@ -95,7 +95,11 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
 }
 
 /// Sprites of exactly that type, or of its relatives if there are none.
-fn own_or_related(step: &Step<'_>, stype: SpriteType) -> SmallVec<[Slot; 8]> {
+fn own_or_related(step: &mut Step<'_>, stype: SpriteType) -> SmallVec<[Slot; 8]> {
+    if stype == SpriteType::NONE {
+        step.stop(Limit::NoType);
+        return SmallVec::new();
+    }
     let own = [stype];
     let types: &[SpriteType] = match step.state.group(stype).head {
         NONE => &step.rules.types[stype.index()].tree,
@@ -129,7 +133,7 @@ pub(super) fn path_chaser(step: &mut Step<'_>, slot: Slot) {
     passive(step, slot);
     let own = *step.state.sprite(slot);
     let traits = &step.rules.types[own.stype.index()].traits;
-    let targets = own_or_related(step, traits.stypes[0]);
+    let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
     let rects = targets.into_iter().map(|target| step.state.sprite(target).rect);
     let direction = match closest(traits.continuous, own.rect, rects).first() {
         Some(target) => {

@@ -1,7 +1,7 @@
 //! Sprites that make sprites (`spec/02` §8).
 
 use super::base;
-use crate::game::SpriteType;
+use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::state::Slot;
@@ -56,6 +56,9 @@ pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
 /// Draws what it would make, in every update.
 pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
     let stypes = &step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
+    if stypes.is_empty() {
+        return step.stop(Limit::NoType);
+    }
     let drawn = stypes[step.state.chance.below(stypes.len() as i32) as usize];
     step.state.edit(slot).spawns = drawn;
     spawn_point(step, slot);
