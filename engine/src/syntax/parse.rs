@@ -104,7 +104,8 @@ impl Reader {
             }
         }
         for (has, section) in self.description.has.into_iter().zip(Section::ALL) {
-            if !has && !(self.as_reference && section != Section::SpriteSet) {
+            let wanted = !self.as_reference || section == Section::SpriteSet;
+            if !has && wanted {
                 let problem = Diagnostic::error(
                     "missing-section",
                     header.span,
