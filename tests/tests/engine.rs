@@ -180,8 +180,10 @@ mod any_text {
         #[test]
         fn no_vgdl_like_text_panics(lines in proptest::collection::vec(line(), 0..30)) {
             let text = format!("BasicGame\n{}", lines.join("\n"));
-            if let Ok(game) = Game::from_source(&text) {
-                let _ = game.level("A.w\n");
+            for game in loads(&text) {
+                if let Ok(level) = game.level("A.w\n") {
+                    play(&game, &level, &[0, 1, 2, 3, 4, 5]);
+                }
             }
         }
 
@@ -197,18 +199,27 @@ mod any_text {
                 let piece = text[start..end].to_owned();
                 if double { text.insert_str(start, &piece) } else { text.replace_range(start..end, "") }
             }
-            if let Ok(game) = Game::from_source(&text)
-                && let Ok(level) = game.level(level)
-            {
-                let mut state = game.start(&level, Seed::from_text("mutant"));
-                for action in actions {
-                    game.step(&mut state, Action::ALL[action]);
+            for game in loads(&text) {
+                if let Ok(level) = game.level(level) {
+                    play(&game, &level, &actions);
                 }
-                prop_assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
-                let _ = game.observe(&state);
-                let _ = state.search_key(&game);
             }
         }
+    }
+
+    /// The game, strictly and as the reference loads it, where it loads.
+    fn loads(text: &str) -> Vec<Game> {
+        [Game::from_source(text), Game::from_source_as_reference(text)].into_iter().flatten().collect()
+    }
+
+    fn play(game: &Game, level: &Level, actions: &[usize]) {
+        let mut state = game.start(level, Seed::from_text("mutant"));
+        for &action in actions {
+            game.step(&mut state, Action::ALL[action]);
+        }
+        assert_eq!(state.state_hash(), state.state_hash_from_scratch(game));
+        let _ = game.observe(&state);
+        let _ = state.search_key(game);
     }
 
     fn corpus_texts() -> Vec<(String, String)> {
