@@ -64,12 +64,16 @@ fn an_unknown_sprite_ends_the_reading_after_its_left_neighbours() {
 fn an_unknown_parameter_is_a_message_and_a_wrong_type_is_none() {
     assert_eq!(play(&GAME.replace("scoreChange=1", "scoreChange=1 bonus=3")), (1.0, Outcome::Won, 1));
     assert_eq!(play(&GAME.replace("gold > Immovable", "gold > Immovable shine=3")), (1.0, Outcome::Won, 1));
-    assert_eq!(play(&GAME.replace("gold > Immovable", "gold > Immovable cooldown=2.0")), (1.0, Outcome::Won, 0));
+    assert_eq!(
+        play(&GAME.replace("gold > Immovable", "gold > Immovable cooldown=2.0")),
+        (1.0, Outcome::Won, 0)
+    );
 }
 
 #[test]
 fn of_two_declarations_the_last_one_counts() {
-    let twice = GAME.replace("gold > Immovable\n", "gold > Immovable\n        gold > Missile orientation=RIGHT\n");
+    let twice =
+        GAME.replace("gold > Immovable\n", "gold > Immovable\n        gold > Missile orientation=RIGHT\n");
     let (game, _, mut state) = load(&twice, "Ag  \n");
     game.step(&mut state, Action::Nil);
     game.step(&mut state, Action::Nil);
@@ -80,7 +84,10 @@ fn of_two_declarations_the_last_one_counts() {
 
 #[test]
 fn a_line_indented_deeper_is_ignored() {
-    assert_eq!(play(&GAME.replace("        gold avatar", "          gold avatar")), (0.0, Outcome::Ongoing, 0));
+    assert_eq!(
+        play(&GAME.replace("        gold avatar", "          gold avatar")),
+        (0.0, Outcome::Ongoing, 0)
+    );
 }
 
 #[test]

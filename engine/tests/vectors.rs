@@ -14,7 +14,8 @@ impl Vector {
         let mut names: Vec<&str> = placed.iter().map(|(name, ..)| *name).collect();
         names.sort_unstable();
         names.dedup();
-        let symbol = |name: &str| char::from(b'a' + names.iter().position(|other| *other == name).unwrap() as u8);
+        let symbol =
+            |name: &str| char::from(b'a' + names.iter().position(|other| *other == name).unwrap() as u8);
         let mapping: String = names.iter().map(|name| format!("    {} > {name}\n", symbol(name))).collect();
         let source = format!(
             "BasicGame square_size=10\n  SpriteSet\n{sprites}\n  LevelMapping\n{mapping}  InteractionSet\n    avatar wall > stepBack\n{rules}\n  TerminationSet\n    Timeout limit=500 win=False\n"
@@ -108,7 +109,8 @@ fn random_walkers() {
 /// T5: a spaceship shoots twice, turns and thrusts.
 #[test]
 fn spaceship() {
-    let sprites = "    avatar > SpaceshipAvatar stype=b physicstype=CONT\n    b > Missile physicstype=CONT speed=3";
+    let sprites =
+        "    avatar > SpaceshipAvatar stype=b physicstype=CONT\n    b > Missile physicstype=CONT speed=3";
     let mut vector = Vector::new(sprites, "", &[("avatar", 90, 20)], 1);
     for action in actions(".XUR") {
         vector.step(action);
@@ -181,7 +183,8 @@ fn ammunition() {
 #[test]
 fn chasers() {
     let sprites = "    t > Immovable\n    none1 > Immovable\n    c > Chaser stype=t\n    d > AlternateChaser stype1=t stype2=t\n    e > AlternateChaser stype1=none1 stype2=t fleeing=True\n    avatar > MovingAvatar";
-    let placed = [("avatar", 0, 70), ("c", 40, 20), ("d", 80, 20), ("e", 130, 20), ("t", 180, 20), ("t", 230, 20)];
+    let placed =
+        [("avatar", 0, 70), ("c", 40, 20), ("d", 80, 20), ("e", 130, 20), ("t", 180, 20), ("t", 230, 20)];
     let mut vector = Vector::new(sprites, "", &placed, 1);
     vector.step(Action::Nil);
     assert_eq!([vector.place("c"), vector.place("d"), vector.place("e")], [(50, 20), (90, 20), (130, 30)]);

@@ -153,6 +153,12 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
     seen.into_iter().map(encounter).collect()
 }
 
+/// What happens by the clock: to which sprites (none: to no sprite in particular), and what.
+pub(super) fn clockwork(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[Deed; 2]>)> {
+    let deeds = |effect: u16| neutral(&rules.effects[usize::from(effect)].effect).0;
+    rules.timed.iter().map(|timed| (timed.target, deeds(timed.effect))).collect()
+}
+
 /// What an effect does and when, without its fine print.
 fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
     use Side::{First, Second};

@@ -1,9 +1,13 @@
 //! What a sprite type is by itself: how it moves, what it makes, whether it can occur.
 
-use super::encounter::{Deed, Encounter, Provided};
+use super::encounter::{self, Deed, Encounter, Provided};
 use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
+use crate::ontology::traits::Traits;
+
+/// Pixels of a cell on a board of usual size.
+const USUAL_BLOCK: i32 = 40;
 
 /// How sprites of a type move by themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +39,12 @@ pub enum Steering {
     Ongoing,
     /// It always moves ahead; the player cannot turn it.
     Unsteered,
+    /// It stays where it is; the player aims and shoots.
+    Fixed,
+    /// It turns and speeds up, and keeps moving as it does.
+    Thrust,
+    /// It falls, walks left and right on what it stands on, and jumps or flaps.
+    Jumping,
 }
 
 /// An avatar type that can occur.
@@ -78,6 +88,8 @@ pub struct Facts {
 }
 
 pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
+    // Sprites with continuous physics move by pixels; where the game does not say how many make a cell, a usual number.
+    let block = f64::from(rules.square_size.unwrap_or(USUAL_BLOCK));
     let mut facts: Vec<Facts> = rules
         .types
         .iter()
@@ -89,7 +101,7 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
                 possible: false,
                 symbols: Vec::new(),
                 motion: info.class.map_or(Motion::Still, |class| motion(class, traits)),
-                pace: info.class.map_or(0.0, |class| pace(class, traits)),
+                pace: info.class.map_or(0.0, |class| pace(class, traits, block)),
                 makes: info.class.map_or(Vec::new(), |class| makes(class, traits)),
                 fleeting: info.class.is_some_and(|c| c.is_a(SpriteClass::Flicker))
                     || traits.time_to_live >= 0,
@@ -138,18 +150,20 @@ fn is_idle_default(rules: &Rules, encounters: &[Encounter], symbol: u8) -> bool 
     !is_avatar(stype) && !encounters.iter().any(touched)
 }
 
-fn motion(class: SpriteClass, traits: &crate::ontology::traits::Traits) -> Motion {
+fn motion(class: SpriteClass, traits: &Traits) -> Motion {
     use SpriteClass as C;
     let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
+    let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
     match class {
         class if class.is_avatar() => Motion::Steered,
         _ if traits.stationary => Motion::Still,
-        C::RandomNPC | C::RandomBomber => Motion::Wandering,
-        C::Chaser | C::Fleeing => match traits.stypes.first() {
+        _ if follows => match traits.stypes.first() {
             Some(&target) if traits.fleeing => Motion::Fleeing(target),
             Some(&target) => Motion::Chasing(target),
             None => Motion::Wandering,
         },
+        C::RandomNPC | C::RandomInertial | C::RandomBomber => Motion::Wandering,
+        C::Walker | C::WalkerJumper => Motion::Straight(traits.orientation),
         C::SpriteProducer => Motion::Still,
         // What has no direction of its own moves only if it is given one.
         _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
@@ -157,24 +171,27 @@ fn motion(class: SpriteClass, traits: &crate::ontology::traits::Traits) -> Motio
     }
 }
 
-fn pace(class: SpriteClass, traits: &crate::ontology::traits::Traits) -> f64 {
+fn pace(class: SpriteClass, traits: &Traits, block: f64) -> f64 {
     if motion(class, traits) == Motion::Still {
         return 0.0;
     }
     // Active movement takes a speed of 0 for 1, passive movement one of −1.
     let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
+    let speed = if traits.continuous { speed / block } else { speed };
     speed / f64::from(traits.cooldown.max(1))
 }
 
-fn makes(class: SpriteClass, traits: &crate::ontology::traits::Traits) -> Vec<SpriteType> {
+fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     use SpriteClass as C;
-    let producer = class.is_a(C::SpawnPoint) || class == C::Spreader;
-    let shoots = class.is_a(C::ShootAvatar) || class == C::FlakAvatar;
-    if producer || shoots { traits.stypes.to_vec() } else { Vec::new() }
+    let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
+    let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
+    let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
+    made.iter().copied().chain(traits.spawn_behind).collect()
 }
 
 /// Marks what can be on the board: a fixed point over what is placed and what that makes.
 fn occur(rules: &Rules, encounters: &[Encounter], facts: &mut [Facts]) {
+    let clockwork = &encounter::clockwork(rules);
     for fact in facts.iter_mut() {
         fact.possible = !fact.symbols.is_empty();
     }
@@ -190,13 +207,11 @@ fn occur(rules: &Rules, encounters: &[Encounter], facts: &mut [Facts]) {
             if !some(facts, encounter.first) || encounter.second.is_some_and(|second| !some(facts, second)) {
                 continue;
             }
-            for deed in &encounter.deeds {
-                match deed {
-                    Deed::Become(to) | Deed::Make(to) => new.push(*to),
-                    Deed::BecomeAll(from, to) if facts[from.index()].possible => new.push(*to),
-                    Deed::BecomeAny(options) => new.extend(options.iter()),
-                    _ => {}
-                }
+            appear(&encounter.deeds, facts, &mut new);
+        }
+        for (target, deeds) in clockwork {
+            if target.is_none_or(|target| some(facts, target)) {
+                appear(deeds, facts, &mut new);
             }
         }
         new.retain(|stype| facts[stype.index()].concrete && !facts[stype.index()].possible);
@@ -205,6 +220,18 @@ fn occur(rules: &Rules, encounters: &[Encounter], facts: &mut [Facts]) {
         }
         for stype in new {
             facts[stype.index()].possible = true;
+        }
+    }
+}
+
+/// Adds what deeds bring about.
+fn appear(deeds: &[Deed], facts: &[Facts], new: &mut Vec<SpriteType>) {
+    for deed in deeds {
+        match deed {
+            Deed::Become(to) | Deed::Make(to) => new.push(*to),
+            Deed::BecomeAll(from, to) if facts[from.index()].possible => new.push(*to),
+            Deed::BecomeAny(options) => new.extend(options.iter()),
+            _ => {}
         }
     }
 }
@@ -218,8 +245,11 @@ pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
         let steering = match class {
             C::HorizontalAvatar | C::FlakAvatar => Steering::Horizontal,
             C::VerticalAvatar => Steering::Vertical,
-            C::OngoingAvatar | C::OngoingShootAvatar => Steering::Ongoing,
+            C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar => Steering::Ongoing,
             C::MissileAvatar => Steering::Unsteered,
+            C::NullAvatar | C::AimedAvatar | C::ShootOnlyAvatar => Steering::Fixed,
+            C::SpaceshipAvatar | C::LanderAvatar | C::CarAvatar => Steering::Thrust,
+            C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Steering::Jumping,
             _ => Steering::FourWay,
         };
         let (shots, ammo) = (fact.makes.clone(), info.traits.ammo.to_vec());

@@ -148,7 +148,6 @@ impl Analysis {
     /// The termination that would end the game if this state were the end of a tick. Cost: O(goals × types).
     pub fn goal_met(&self, state: &State) -> Option<&Goal> {
         let rules = &*self.game.0;
-        let met = rules.terminations.iter().position(|termination| termination.holds(rules, state));
-        met.map(|at| &self.goals[at])
+        self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, state))
     }
 }

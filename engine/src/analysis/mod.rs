@@ -258,13 +258,21 @@ impl Analysis {
                     Motion::Steered => {
                         let avatar = self.avatars.iter().find(|avatar| avatar.stype == stype);
                         avatar.is_none_or(|avatar| {
-                            !matches!(avatar.steering, Steering::Ongoing | Steering::Unsteered)
+                            matches!(
+                                avatar.steering,
+                                Steering::FourWay
+                                    | Steering::Horizontal
+                                    | Steering::Vertical
+                                    | Steering::Fixed
+                            )
                         })
                     }
                     _ => false,
                 }
         };
-        self.game.sprite_types().all(idle)
+        // What the clock does by itself moves something too.
+        let clock = self.game.0.timed.iter().any(|timed| timed.first_due.is_some());
+        !clock && self.game.sprite_types().all(idle)
     }
 
     /// Whether the player sees everything that takes part in an interaction.

@@ -23,6 +23,8 @@ pub struct Guide {
     pub sprites: Vec<String>,
     /// What the names of groups mean in the interactions, a line each.
     pub groups: Vec<String>,
+    /// What happens by the clock, a line each.
+    pub clockwork: Vec<String>,
     /// What happens when sprites meet, a line for each interaction, in order of the file.
     pub meetings: Vec<String>,
     /// What each level character places, by character.
@@ -43,6 +45,7 @@ impl Guide {
             losing: rules::endings(analysis, false),
             sprites: sprites::sprites(analysis),
             groups: rules::groups(analysis),
+            clockwork: rules::clockwork(analysis),
             meetings: rules::meetings(analysis),
             legend: sprites::legend(analysis),
         }
@@ -58,6 +61,7 @@ impl fmt::Display for Guide {
             ("How you lose", &self.losing),
             ("What the others do", &self.sprites),
             ("Words for several", &self.groups),
+            ("What happens by the clock", &self.clockwork),
             ("What happens when sprites meet", &self.meetings),
             ("What the level's characters stand for", &self.legend),
         ];

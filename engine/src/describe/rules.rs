@@ -2,7 +2,7 @@
 
 use super::words::{Party, a, count, list, members, percent, sentence};
 use crate::analysis::{Analysis, Condition, Encounter};
-use crate::game::SpriteType;
+use crate::game::{SpriteType, Timed};
 use crate::ontology::effects::{Effect, SpeedChange};
 
 /// One sentence for each interaction line, in order of execution; partners of one line together.
@@ -238,8 +238,10 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
         Effect::WallBounce => format!("{s} {} off {b}", one.verb("bounce", "bounces")),
         Effect::WallReverse => format!("{s} {} back at {b}", one.verb("turn", "turns")),
         Effect::AddTimer { timed } => {
-            let ticks = analysis.game().0.timed[usize::from(*timed)].timer;
-            format!("{when}, something happens {} later", count(i64::from(ticks), "tick"))
+            let rules = &analysis.game().0;
+            let timed = &rules.timed[usize::from(*timed)];
+            let later = by_itself(analysis, &rules.effects[usize::from(timed.effect)].effect, timed.target);
+            format!("{when}, {} later {later}", count(i64::from(timed.timer), "tick"))
         }
         Effect::ShieldFrom { stype, .. } => {
             format!(
@@ -250,6 +252,57 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
                 Party::of(analysis, *stype).name
             )
         }
+    }
+}
+
+/// One sentence for each line that runs by the clock.
+pub(super) fn clockwork(analysis: &Analysis) -> Vec<String> {
+    let rules = &analysis.game().0;
+    let line = |timed: &Timed| {
+        let first = timed.first_due?;
+        let text = by_itself(analysis, &rules.effects[usize::from(timed.effect)].effect, timed.target);
+        let when = match (timed.repeating, first) {
+            (true, _) => format!("every {}", count(i64::from(timed.timer), "tick")),
+            (false, first) => format!("at tick {}", first.max(0)),
+        };
+        let mut text = sentence(&format!("{when}, {text}"));
+        if timed.score_change != 0 && timed.apply_score {
+            text += &format!(" {}.", points(timed.score_change));
+        }
+        Some(text)
+    };
+    rules.timed.iter().filter_map(line).collect()
+}
+
+/// What an effect does without a partner, to every sprite of a type or to none in particular.
+fn by_itself(analysis: &Analysis, effect: &Effect, target: Option<SpriteType>) -> String {
+    let name = |stype: SpriteType| analysis.game().name(stype);
+    let every = target.map_or_else(|| "everything".to_owned(), |stype| format!("every {}", name(stype)));
+    match effect {
+        Effect::KillSprite => format!("{every} disappears"),
+        Effect::KillAll { stype } => format!("every {} disappears", name(*stype)),
+        Effect::TransformTo { stype, .. } => format!("{every} turns into {}", a(name(*stype))),
+        Effect::TransformToAll { stype, to, .. } => {
+            format!("every {} turns into {}", name(*stype), a(name(*to)))
+        }
+        Effect::Spawn { stype, .. } => format!("{} appears at {every}", a(name(*stype))),
+        Effect::CloneSprite => format!("{every} is doubled"),
+        Effect::AddHealthPoints { value, .. } => {
+            format!("{every} gains {}", count(i64::from(*value), "health point"))
+        }
+        Effect::SubtractHealthPoints { value, stype, .. } => {
+            let who = stype.map_or(every, |stype| a(name(stype)));
+            format!("{who} loses {}", count(i64::from(*value), "health point"))
+        }
+        Effect::FlipDirection => format!("{every} turns in a random direction"),
+        Effect::ReverseDirection => format!("{every} turns back"),
+        Effect::ChangeSpeed { stype, value, how } => match how {
+            SpeedChange::Increase => format!("every {} becomes faster by {value}", name(*stype)),
+            SpeedChange::Decrease => format!("every {} becomes slower by {value}", name(*stype)),
+            SpeedChange::Set => format!("the speed of every {} becomes {value}", name(*stype)),
+        },
+        Effect::UndoAll { .. } => "every move of that tick is taken back".to_owned(),
+        _ => format!("something happens to {every}"),
     }
 }
 

@@ -54,8 +54,10 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     if matches!(facts.motion, Motion::Chasing(_) | Motion::Fleeing(_)) && traits.max_distance >= 0.0 {
         parts.push(format!("within {} pixels", traits.max_distance));
     }
-    if let (Some(class), Some(&made)) = (info.class, facts.makes.first()) {
-        parts.push(making(class, traits, name(made)));
+    if let (Some(class), false) = (info.class, facts.makes.is_empty()) {
+        let made: Vec<String> = facts.makes.iter().map(|&made| a(name(made))).collect();
+        let word = if class == SpriteClass::SpawnPointMultiSprite { "and" } else { "or" };
+        parts.push(making(class, traits, &list(&made, word)));
     }
     if let Some(exit) = analysis.leads_to(stype).filter(|_| info.class == Some(SpriteClass::Portal)) {
         parts.push(format!("leads to {}", name(exit)));
@@ -92,7 +94,7 @@ fn making(class: SpriteClass, traits: &crate::ontology::traits::Traits, made: &s
         probability => format!(", with a chance of {}", percent(probability)),
     };
     if class == SpriteClass::Spreader {
-        return format!("spreads {} to each side once{}", a(made), chance(traits.spread_probability));
+        return format!("spreads {made} to each side once{}", chance(traits.spread_probability));
     }
     let every = match traits.cooldown {
         1 => "every tick".to_owned(),
@@ -102,11 +104,14 @@ fn making(class: SpriteClass, traits: &crate::ontology::traits::Traits, made: &s
         total if total > 0 => format!(", {total} in all"),
         _ => String::new(),
     };
-    format!("makes {} {every}{}{total}", a(made), chance(traits.prob))
+    format!("makes {made} {every}{}{total}", chance(traits.prob))
 }
 
 /// How fast a sprite with these traits moves.
 fn step(traits: &crate::ontology::traits::Traits) -> String {
+    if traits.continuous {
+        return format!("{} pixels a tick", traits.speed);
+    }
     // Active movement takes a speed of 0 for 1, passive movement one of −1.
     pace(if traits.speed <= 0.0 { 1.0 } else { traits.speed }, traits.cooldown.max(1))
 }
@@ -128,37 +133,65 @@ pub(super) fn controls(analysis: &Analysis) -> Vec<String> {
 }
 
 fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
+    use SpriteClass as C;
     let game = analysis.game();
     let info = &game.0.types[avatar.stype.index()];
     let name = game.name(avatar.stype);
-    let keys = match avatar.steering {
-        Steering::FourWay if info.traits.rotate_in_place => {
-            "an arrow key turns you that way, or moves you if you face it already"
-        }
-        Steering::FourWay => "the arrow keys move you up, left, down and right",
-        Steering::Horizontal => "the arrow keys move you left and right",
-        Steering::Vertical => "the arrow keys move you up and down",
-        Steering::Ongoing => "you always move ahead; the arrow keys turn you",
-        Steering::Unsteered => "you always move ahead; no key changes that",
-    };
+    let class = info.class.unwrap_or(C::MovingAvatar);
+    let keys = keys(class, avatar, info.traits.rotate_in_place, info.traits.continuous);
     let mut text = if single { format!("You are the {name}: {keys}") } else { format!("As {name}: {keys}") };
-    if analysis.facts(avatar.stype).pace != 1.0 {
+    let walks = !info.traits.continuous && class != C::NullAvatar && avatar.steering != Steering::Fixed;
+    if walks && analysis.facts(avatar.stype).pace != 1.0 {
         text += &format!(", {}", step(&info.traits));
     }
-    if !avatar.shots.is_empty() {
-        let shots: Vec<String> = avatar.shots.iter().map(|&shot| a(game.name(shot))).collect();
-        let place =
-            if info.class == Some(SpriteClass::FlakAvatar) { "where you are" } else { "ahead of you" };
-        text += &format!("; the use key puts {} {place}", list(&shots, "or"));
-        if !avatar.ammo.is_empty() {
-            let ammo: Vec<&str> = avatar.ammo.iter().map(|&ammo| game.name(ammo)).collect();
-            text += &format!(" and costs {}", list(&ammo, "or"));
+    let shots: Vec<String> = avatar.shots.iter().map(|&shot| a(game.name(shot))).collect();
+    text += &match class {
+        _ if shots.is_empty() => String::new(),
+        C::OngoingTurningAvatar => format!("; you leave {} behind", list(&shots, "and")),
+        C::WizardAvatar => format!("; the up key puts {} beside you", list(&shots, "and")),
+        C::ShootOnlyAvatar => {
+            let keys = ["left", "up", "right", "down", "use"].iter().zip(&shots);
+            let keys: Vec<String> = keys.map(|(key, shot)| format!("the {key} key shoots {shot}")).collect();
+            format!("; {}", keys.join(", "))
         }
+        C::FlakAvatar => format!("; the use key puts {} where you are", shots[0]),
+        _ => format!("; the use key puts {} ahead of you", list(&shots, "or")),
+    };
+    if !avatar.ammo.is_empty() {
+        let ammo: Vec<&str> = avatar.ammo.iter().map(|&ammo| game.name(ammo)).collect();
+        text += &format!(" and costs {}", list(&ammo, "or"));
     }
     if info.traits.health != 0 {
         text += &format!("; you start with {}", count(i64::from(info.traits.health), "health point"));
     }
     text + "."
+}
+
+/// What the keys do, shots apart.
+fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool) -> &'static str {
+    use SpriteClass as C;
+    match (class, avatar.steering) {
+        (C::NullAvatar, _) => "no key does anything",
+        (C::AimedAvatar, _) => "the up and down keys turn your aim",
+        (C::CarAvatar, _) => "the left and right keys steer you, up and down choose forwards or backwards",
+        (C::LanderAvatar, _) => "you fall; the left and right keys turn you, and up fires your engine",
+        (C::BirdAvatar, _) => "you fall, and drift to the right; the use key lifts you",
+        (C::OngoingTurningAvatar, _) => "you always move ahead; the arrow keys turn you to the sides",
+        (_, Steering::Thrust) => {
+            "the left and right keys turn you, up and down push you ahead or back, and you keep drifting"
+        }
+        (_, Steering::Jumping) => "you fall; the left and right keys walk you, and the use key jumps",
+        (_, Steering::Fixed) => "you stay where you are",
+        (_, Steering::FourWay) if continuous => "the arrow keys push you, and you keep drifting",
+        (_, Steering::FourWay) if turns_first => {
+            "an arrow key turns you that way, or moves you if you face it already"
+        }
+        (_, Steering::FourWay) => "the arrow keys move you up, left, down and right",
+        (_, Steering::Horizontal) => "the arrow keys move you left and right",
+        (_, Steering::Vertical) => "the arrow keys move you up and down",
+        (_, Steering::Ongoing) => "you always move ahead; the arrow keys turn you",
+        (_, Steering::Unsteered) => "you always move ahead; no key changes that",
+    }
 }
 
 /// One line for each character that the game's levels can use: what it places.

@@ -56,7 +56,9 @@ impl Builder<'_> {
     pub(crate) fn place(&mut self, stype: SpriteType, role: Role) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
-        let strict = self.put_where(stype, |builder, cell| builder.weigh(cell, stype, role, &steps, radius));
+        let strict = self.put_where(stype, |builder, cell| {
+            builder.ground(cell, role) * builder.weigh(cell, stype, role, &steps, radius)
+        });
         if strict.is_some() {
             return strict;
         }
@@ -65,6 +67,17 @@ impl Builder<'_> {
             let close = builder.board.grid.manhattan(cell, builder.board.start) < if harmful { 3 } else { 1 };
             u32::from(!close && steps[cell] != FAR && !builder.cuts(cell, stype))
         })
+    }
+
+    /// Where avatars fall, most things stand on the ground; goods may hang in the air.
+    fn ground(&self, cell: usize, role: Role) -> u32 {
+        match role {
+            _ if !self.falls() => 1,
+            Role::Spawner | Role::Cover | Role::Neutral => 1,
+            _ if self.has_footing(cell) => 4,
+            Role::Collectable => 1,
+            _ => 0,
+        }
     }
 
     /// How well a cell suits a sprite; 0: not at all.
@@ -205,9 +218,16 @@ impl Builder<'_> {
             let far = cells.iter().copied().max_by_key(|&cell| (steps[cell], cell));
             far.unwrap_or(some)
         };
-        // Not the very end, and not a dead end with a thing to be dodged.
-        let near: Vec<usize> = cells.into_iter().filter(|&cell| grid.manhattan(cell, target) <= 1).collect();
-        if near.is_empty() { some } else { *self.sampler.choose(&near) }
+        // Not always the very end. Where avatars fall, on the ground next to it.
+        let grounded = |cell: &usize| !self.falls() || self.has_footing(*cell);
+        let near = |cell: &usize| grid.manhattan(*cell, target) <= 1;
+        let close: Vec<usize> = cells.iter().copied().filter(|cell| near(cell) && grounded(cell)).collect();
+        if !close.is_empty() {
+            return *self.sampler.choose(&close);
+        }
+        let best =
+            cells.into_iter().filter(grounded).min_by_key(|&cell| (grid.manhattan(cell, target), cell));
+        best.unwrap_or(some)
     }
 
     /// As many keys as the locks that were placed need, each before its lock.
@@ -282,7 +302,7 @@ impl Builder<'_> {
         let first = own.min().unwrap_or(u8::MAX);
         self.put_where(giver, |builder, cell| {
             let zone = builder.board.zone[cell];
-            // Zones are numbered outwards: what lies behind a later gate is opened with a later gate's key.
+            // Of two gates, the key of the one placed first may lie behind the other, never the other way round.
             let before = zone == 0 || (zone > first && first != u8::MAX);
             let weight = builder.weigh(cell, giver, Role::Key, &steps, radius);
             if !before {

@@ -4,7 +4,7 @@ use super::board::Board;
 use super::config::LevelConfig;
 use super::grid::{FAR, WAYS};
 use super::palette::{Palette, Walk};
-use engine::analysis::{Motion, Role};
+use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, Sampler, SpriteType};
 
 /// A level in the making, with everything that a decision about it needs.
@@ -44,6 +44,16 @@ impl Builder<'_> {
         let cell = cells[self.sampler.weighted(&weights)?];
         self.put(cell, stype);
         Some(cell)
+    }
+
+    /// Whether the avatar falls, so that things are best put on the ground.
+    pub(crate) fn falls(&self) -> bool {
+        self.analysis.start_avatar().is_some_and(|avatar| avatar.steering == Steering::Jumping)
+    }
+
+    /// Whether something to stand on is right below.
+    pub(crate) fn has_footing(&self, cell: usize) -> bool {
+        self.board.grid.shift(cell, (0, 1)).is_none_or(|below| self.board.wall[below])
     }
 
     pub(crate) fn difficulty(&self) -> f64 {

@@ -38,7 +38,7 @@ pub struct ConstructiveLevels<'a> {
 pub struct Solved {
     /// The level.
     pub level: Level,
-    /// Actions that win the level's episode with any chance, if the game has none and the level is a puzzle.
+    /// Actions that win it: known for puzzles of pushed things, in games without chance.
     pub solution: Option<Vec<Action>>,
 }
 
@@ -78,7 +78,7 @@ impl<'a> ConstructiveLevels<'a> {
             let room = config.columns.1 * config.rows.1;
             let met = met && requirement.at_least as usize <= room;
             if let (Reason::Goal(at), false) = (requirement.reason, met) {
-                let number = at + 1;
+                let number = analysis.goals()[at].line + 1;
                 let problem = format!(
                     "termination {number} of the game holds before the first tick of every level of that size"
                 );

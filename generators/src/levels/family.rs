@@ -27,7 +27,9 @@ impl ConstructiveLevels<'_> {
         let launches = furnishable(&self.analysis, &self.palette, Role::Spawner)
             .into_iter()
             .any(|stype| self.analysis.launches(stype).is_some());
-        let families: &[(Family, u32)] = if free || (!self.palette.ring && launches) {
+        let families: &[(Family, u32)] = if steering == Some(Steering::Jumping) {
+            &[(Family::Platforms, 1)]
+        } else if free || (!self.palette.ring && launches) {
             &[(Family::Field, 2), (Family::Arena, 1)]
         } else if has(Role::Soil) {
             &[(Family::Arena, 2), (Family::Rooms, 1), (Family::Cave, 1)]

@@ -176,7 +176,8 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     };
     let movers: Vec<SpriteType> = analysis.game().sprite_types().filter(moves).collect();
     let candidates = analysis.game().sprite_types().filter(|&stype| {
-        let named = stype == SpriteType(0) && analysis.role(stype) == Role::Breakable;
+        // What the registry calls `wall` is one even where it can be shot, or kills.
+        let named = stype == SpriteType(0) && matches!(analysis.role(stype), Role::Breakable | Role::Hazard);
         symbols[stype.index()].is_some() && (analysis.role(stype) == Role::Wall || named)
     });
     let strength = |stype: SpriteType| {

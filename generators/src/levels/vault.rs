@@ -13,8 +13,8 @@ pub(crate) struct Bottleneck {
 }
 
 impl Builder<'_> {
-    /// Puts gates into bottlenecks, one after the other, each before the last one's zone, and marks what lies behind.
-    /// Gives the types placed.
+    /// Puts gates into bottlenecks of what is still open, and numbers the zones behind them from 1 in that order. The key
+    /// of a gate may lie behind one with a higher number. Gives the types placed.
     pub(crate) fn gates(&mut self) -> Vec<SpriteType> {
         let mut types: Vec<SpriteType> = furnishable(self.analysis, self.palette, Role::Gate);
         types.retain(|&stype| {

@@ -3,6 +3,7 @@
 mod arena;
 mod cave;
 mod maze;
+mod platforms;
 mod rooms;
 
 use super::grid::Grid;
@@ -21,6 +22,8 @@ pub(crate) enum Family {
     Rooms,
     /// A cave.
     Cave,
+    /// Ledges to stand on, one above the other.
+    Platforms,
     /// Corridors of width 1 with a few loops; for boards of at least 7 by 7 cells.
     Maze,
 }
@@ -35,6 +38,7 @@ pub(crate) fn walls(family: Family, grid: Grid, ring: bool, loops: f64, sampler:
         Family::Pillars => arena::pillars(grid, ring, sampler, &mut wall),
         Family::Rooms => rooms::rooms(grid, ring, loops, sampler, &mut wall),
         Family::Cave => cave::cave(grid, ring, sampler, &mut wall),
+        Family::Platforms => platforms::platforms(grid, ring, sampler, &mut wall),
         Family::Maze => maze::maze(grid, ring, loops, sampler, &mut wall),
     }
     keep_largest(grid, &mut wall);
@@ -57,8 +61,15 @@ mod tests {
 
     #[test]
     fn open_cells_hang_together_and_are_many() {
-        let families =
-            [Family::Field, Family::Arena, Family::Pillars, Family::Rooms, Family::Cave, Family::Maze];
+        let families = [
+            Family::Field,
+            Family::Arena,
+            Family::Pillars,
+            Family::Rooms,
+            Family::Cave,
+            Family::Platforms,
+            Family::Maze,
+        ];
         for (family, index) in families.into_iter().zip(0..) {
             for seed in 0..60 {
                 let mut sampler =
