@@ -188,6 +188,16 @@ fn fmt_is_idempotent_and_checks() {
 }
 
 #[test]
+fn rules_are_described() {
+    let folder = folder(GAME, LEVEL);
+    let output = run(folder.path(), &["describe", "game.vgdl"], 0);
+    let said = text(&output.stdout);
+    for words in ["You are the avatar", "You win when no nectar is left", "You die on touching the thorn"] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+}
+
+#[test]
 fn planners_play_and_report() {
     let folder = folder(GAME, LEVEL);
     let args =

@@ -5,7 +5,7 @@ use crate::geometry::Rect;
 use crate::occupancy::Hits;
 use crate::ontology::effects;
 use crate::state::{NONE, Slot, Timer, flag, memory};
-use crate::step::{Step, Watch};
+use crate::step::{MAX_EFFECTS, Step, Watch};
 use smallvec::SmallVec;
 
 impl Step<'_> {
@@ -42,6 +42,7 @@ impl Step<'_> {
             match timed.target {
                 None => {
                     watch.interaction(timed.line);
+                    self.work(1);
                     let info = &self.rules.effects[usize::from(timed.effect)];
                     effects::execute_alone(self, timed.effect, &info.effect);
                     self.score(timed.apply_score, timed.score_change);
@@ -68,6 +69,7 @@ impl Step<'_> {
                 if !self.state.sprite(slot).is(flag::KILLED | flag::DISABLED) {
                     let tail = self.state.group(stype).tail;
                     watch.interaction(timed.line);
+                    self.work(1);
                     effects::execute(self, timed.effect, &info.effect, slot, None);
                     self.score(timed.apply_score, timed.score_change);
                     if self.state.group(stype).tail != tail {
@@ -187,10 +189,15 @@ impl Step<'_> {
         let mut pairs: SmallVec<[(Slot, Slot); 16]> = SmallVec::new();
         let mut hits = Hits::new();
         for &stype in &second.tree {
-            for slot in self.state.slots(stype) {
+            let mut slot = self.state.group(stype).head;
+            while slot != NONE {
                 hits.clear();
                 self.state.overlapping(self.rules, first, slot, newborn, &mut hits);
                 pairs.extend(hits.iter().map(|&hit| (hit, slot)));
+                if pairs.len() > MAX_EFFECTS {
+                    return self.stop(Limit::Effects);
+                }
+                slot = self.state.sprite(slot).next;
             }
         }
         if pairs.len() > 1 {
@@ -224,6 +231,7 @@ impl Step<'_> {
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
+        self.work(1);
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
         self.score(remembered & memory::APPLY_SCORE != 0, effects::score_change(info, remembered));
@@ -233,6 +241,7 @@ impl Step<'_> {
     fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Hits, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
+        self.work(partners.len());
         let times = effects::execute_batch(self, &info.effect, one, partners);
         self.score(info.apply_score, info.score_change * times);
     }

@@ -92,6 +92,8 @@ pub enum Outcome {
 pub enum Limit {
     /// More sprites than a state can hold.
     Sprites,
+    /// More work of effects in one tick than [`MAX_EFFECTS`](crate::MAX_EFFECTS), or more timers than can be planned.
+    Effects,
     /// A sprite of the type whose sprites are being updated was spawned: the reference throws.
     SpawnIntoUpdatedType,
     /// A score changed after the avatar was removed for good: the reference throws.
@@ -112,6 +114,7 @@ impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Limit::Sprites => "more sprites than a state can hold",
+            Limit::Effects => "the effects of one tick do not come to an end",
             Limit::SpawnIntoUpdatedType => "a sprite was spawned into the type that is being updated",
             Limit::NoAvatar => "the score changed after the avatar was removed for good",
             Limit::FlatSprite => "a sprite of height 0 moved",

@@ -64,7 +64,7 @@ pub use ontology::class::SpriteClass;
 pub use sampler::Sampler;
 pub use seed::Seed;
 pub use state::State;
-pub use step::{MAX_TICKS, Watch};
+pub use step::{MAX_EFFECTS, MAX_TICKS, Watch};
 pub use syntax::{Description, MAX_SOURCE};
 
 /// Bumped when any golden trace moves: witnesses replay only under the same number.

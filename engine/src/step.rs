@@ -15,6 +15,12 @@ const MAX_MESSAGES: u32 = 25;
 /// Pixels of the longer side of a board whose game does not set `square_size`.
 const SCREEN: i32 = 800;
 
+/// Work of the effects of one tick at most: an execution counts one, those that go through many sprites one a sprite.
+/// The busiest tick of a real game does some thousands.
+pub const MAX_EFFECTS: usize = 1 << 20;
+/// Timers that can be planned at a time.
+pub(crate) const MAX_TIMERS: usize = 1 << 16;
+
 /// Learns what happens inside a step: which interaction of the description was executed on which sprites.
 pub trait Watch {
     /// Interaction `line` (index into [`Description::interactions`](crate::Description)) was executed.
@@ -34,6 +40,8 @@ pub(crate) struct Step<'a> {
     pub(crate) updating: i32,
     /// What stopped the step, if anything did.
     pub(crate) stopped: Option<Limit>,
+    /// Work of effects so far.
+    pub(crate) effects: usize,
 }
 
 impl Game {
@@ -80,7 +88,7 @@ impl Game {
             obstacles: Vec::new(),
             jumps: chance,
         };
-        let mut step = Step { rules, state: &mut state, updating: -1, stopped: None };
+        let mut step = Step { rules, state: &mut state, updating: -1, stopped: None, effects: 0 };
         for (at, &symbol) in level.cells().iter().enumerate() {
             let (column, row) = ((at % level.columns()) as i32, (at / level.columns()) as i32);
             for &stype in self.places(symbol) {
@@ -117,7 +125,7 @@ impl Game {
             return state.outcome;
         }
         let allowed = self.actions(state).contains(&action);
-        let mut step = Step { rules: &self.0, state, updating: i32::MAX, stopped: None };
+        let mut step = Step { rules: &self.0, state, updating: i32::MAX, stopped: None, effects: 0 };
         step.cycle(if allowed { action } else { Action::Nil }, watch);
         state.freshen();
         state.outcome
@@ -272,6 +280,14 @@ impl Step<'_> {
     /// Stops the episode: what happened makes the reference engine throw, or met a limit of ours.
     pub(crate) fn stop(&mut self, limit: Limit) {
         self.stopped.get_or_insert(limit);
+    }
+
+    /// Counts work of effects; too much of it stops the episode.
+    pub(crate) fn work(&mut self, amount: usize) {
+        self.effects = self.effects.saturating_add(amount);
+        if self.effects > MAX_EFFECTS {
+            self.stop(Limit::Effects);
+        }
     }
 
     pub(crate) fn message(&mut self) {

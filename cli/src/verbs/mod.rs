@@ -1,6 +1,7 @@
 //! One file per verb: its flags, what it does, what it prints.
 
 pub(crate) mod conformance;
+pub(crate) mod describe;
 pub(crate) mod fmt;
 pub(crate) mod regenerate;
 pub(crate) mod release;

@@ -15,6 +15,7 @@ pub(super) fn when(step: &mut Step<'_>, index: u16, one: Slot, hit: bool) {
 
 /// Every sprite of exactly that type.
 pub(super) fn all(step: &mut Step<'_>, stype: SpriteType) {
+    step.work(usize::from(step.state.group(stype).count));
     let mut slot = step.state.group(stype).head;
     while slot != crate::state::NONE {
         step.kill(slot);

@@ -12,7 +12,7 @@ mod walls;
 use crate::game::{EffectInfo, Limit, Pass, SpriteType};
 use crate::occupancy::Hits;
 use crate::state::{Slot, Timer, flag, memory};
-use crate::step::Step;
+use crate::step::{MAX_TIMERS, Step};
 pub(crate) use build::{Arguments, NAMES, build};
 
 /// An effect with its parameters, named as in VGDL.
@@ -380,6 +380,9 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
 }
 
 fn add_timer(step: &mut Step<'_>, timed: u16) {
+    if step.state.timers.len() >= MAX_TIMERS {
+        return step.stop(Limit::Effects);
+    }
     let due = step.state.tick.saturating_add(step.rules.timed[usize::from(timed)].timer);
     step.state.plan(Timer { due, timed });
 }

@@ -33,6 +33,7 @@ pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
 /// Every sprite of every updated type goes back to its last rectangle.
 pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
     // Only sprites that moved in this tick have another last rectangle.
+    step.work(step.state.moved.len());
     for at in 0..step.state.moved.len() {
         let slot = step.state.moved[at];
         let sprite = step.state.sprite(slot);
@@ -171,6 +172,7 @@ pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
 pub(super) fn change_speed(step: &mut Step<'_>, stype: SpriteType, value: f64, how: SpeedChange) {
     let rules = step.rules;
     for &stype in &rules.types[stype.index()].tree {
+        step.work(usize::from(step.state.group(stype).count));
         let mut slot = step.state.group(stype).head;
         while slot != NONE {
             let sprite = step.state.edit(slot);

@@ -21,6 +21,7 @@ pub(super) fn all(step: &mut Step<'_>, victim: Option<Slot>, stype: SpriteType, 
     if stype == to && step.state.group(stype).head != NONE {
         return step.stop(Limit::EndlessTransform);
     }
+    step.work(usize::from(step.state.group(stype).count));
     let mut slot = step.state.group(stype).head;
     while slot != NONE {
         let rect = step.state.sprite(slot).rect;
@@ -76,6 +77,7 @@ pub(super) fn to_singleton(
     if stype == other && step.state.group(stype).head != NONE {
         return step.stop(Limit::EndlessTransform);
     }
+    step.work(usize::from(step.state.group(stype).count));
     let mut slot = step.state.group(stype).head;
     while slot != NONE {
         let rect = step.state.sprite(slot).rect;
