@@ -26,7 +26,8 @@
 //!     lockfile: Digest::of(b"the bytes of Cargo.lock"),
 //!     recipe,
 //!     items: vec![Item::of("games/maze/game.vgdl", text)],
-//!     root: Digest::of(b""), // replaced by `seal_root`
+//!     root: Digest::of(b""), // this and the next are replaced by `seal_root`
+//!     checksum: Digest::of(b""),
 //! };
 //! manifest.seal_root()?;
 //!

@@ -11,7 +11,7 @@
 //!
 //! Not under the root are `items` (the tree is built from them), their sizes (a digest fixes the size), `root`
 //! itself and `lockfile`: the last is provenance only, since two builds with the same semantics mint the same
-//! release, and must not be relied on.
+//! release. `checksum` guards it against accidents, not against intent: it must not be relied on.
 
 mod check;
 
@@ -60,6 +60,8 @@ pub struct Manifest {
     pub items: Vec<Item>,
     /// Root of the tree over the items and the header.
     pub root: Digest,
+    /// BLAKE3 of the digits of `root` and of `lockfile`, so that no byte of the manifest changes unnoticed.
+    pub checksum: Digest,
 }
 
 /// Whether the seed of a release is public.
@@ -130,15 +132,21 @@ impl Manifest {
         Ok(leaves)
     }
 
-    /// Sorts the items and sets the root from them and the header. Call it last: any later change of a field
-    /// but `lockfile` makes the root wrong.
+    /// Sorts the items, and sets the root from them and the header, and the checksum. Call it last: any later change of
+    /// a field makes one of the two wrong.
     ///
     /// # Errors
     /// Two items have the same path, one has the path [`HEADER_LEAF`], or the recipe has no canonical JSON.
     pub fn seal_root(&mut self) -> Result<(), SnapshotError> {
         self.items.sort_by(|a, b| a.path.cmp(&b.path));
         self.root = self.computed_root()?;
+        self.checksum = self.computed_checksum();
         Ok(())
+    }
+
+    /// The checksum that root and lock file give, whatever the manifest states.
+    pub(crate) fn computed_checksum(&self) -> Digest {
+        Digest::of(format!("{}{}", self.root, self.lockfile).as_bytes())
     }
 
     /// The root that the header and the items give, whatever the manifest states.
@@ -180,6 +188,11 @@ impl Manifest {
         if self.root != self.computed_root()? {
             return Err(check::unsound("its root is not that of its items: seal the root last".into()));
         }
+        if self.checksum != self.computed_checksum() {
+            return Err(check::unsound(
+                "its checksum is not that of its lock file: seal the root last".into(),
+            ));
+        }
         let bytes = self.text()?.into_bytes();
         if bytes.len() as u64 > MANIFEST_LIMIT {
             return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
@@ -220,6 +233,7 @@ pub(crate) mod tests {
             recipe: json!({ "name": "2026-12", "games": [{ "count": 2, "rate": 0.1 }], "sizes": [9, 13] }),
             items: files.iter().map(|(path, content)| Item::of(*path, content)).collect(),
             root: Digest::of(b"not yet"),
+            checksum: Digest::of(b"not yet"),
         };
         manifest.seal_root().expect("distinct paths");
         manifest

@@ -71,6 +71,8 @@ pub enum Flaw {
     /// The manifest's text is not what this format writes for what it says (spaces, order, line ends, a field
     /// left out or a key twice): its meaning is intact, its bytes are not as minted.
     NotCanonical,
+    /// The stated checksum is not that of the stated root and lock file.
+    WrongChecksum,
     /// The stated root is not the root over the manifest's own header and items.
     WrongRoot {
         /// The root that they give.
@@ -107,6 +109,9 @@ impl fmt::Display for Flaw {
                 write!(f, "too large altogether ({size} bytes of at most {limit})")
             }
             Flaw::NotCanonical => write!(f, "not in canonical form (its text is not as minted)"),
+            Flaw::WrongChecksum => {
+                write!(f, "wrong checksum (the root or the lock file's digest is not as minted)")
+            }
             Flaw::WrongRoot { found, stated } => {
                 write!(f, "wrong root (its items give {}, it says {})", short(found), short(stated))
             }

@@ -2,7 +2,8 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use snapshots::{SnapshotError, Verification, Witnesses, verify};
+use serde_json::json;
+use snapshots::{MANIFEST_FILE, SnapshotError, Verification, Witnesses, verify};
 use std::path::PathBuf;
 
 /// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
@@ -18,7 +19,18 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    let verification = verify(&args.snapshot).map_err(failure)?;
+    let verification = match verify(&args.snapshot) {
+        Ok(verification) => verification,
+        // There is a manifest, and it is damaged: that is an answer.
+        Err(error @ (SnapshotError::Syntax { .. } | SnapshotError::Manifest { .. })) => {
+            let problem = format!("{MANIFEST_FILE}: {:#}", anyhow::Error::from(error));
+            console.document(&json!({ "problems": [problem] }))?;
+            console.say(&problem);
+            console.say(format_args!("{}: does NOT verify", args.snapshot.display()));
+            return Ok(false);
+        }
+        Err(error) => return Err(failure(error)),
+    };
     let Verification { name, root, files, games, levels, witnesses, problems } = &verification;
     console.document(&verification)?;
     for problem in problems {

@@ -48,6 +48,7 @@ pub(super) fn assemble(recipe: &Recipe, lockfile: Digest, games: Vec<Filled>) ->
         recipe: recipe_value,
         items: files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect(),
         root: Digest::of(b""),
+        checksum: Digest::of(b""),
     };
     manifest.seal_root()?;
     Ok(Minted { manifest, files, cards, tally })
