@@ -187,6 +187,18 @@ mod tests {
         assert!(error.contains(expect), "{error}");
     }
 
+    /// The page's example is a recipe, and shows the defaults.
+    #[test]
+    fn the_example_in_the_docs() {
+        let page = include_str!("../../docs/recipes.md");
+        let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+        let recipe = Recipe::from_toml(&example.replace("parent = \"…\"", "#")).unwrap();
+        assert_eq!(recipe.criteria, Criteria::default());
+        assert_eq!(recipe.board, Board::default());
+        assert_eq!(recipe.generated, Part { games: 12, ..Part::default() });
+        assert_eq!(recipe.corpus, Part { games: 6, ..Part::default() });
+    }
+
     #[test]
     fn recipes_and_their_problems() {
         assert_eq!(Recipe::from_toml(GOOD).unwrap().generated.levels, 3);
