@@ -113,6 +113,9 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
             format!("the game has {} interactions; the limit is {MAX_PASSES}", program.passes.len());
         problems.push(Diagnostic::error("too-large", description.header.class.span, message));
     }
+    if !Diagnostics::has_errors(&problems) {
+        never_there(description, &types, &mapping, &program, &mut problems);
+    }
     if policy == Policy::Reference {
         // What is left is what the reference overlooks.
         problems.retain(|problem| problem.code == "too-large");
@@ -178,6 +181,37 @@ fn header(description: &Description, problems: &mut Vec<Diagnostic>) -> Option<i
         }
     }
     square_size
+}
+
+/// Sprite types that no level can place and nothing makes: legal, but surely not meant.
+fn never_there(
+    description: &Description,
+    types: &[TypeInfo],
+    mapping: &[SmallVec<[SpriteType; 4]>],
+    program: &interactions::Program,
+    problems: &mut Vec<Diagnostic>,
+) {
+    let mut there: Vec<SpriteType> = mapping.iter().flatten().copied().collect();
+    for traits in types.iter().map(|info| &info.traits) {
+        there.extend(traits.stypes.iter().chain(&traits.ammo).chain(&traits.spawn_behind));
+    }
+    for effect in program.effects.iter().map(|info| &info.effect) {
+        there.extend(effect.makes().into_iter().chain(effect.resource()));
+    }
+    for (_, line) in description.sprite_lines() {
+        let name = &line.name.text;
+        let found = types.iter().position(|info| info.name == *name).map(|at| SpriteType(at as u16));
+        let Some(stype) = found.filter(|stype| types[stype.index()].leaf && !there.contains(stype)) else {
+            continue;
+        };
+        if types[stype.index()].class.is_some() {
+            let message =
+                format!("there is never a `{name}`: no level character places it and nothing makes it");
+            let problem = Diagnostic::warning("never-there", line.name.span, message);
+            problems
+                .push(problem.help(format!("add it to the LevelMapping, or remove `{name}` and its rules")));
+        }
+    }
 }
 
 /// `obs=`: the types that path finding goes around.
@@ -278,4 +312,29 @@ fn ranks(tree: &[SpriteType], types: usize) -> Box<[u16]> {
         rank[stype.index()] = at as u16;
     }
     rank.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Game;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    egg > Immovable\n    chick > RandomNPC\n    coop > SpawnPoint stype=chick\n    purse > Resource\n    avatar > MovingAvatar\n  LevelMapping\n    e > egg\n    c > coop\n  InteractionSet\n    egg avatar > killSprite\n    avatar chick > changeResource resource=purse\n  TerminationSet\n    SpriteCounter stype=egg win=True\n";
+
+    #[track_caller]
+    fn warnings(source: &str, expect: &[&str]) {
+        let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
+        assert_eq!(
+            game.warnings().iter().map(|warning| warning.message.as_str()).collect::<Vec<_>>(),
+            expect
+        );
+    }
+
+    #[test]
+    fn sprites_that_are_never_there() {
+        warnings(GAME, &[]);
+        let egg = "there is never a `egg`: no level character places it and nothing makes it";
+        warnings(&GAME.replace("    e > egg\n", ""), &[egg]);
+        let chick = "there is never a `chick`: no level character places it and nothing makes it";
+        warnings(&GAME.replace("coop > SpawnPoint stype=chick", "coop > SpawnPoint stype=egg"), &[chick]);
+    }
 }

@@ -222,6 +222,37 @@ impl Effect {
         }
     }
 
+    /// The types that it makes sprites of.
+    pub(crate) fn makes(&self) -> Vec<SpriteType> {
+        match self {
+            Effect::Spawn { stype, .. }
+            | Effect::SpawnIf { stype, .. }
+            | Effect::SpawnBeside { stype, .. }
+            | Effect::SpawnBehind { stype, .. }
+            | Effect::TransformTo { stype, .. }
+            | Effect::TransformToAll { to: stype, .. }
+            | Effect::UpdateSpawnType { stype, .. } => vec![*stype],
+            Effect::SpawnIfCounterSubTypes { stype, otherwise, .. } => vec![*stype, *otherwise],
+            Effect::TransformToSingleton { stype, other, .. } => vec![*stype, *other],
+            Effect::TransformIfCount(rule) => std::iter::once(rule.stype).chain(rule.otherwise).collect(),
+            Effect::TransformToRandomChild { options, .. } => options.to_vec(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The resource that it changes or asks for: such a type need not exist as a sprite.
+    pub(crate) fn resource(&self) -> Option<SpriteType> {
+        match self {
+            Effect::KillIfHasLess { resource, .. }
+            | Effect::KillIfHasMore { resource, .. }
+            | Effect::KillIfOtherHasMore { resource, .. }
+            | Effect::SpawnIf { resource, .. }
+            | Effect::ChangeResource { resource, .. } => Some(*resource),
+            Effect::CollectResourceIfHeld { held, .. } => Some(*held),
+            _ => None,
+        }
+    }
+
     /// Whether executing it can draw from the chance.
     pub(crate) fn draws(&self) -> bool {
         matches!(
