@@ -133,7 +133,7 @@ fn load_game(games: &Path, name: &str) -> Result<Result<Game, String>, Failure> 
     let source = input::read_text(&path, engine::MAX_SOURCE)?;
     Ok(Game::from_source_as_reference(&source).map_err(|problems| {
         let first = problems.0.first().map_or(String::new(), |first| first.message.clone());
-        format!("{} does not load: {} problems, the first: {first}", path.display(), problems.0.len())
+        format!("{} does not load; the first problem of {}: {first}", path.display(), problems.0.len())
     }))
 }
 

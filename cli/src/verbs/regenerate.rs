@@ -51,7 +51,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         );
     }
     match identical {
-        true => console.say(format_args!("identical: {} files, root {root}", result.minted.files.len() + 1)),
+        true => console.say(format_args!(
+            "identical: the manifest and {} files, root {root}",
+            result.minted.files.len()
+        )),
         false => console.say(format_args!("NOT identical: {} differences", result.differences.len())),
     }
     Ok(identical)

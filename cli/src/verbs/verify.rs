@@ -37,7 +37,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(problem);
     }
     if !problems.is_empty() {
-        console.say(format_args!("{name}: does NOT verify, {} problems", problems.len()));
+        console.say(format_args!("{name}: does NOT verify; problems: {}", problems.len()));
         return Ok(false);
     }
     let replays = match witnesses {
@@ -46,7 +46,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             format!("integrity: ok, witnesses: not replayed (needs an arcade of semantics {semantics})")
         }
     };
-    console.say(format_args!("{name}: verified; {files} files, {games} games, {levels} levels, {replays}"));
+    console.say(format_args!(
+        "{name}: verified; the manifest and {files} files, {games} games, {levels} levels, {replays}"
+    ));
     console.say(format_args!("root {root}"));
     Ok(true)
 }
