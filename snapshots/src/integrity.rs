@@ -170,7 +170,7 @@ mod tests {
         assert!(check_integrity(&release.root).expect("readable").is_sound());
     }
 
-    /// A changed byte of the manifest is an error or a problem, wherever it is.
+    /// A changed bit of the manifest is damage, wherever it is: never a sound release, nor one of another format.
     #[test]
     fn every_byte_of_the_manifest_counts() {
         let release = release();
@@ -181,8 +181,13 @@ mod tests {
                 let mut altered = bytes.clone();
                 altered[position] ^= 1 << bit;
                 fs::write(&path, &altered).expect("written");
-                let sound = check_integrity(&release.root).is_ok_and(|integrity| integrity.is_sound());
-                assert!(!sound, "bit {bit} of byte {position}");
+                let damaged = match check_integrity(&release.root) {
+                    Ok(integrity) => !integrity.is_sound(),
+                    Err(error) => {
+                        matches!(error, SnapshotError::Syntax { .. } | SnapshotError::Manifest { .. })
+                    }
+                };
+                assert!(damaged, "bit {bit} of byte {position}");
             }
         }
         for length in 0..bytes.len() {

@@ -171,7 +171,7 @@ impl Manifest {
         let syntax = |source| SnapshotError::Syntax { path: MANIFEST_FILE.into(), source };
         // The version first: what a newer format has besides is not this one's to judge.
         let version: Version = serde_json::from_slice(bytes).map_err(syntax)?;
-        if version.format > u64::from(FORMAT) {
+        if version.format > u64::from(FORMAT) && !commits_to_this_format(bytes) {
             return Err(SnapshotError::Format { found: version.format, known: FORMAT });
         }
         let manifest: Manifest = serde_json::from_slice(bytes).map_err(syntax)?;
@@ -204,6 +204,17 @@ impl Manifest {
     pub(crate) fn text(&self) -> Result<String, SnapshotError> {
         Ok(to_canonical_json(self)?)
     }
+}
+
+/// Whether a manifest is of this format whatever version it states: the root covers the version, so that no release of
+/// another format has the root that this one gives.
+fn commits_to_this_format(bytes: &[u8]) -> bool {
+    let Ok(mut fields) = serde_json::from_slice::<serde_json::Map<String, Value>>(bytes) else {
+        return false;
+    };
+    fields.insert("format".into(), FORMAT.into());
+    let Ok(manifest) = serde_json::from_value::<Manifest>(Value::Object(fields)) else { return false };
+    manifest.computed_root().is_ok_and(|root| root == manifest.root)
 }
 
 /// All that any format is sure to have.
@@ -343,11 +354,19 @@ pub(crate) mod tests {
             "snapshot format 7 is newer than this arcade understands (1): use a newer arcade",
         );
         refuse(r#"{ "format": 18446744073709551615 }"#, "snapshot format 18446744073709551615 is newer");
+        refuse("[7]", "snapshot format 7 is newer");
+        let text = two_files().text().expect("plain recipe");
+        refuse(
+            &text.replace("\"format\": 1", "\"format\": 3"),
+            "it says format 3, but has the shape of format 1",
+        );
         refuse(r#"{ "format": -1 }"#, "invalid value");
         refuse("{}", "missing field `format`");
         refuse("", "EOF");
-        let text = two_files().text().expect("plain recipe");
-        refuse(&text.replace("\"format\": 1", "\"format\": 0"), "format 0 does not exist");
+        refuse(
+            &text.replace("\"format\": 1", "\"format\": 0"),
+            "it says format 0, but has the shape of format 1",
+        );
     }
 
     #[test]
