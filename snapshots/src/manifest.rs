@@ -11,7 +11,7 @@
 //!
 //! Not under the root are `items` (the tree is built from them), their sizes (a digest fixes the size), `root`
 //! itself and `lockfile`: the last is provenance only, since two builds with the same semantics mint the same
-//! release. `checksum` guards it against accidents, not against intent: it must not be relied on.
+//! release. `checksum` guards sizes and lock file against accidents, not against intent: it must not be relied on.
 
 mod check;
 
@@ -60,7 +60,8 @@ pub struct Manifest {
     pub items: Vec<Item>,
     /// Root of the tree over the items and the header.
     pub root: Digest,
-    /// BLAKE3 of the digits of `root` and of `lockfile`, so that no byte of the manifest changes unnoticed.
+    /// BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, so that no
+    /// byte of the manifest changes unnoticed.
     pub checksum: Digest,
 }
 
@@ -144,9 +145,13 @@ impl Manifest {
         Ok(())
     }
 
-    /// The checksum that root and lock file give, whatever the manifest states.
+    /// The checksum that root, lock file and sizes give, whatever the manifest states.
     pub(crate) fn computed_checksum(&self) -> Digest {
-        Digest::of(format!("{}{}", self.root, self.lockfile).as_bytes())
+        let mut text = format!("{}\n{}\n", self.root, self.lockfile);
+        for item in &self.items {
+            text += &format!("{}\n", item.size);
+        }
+        Digest::of(text.as_bytes())
     }
 
     /// The root that the header and the items give, whatever the manifest states.
@@ -190,7 +195,7 @@ impl Manifest {
         }
         if self.checksum != self.computed_checksum() {
             return Err(check::unsound(
-                "its checksum is not that of its lock file: seal the root last".into(),
+                "its checksum is not that of its lock file and sizes: seal the root last".into(),
             ));
         }
         let bytes = self.text()?.into_bytes();

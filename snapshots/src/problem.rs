@@ -71,7 +71,7 @@ pub enum Flaw {
     /// The manifest's text is not what this format writes for what it says (spaces, order, line ends, a field
     /// left out or a key twice): its meaning is intact, its bytes are not as minted.
     NotCanonical,
-    /// The stated checksum is not that of the stated root and lock file.
+    /// The stated checksum is not that of the stated root, lock file and sizes.
     WrongChecksum,
     /// The stated root is not the root over the manifest's own header and items.
     WrongRoot {
@@ -110,7 +110,7 @@ impl fmt::Display for Flaw {
             }
             Flaw::NotCanonical => write!(f, "not in canonical form (its text is not as minted)"),
             Flaw::WrongChecksum => {
-                write!(f, "wrong checksum (the root or the lock file's digest is not as minted)")
+                write!(f, "wrong checksum (the root, the lock file's digest or a size is not as minted)")
             }
             Flaw::WrongRoot { found, stated } => {
                 write!(f, "wrong root (its items give {}, it says {})", short(found), short(stated))
