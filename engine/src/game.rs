@@ -272,7 +272,11 @@ impl Game {
         if Diagnostics::has_errors(&problems) {
             // What does compile may have problems too; one run should show them all.
             let more = Game::compile(&description).err().map_or(Vec::new(), |more| more.0);
-            let hidden = |problem: &Diagnostic| problem.code == "unknown-sprite" || problem.code == "no-win";
+            // What could not be read may have declared what is missing then.
+            let unread = ["missing-section", "missing-arrow", "stray-line", "bad-line", "too-deep"];
+            let unread = problems.iter().any(|problem| unread.contains(&problem.code));
+            let hidden =
+                |problem: &Diagnostic| problem.code == "no-win" || unread && problem.code == "unknown-sprite";
             let more = more.into_iter().filter(|problem| !hidden(problem));
             return Err(Diagnostics::sorted(problems.into_iter().chain(more).collect()));
         }

@@ -106,7 +106,13 @@ impl Game {
                 Diagnostic::error("too-large", everything, message).help("make it smaller, or split it"),
             );
         }
-        let mut reader = LevelReader { game: self, problems: Vec::new(), avatars: Vec::new(), sprites: 0 };
+        let mut reader = LevelReader {
+            game: self,
+            problems: Vec::new(),
+            avatars: Vec::new(),
+            sprites: 0,
+            undefined: Vec::new(),
+        };
         let mut cells = Vec::with_capacity(columns * rows);
         for (start, line) in &lines {
             reader.row(*start, line, columns, &mut cells);
@@ -120,6 +126,8 @@ struct LevelReader<'a> {
     problems: Vec<Diagnostic>,
     avatars: Vec<Span>,
     sprites: usize,
+    /// Characters without a mapping: the cell, the character, its place in the text.
+    undefined: Vec<(usize, char, Span)>,
 }
 
 impl LevelReader<'_> {
@@ -135,12 +143,12 @@ impl LevelReader<'_> {
         for (at, symbol) in line.char_indices().take(columns) {
             width += 1;
             let span = Span::new(start + at, start + at + symbol.len_utf8());
-            cells.push(self.cell(symbol, span));
+            cells.push(self.cell(cells.len(), symbol, span));
         }
         cells.extend(std::iter::repeat_n(b' ', columns - width));
     }
 
-    fn cell(&mut self, symbol: char, span: Span) -> u8 {
+    fn cell(&mut self, at: usize, symbol: char, span: Span) -> u8 {
         let rules = &self.game.0;
         let code = u8::try_from(symbol).unwrap_or(0);
         let places = self.game.places(code);
@@ -155,17 +163,43 @@ impl LevelReader<'_> {
             return UNMAPPED;
         }
         if !mapped && places.is_empty() && symbol != ' ' {
-            let message = format!("`{}` is not in the LevelMapping", symbol.escape_default());
-            let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
-            let other =
-                rules.description.mapping.iter().map(|line| line.symbol).find(|c| swapped.contains(*c));
-            let help = match other {
-                Some(other) => format!("did you mean `{other}`?"),
-                None => "add a line for it to the LevelMapping, or use a character that is there".to_owned(),
-            };
-            self.problem(Diagnostic::error("undefined-character", span, message).help(help));
+            self.undefined.push((at, symbol, span));
         }
         code
+    }
+
+    /// Characters without a mapping, each with the one that was most likely meant.
+    fn tell_undefined(&mut self, columns: usize, cells: &[u8]) {
+        let mapping = &self.game.0.description.mapping;
+        let unused: Vec<char> =
+            mapping.iter().map(|line| line.symbol).filter(|&c| !cells.contains(&(c as u8))).collect();
+        let undefined = std::mem::take(&mut self.undefined);
+        let same = undefined.iter().all(|&(_, symbol, _)| symbol == undefined[0].1);
+        for &(at, symbol, span) in &undefined {
+            let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
+            let other_case = mapping.iter().map(|line| line.symbol).find(|&c| swapped.contains(c));
+            let avatar = self.avatar_symbol().filter(|_| self.avatars.is_empty() && undefined.len() == 1);
+            let help = match (other_case.or(avatar), &unused[..], around(at, columns, cells)) {
+                (Some(meant), ..) => format!("did you mean `{meant}`?"),
+                (None, [unused], _) if same && undefined.len() > 1 => format!(
+                    "did you mean `{unused}`, which this level never uses? or is `{symbol}` meant in the LevelMapping?"
+                ),
+                (None, _, Some(near)) => format!("did you mean `{near}`, as around it?"),
+                _ => "add a line for it to the LevelMapping, or use a character that is there".to_owned(),
+            };
+            let message = format!("`{}` is not in the LevelMapping", symbol.escape_default());
+            self.problem(Diagnostic::error("undefined-character", span, message).help(help));
+        }
+    }
+
+    /// The first character of the LevelMapping that places an avatar.
+    fn avatar_symbol(&self) -> Option<char> {
+        let rules = &self.game.0;
+        let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
+        let places = |symbol: char| {
+            u8::try_from(symbol).is_ok_and(|code| self.game.places(code).iter().any(is_avatar))
+        };
+        rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
     fn problem(&mut self, problem: Diagnostic) {
@@ -182,6 +216,9 @@ impl LevelReader<'_> {
         rows: usize,
         cells: Vec<u8>,
     ) -> Result<Level, Diagnostics> {
+        if !self.game.0.as_reference {
+            self.tell_undefined(columns, &cells);
+        }
         if self.sprites > MAX_SPRITES {
             let message = format!("the level places {} sprites; the limit is {MAX_SPRITES}", self.sprites);
             self.problem(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
@@ -193,16 +230,8 @@ impl LevelReader<'_> {
         }
         if self.avatars.is_empty() {
             let end = text.trim_end().len();
-            let rules = &self.game.0;
-            let places_avatar = |line: &&crate::syntax::MappingLine| {
-                u8::try_from(line.symbol).is_ok_and(|code| {
-                    let is_avatar =
-                        |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
-                    self.game.places(code).iter().any(is_avatar)
-                })
-            };
-            let help = match rules.description.mapping.iter().find(places_avatar) {
-                Some(line) => format!("put `{}` where it starts", line.symbol),
+            let help = match self.avatar_symbol() {
+                Some(symbol) => format!("put `{symbol}` where it starts"),
                 None => "no character of the LevelMapping places one: add a line `A > avatar`".to_owned(),
             };
             let problem =
@@ -221,6 +250,24 @@ impl LevelReader<'_> {
         }
         Ok(Level { columns, rows, cells, warnings: problems.0, messages })
     }
+}
+
+/// The printable character that most of a cell's neighbours have; those beside it count twice.
+fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
+    let (column, row) = ((at % columns) as isize, (at / columns) as isize);
+    let mut weights = [0; 128];
+    for (dx, dy) in [(-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)] {
+        let (x, y) = (column + dx, row + dy);
+        if x < 0 || y < 0 || x >= columns as isize {
+            continue;
+        }
+        let found = cells.get(y as usize * columns + x as usize).copied();
+        if let Some(code) = found.filter(u8::is_ascii_graphic) {
+            weights[usize::from(code)] += if dx == 0 || dy == 0 { 2 } else { 1 };
+        }
+    }
+    let code = (0..128_u8).rev().max_by_key(|&code| weights[usize::from(code)])?;
+    (weights[usize::from(code)] > 0).then_some(char::from(code))
 }
 
 /// The lines of a level and where each starts; a final newline does not make another line.

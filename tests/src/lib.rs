@@ -3,6 +3,7 @@
 //! The tests themselves are in `tests/tests/`; `tidy.rs` there holds the rules that a machine can check.
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The root folder of the workspace: the one that holds the virtual manifest.
@@ -51,6 +52,17 @@ pub fn rust_files() -> Vec<(PathBuf, String)> {
             (file, text)
         })
         .collect()
+}
+
+/// The folder of the reference's public games: test data beside the repository, not part of it. None, with a line that says
+/// so, where it is missing.
+pub fn public_games() -> Option<PathBuf> {
+    let games = workspace_root().join("../shared/gvgai/games");
+    let found = games.is_dir();
+    if !found {
+        let _ = writeln!(io::stderr(), "SKIPPED: no games in {}", games.display());
+    }
+    found.then_some(games)
 }
 
 /// The text of a file of the repository, named relative to [`workspace_root`].

@@ -191,10 +191,7 @@ fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Par
     if word.text.eq_ignore_ascii_case("TIME") {
         return Partner::Clock;
     }
-    let message = format!("no sprite named `{}`", word.text);
-    let problem = Diagnostic::error("unknown-sprite", word.span, message).label("not in the SpriteSet");
-    let known = names.types.iter().map(|info| info.name.as_str()).chain(["EOS", "TIME"]);
-    problems.push(problem.suggest(&word.text, known));
+    problems.push(names.unknown(word, &["EOS", "TIME"]));
     Partner::Unknown
 }
 
@@ -350,7 +347,8 @@ impl Arguments for Reader<'_> {
         if found.is_none() && self.param(key).is_none() {
             let effect = &self.line.effect;
             let message = format!("`{}` needs `{key}=`, the name of a sprite", effect.text);
-            self.problems.push(Diagnostic::error("missing-parameter", effect.span, message));
+            let problem = Diagnostic::error("missing-parameter", effect.span, message);
+            self.problems.push(problem.help(format!("add `{key}=` and the name")));
         }
         let makes = matches!(
             (self.line.effect.text.as_str(), key),
@@ -375,7 +373,11 @@ impl Arguments for Reader<'_> {
     }
 
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType> {
-        let Some((param, Value::Text(text))) = self.value(key) else { return Vec::new() };
+        let Some((param, value)) = self.value(key) else { return Vec::new() };
+        let Value::Text(text) = value else {
+            self.problems.push(wrong_type(param, Expected::Text));
+            return Vec::new();
+        };
         text.split(',').filter_map(|name| self.named(name, param.value.span)).collect()
     }
 
@@ -383,7 +385,8 @@ impl Arguments for Reader<'_> {
         let Some((param, _)) = self.value(key) else {
             let effect = &self.line.effect;
             let message = format!("`{}` needs `{key}=`, the name of an effect", effect.text);
-            self.problems.push(Diagnostic::error("missing-parameter", effect.span, message));
+            let problem = Diagnostic::error("missing-parameter", effect.span, message);
+            self.problems.push(problem.help(format!("add `{key}=` and the name")));
             return 0;
         };
         let name = param.value.text.as_str();

@@ -6,11 +6,11 @@ mod sprites;
 mod terminations;
 
 use crate::Digest;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::ontology::sprites as behaviour;
 use crate::ontology::terminations::Condition;
-use crate::syntax::{Description, Literal, Section, Word, literal, print_bare};
+use crate::syntax::{Description, Literal, Param, Section, Word, literal, print_bare};
 use smallvec::SmallVec;
 
 /// Sprite types at most.
@@ -113,6 +113,9 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
             format!("the game has {} interactions; the limit is {MAX_PASSES}", program.passes.len());
         problems.push(Diagnostic::error("too-large", description.header.class.span, message));
     }
+    if policy == Policy::Strict {
+        misspelt_declarations(description, &mut problems);
+    }
     if !Diagnostics::has_errors(&problems) {
         never_there(description, &types, &mapping, &program, &mut problems);
     }
@@ -181,6 +184,45 @@ fn header(description: &Description, problems: &mut Vec<Diagnostic>) -> Option<i
         }
     }
     square_size
+}
+
+/// Names that nothing declares, next to a declared one that nothing uses: the declaration is what is misspelt, if the name is
+/// used more than once, or may be.
+fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnostic>) {
+    let lines = || description.sprite_lines().into_iter().map(|(_, line)| line);
+    let params = lines().flat_map(|line| &line.params);
+    let params = params.chain(description.interactions.iter().flat_map(|line| &line.params));
+    let params = params.chain(description.terminations.iter().flat_map(|line| &line.params));
+    let mut used: Vec<&Word> = description.mapping.iter().flat_map(|line| &line.names).collect();
+    used.extend(description.interactions.iter().flat_map(|line| line.second.iter().chain([&line.first])));
+    used.extend(params.map(|param| &param.value));
+    let unknown = |word: &&&Word| {
+        problems.iter().any(|problem| problem.code == "unknown-sprite" && problem.span == word.span)
+    };
+    let mut names: Vec<&str> = used.iter().filter(unknown).map(|word| word.text.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    let is_used = |name: &str| used.iter().any(|word| word.text.split(',').any(|entry| entry == name));
+    for name in names {
+        let idle = lines().filter(|line| !is_used(&line.name.text));
+        let Some(near) = nearest(name, idle.clone().map(|line| line.name.text.as_str())) else { continue };
+        let Some(line) = idle.clone().find(|line| line.name.text == near) else { continue };
+        let places: Vec<&Word> = used.iter().filter(|word| word.text == name).copied().collect();
+        let problem = if places.len() > 1 {
+            problems.retain(|problem| {
+                problem.code != "unknown-sprite" || !places.iter().any(|word| word.span == problem.span)
+            });
+            let message = format!(
+                "no sprite named `{name}`, which {} places name; nothing names `{near}`",
+                places.len()
+            );
+            Diagnostic::error("unknown-sprite", line.name.span, message)
+        } else {
+            let message = format!("nothing names `{near}`, and `{name}` is not declared");
+            Diagnostic::warning("unused-sprite", line.name.span, message)
+        };
+        problems.push(problem.help(format!("did you mean `{name}`?")));
+    }
 }
 
 /// Sprite types that no level can place and nothing makes: legal, but surely not meant.
@@ -269,32 +311,52 @@ impl Names<'_> {
     fn resolve(self, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
-            let message = format!("no sprite named `{}`", name.text);
-            let problem =
-                Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
-            problems.push(problem.suggest(&name.text, self.types.iter().map(|info| info.name.as_str())));
+            problems.push(self.unknown(name, &[]));
         }
         found
+    }
+
+    /// The sprite that the value of a parameter, or an entry of it, names.
+    fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
+        let found = self.find(&name.text);
+        if found.is_none() {
+            let problem = self.unknown(name, &[]);
+            problems.push(match params::is_name(&name.text) {
+                true => problem,
+                false => problem.help(format!("write `{}=` and the name of a sprite", param.key.text)),
+            });
+        }
+        found
+    }
+
+    /// The problem of a name that no sprite has, and that is none of `others` either.
+    fn unknown(self, name: &Word, others: &[&str]) -> Diagnostic {
+        let message = format!("no sprite named `{}`", name.text);
+        let problem = Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
+        let known = || self.types.iter().map(|info| info.name.as_str()).chain(others.iter().copied());
+        match nearest(&name.text, known()) {
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            None if known().count() <= 12 => {
+                let all: Vec<&str> = known().collect();
+                problem.help(format!("declare it in the SpriteSet, or name one of {}", all.join(", ")))
+            }
+            None => problem.help("declare it in the SpriteSet"),
+        }
     }
 
     /// Whether sprites of the type can be made; a problem if not.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {
-            let message = format!("`{}` has no class, so there can be no such sprite", name.text);
-            let problem = Diagnostic::error("no-class", name.span, message);
-            let below: Vec<&str> = self
-                .types
-                .iter()
-                .filter(|other| other.path.contains(&stype))
-                .skip(1)
-                .map(|other| other.name.as_str())
-                .collect();
-            problems.push(match below[..] {
-                [] => problem
-                    .help(format!("write `{} > Immovable`, or another class, in the SpriteSet", name.text)),
-                _ => problem.help(format!("name one of its subtypes: {}", below.join(", "))),
-            });
+            let of_it =
+                self.types.iter().filter(|other| other.path.contains(&stype) && other.class.is_some());
+            let below: Vec<&str> = of_it.map(|other| other.name.as_str()).collect();
+            // Without any class below, its own line has been told of.
+            if !below.is_empty() {
+                let message = format!("`{}` has no class, so there can be no such sprite", name.text);
+                let problem = Diagnostic::error("no-class", name.span, message);
+                problems.push(problem.help(format!("name one of its subtypes: {}", below.join(", "))));
+            }
         } else if !info.leaf {
             let message = format!("`{}` is a parent type: its sprites are never updated", name.text);
             problems.push(

@@ -40,6 +40,11 @@ pub(super) fn convert<'a>(key: &str, text: &'a str) -> Value<'a> {
     }
 }
 
+/// Whether a value reads as a name, not as a number, a colour or the like.
+pub(super) fn is_name(text: &str) -> bool {
+    matches!(convert("", text), Value::Text(_))
+}
+
 /// What a field takes; in words for messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Expected {
@@ -71,16 +76,31 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     let value = param.value.text.as_str();
     let fixed = match (expected, convert("", value)) {
         (Expected::Int, Value::Double(double)) => Some(format!("{}", double as i32)),
+        (Expected::Int, _) => leading_number(value).map(str::to_owned),
+        (Expected::Number, _) => leading_number(value).map(str::to_owned),
         (Expected::Bool, Value::Int(int)) => Some(if int == 0 { "False".into() } else { "True".into() }),
-        (Expected::Bool, _) => nearest(value, ["True", "False"]).map(str::to_owned),
+        (Expected::Bool, _) => match value.to_lowercase().as_str() {
+            "yes" | "on" | "y" | "t" => Some("True".to_owned()),
+            "no" | "off" | "n" | "f" => Some("False".to_owned()),
+            _ => nearest(value, ["True", "False"]).map(str::to_owned),
+        },
         (Expected::Direction, _) => nearest(value, direction_names()).map(str::to_owned),
         (Expected::Color, _) => nearest(value, COLORS.iter().map(|(name, _)| *name)).map(str::to_owned),
         _ => None,
     };
-    match fixed {
-        Some(fixed) => problem.help(format!("write `{}={fixed}`", param.key.text)),
-        None => problem.help("the reference engine would ignore this value silently"),
-    }
+    let key = param.key.text.as_str();
+    problem.help(match fixed {
+        Some(fixed) => format!("write `{key}={fixed}`"),
+        None => {
+            format!("write `{key}=` and {}; the reference engine ignores any other value", expected.words())
+        }
+    })
+}
+
+/// The number that a value starts with: `5` of `5x`.
+fn leading_number(value: &str) -> Option<&str> {
+    let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
+    Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())
 }
 
 /// The parameters of every sprite, whatever its class. Those that only pictures use are read and forgotten.
@@ -132,7 +152,11 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
     if !BASE.contains(&key) && !own.contains(&key) {
         let message = format!("{} has no parameter `{key}`", class.name());
         let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
-        return Err(problem.suggest(key, BASE.iter().copied().chain(own)));
+        let known = || BASE.iter().copied().chain(own.iter().copied());
+        return Err(match nearest(key, known()) {
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            None => problem.help(format!("remove it: {} does nothing with it", class.name())),
+        });
     }
     let value = convert(key, &param.value.text);
     let fail = |expected| wrong_type(param, expected);

@@ -29,6 +29,7 @@ pub(super) fn types(
     let mut resolved = Vec::new();
     inherit(&description.sprites, &None, &[], &[], &mut resolved);
     duplicates(&resolved, problems);
+    classes(&description.sprites, None, problems);
     let leaves: Vec<String> = resolved
         .iter()
         .filter(|sprite| sprite.descendants.is_empty())
@@ -126,6 +127,43 @@ fn inherit<'a>(
     }
 }
 
+/// Sprites without a class, told once for a parent and all its subtypes; and classes that an inherited one overrules.
+fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mut Vec<Diagnostic>) {
+    for line in lines {
+        let name = line.name.text.as_str();
+        match (&line.class, inherited) {
+            (Some(own), Some((class, parent))) if line.children.is_empty() => {
+                let message = match own.text == class.text {
+                    true => format!("`{name}` is a subtype of `{parent}` and has its class anyway"),
+                    false => {
+                        format!("`{name}` is a subtype of `{parent}`: its class is {}, not this", class.text)
+                    }
+                };
+                let problem = Diagnostic::warning("ignored-class", own.span, message);
+                let help = "remove the class; or, to make it a type of its own, indent the line less, like";
+                problems.push(problem.help(format!("{help} `{parent}`")));
+            }
+            (None, None) if !has_class_below(line) => {
+                let message = match line.children[..] {
+                    [] => format!("`{name}` has no class"),
+                    _ => format!("neither `{name}` nor its subtypes have a class"),
+                };
+                let problem = Diagnostic::error("no-class", line.name.span, message);
+                let help = "write it after the `>`: Immovable, Missile, MovingAvatar …; or indent the line below a parent";
+                problems.push(problem.help(help));
+                continue;
+            }
+            _ => {}
+        }
+        let passed_on = line.class.as_ref().map(|class| (class, name));
+        classes(&line.children, passed_on.or(inherited), problems);
+    }
+}
+
+fn has_class_below(line: &SpriteLine) -> bool {
+    line.children.iter().any(|child| child.class.is_some() || has_class_below(child))
+}
+
 fn duplicates(resolved: &[Resolved<'_>], problems: &mut Vec<Diagnostic>) {
     for (at, sprite) in resolved.iter().enumerate() {
         let Some(line) = sprite.line else { continue };
@@ -179,13 +217,6 @@ fn type_info(
                 Ok(()) => rejected.taken.push(param.key.span),
             }
         }
-    } else if let Some(line) = sprite.line
-        && line.children.is_empty()
-        && sprite.class.is_none()
-    {
-        let message = format!("`{}` has no class", sprite.name);
-        let problem = Diagnostic::error("no-class", line.name.span, message);
-        problems.push(problem.help("write it after the `>`: Immovable, Missile, MovingAvatar …"));
     }
     for factor in [traits.width_factor, traits.height_factor] {
         if !(factor > 0.0 && factor <= f64::from(super::MAX_REACH)) {
@@ -248,7 +279,7 @@ fn references(
         for text in param.value.text.split(',') {
             let span = Span::new(start, start + text.len());
             start += text.len() + 1;
-            found.extend(names.resolve(&Word { text: text.to_owned(), span }, problems));
+            found.extend(names.resolve_value(param, &Word { text: text.to_owned(), span }, problems));
         }
         if found.len() > 1 && !many {
             let message = format!("`{key}` of {} names one sprite", class.name());

@@ -145,9 +145,10 @@ impl<'a> Reader<'a> {
         let Some(param) = self.param(key) else {
             let span: Span = self.line.class.span;
             let message = format!("{} needs `{key}=`, the name of a sprite", self.line.class.text);
-            self.problems.push(Diagnostic::error("missing-parameter", span, message));
+            let problem = Diagnostic::error("missing-parameter", span, message);
+            self.problems.push(problem.help(format!("add `{key}=` and the name")));
             return None;
         };
-        self.names.resolve(&param.value, self.problems)
+        self.names.resolve_value(param, &param.value, self.problems)
     }
 }

@@ -4,6 +4,8 @@ mod description;
 mod layout;
 mod parse;
 mod print;
+mod repair;
+mod sections;
 
 pub use description::{
     Description, Header, InteractionLine, MappingLine, Param, Section, SpriteLine, TerminationLine, Trivia,

@@ -5,9 +5,14 @@ use super::description::{
     Word,
 };
 use super::layout::{self, Line};
-use crate::diagnostic::{Diagnostic, Span, nearest};
+use super::repair;
+use super::sections::{self, Part};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects;
 use pest::Parser;
-use pest::iterators::Pair;
+use pest::iterators::{Pair, Pairs};
+use std::iter::Peekable;
 
 /// Bytes of game text that are read; a game is a few kilobytes.
 pub const MAX_SOURCE: usize = 1 << 20;
@@ -88,31 +93,30 @@ impl Reader {
             self.problems.push(problem);
             return;
         };
-        self.header(header);
-        let mut at = 0;
-        while at < rest.len() {
-            let line = &rest[at];
-            at += 1;
-            let Some(section) = self.section(line) else { continue };
-            let body: &[Line<'_>] = &rest[at..];
-            let end =
-                body.iter().position(|line| Self::names_section(line.text).is_some()).unwrap_or(body.len());
-            at += end;
-            if !(self.as_reference && line.text != section.name()) {
-                self.description.order.push(section);
-                self.body(section, line, &body[..end]);
-            }
+        let headless = !self.as_reference && sections::named(header.text).is_some();
+        if headless {
+            let message = "the game has no first line `BasicGame`";
+            let problem = Diagnostic::error("unknown-game-class", header.span, message);
+            self.problems.push(problem.help("add a line `BasicGame` above, indented less than the sections"));
+        } else {
+            self.header(header);
+        }
+        let rest = if headless { &lines[..] } else { rest };
+        let parts = if self.as_reference { self.parts(rest) } else { self.mended_parts(header, rest) };
+        for part in parts {
+            self.description.has[part.section as usize] = true;
+            self.description.order.push(part.section);
+            self.body(&part);
         }
         for (has, section) in self.description.has.into_iter().zip(Section::ALL) {
+            let told = |problem: &Diagnostic| {
+                problem.code == "missing-section" && problem.message.contains(section.name())
+            };
             let wanted = !self.as_reference || section == Section::SpriteSet;
-            if !has && wanted {
-                let problem = Diagnostic::error(
-                    "missing-section",
-                    header.span,
-                    format!("the game has no {}", section.name()),
-                )
-                .help(format!("add a line `{}`, indented below the first line", section.name()));
-                self.problems.push(problem);
+            if !has && wanted && !self.problems.iter().any(told) {
+                let message = format!("the game has no {}", section.name());
+                let help = format!("add a line `{}`, indented below the first line", section.name());
+                self.problems.push(Diagnostic::error("missing-section", header.span, message).help(help));
             }
         }
     }
@@ -123,10 +127,10 @@ impl Reader {
             match token {
                 Token::Word(word) if header.class.text.is_empty() => header.class = word,
                 Token::Param(param) => header.params.push(param),
-                Token::Word(Word { span, .. }) | Token::Arrow(span) => {
-                    let problem =
-                        Diagnostic::error("stray-word", span, "the first line takes `key=value` only");
-                    self.problems.push(problem);
+                Token::Word(word) => self.stray_word(&word, "the first line takes `key=value` only"),
+                Token::Arrow(span) => {
+                    let message = "the first line takes `key=value` only";
+                    self.problems.push(Diagnostic::error("stray-word", span, message).help("remove it"));
                 }
             }
         }
@@ -142,70 +146,82 @@ impl Reader {
         self.description.header = header;
     }
 
-    fn names_section(text: &str) -> Option<Section> {
-        Section::ALL.into_iter().find(|section| section.name().eq_ignore_ascii_case(text))
-    }
-
-    /// The section that `line` opens; anything else at this place is a problem.
-    fn section(&mut self, line: &Line<'_>) -> Option<Section> {
-        let Some(section) = Self::names_section(line.text) else {
-            let names = Section::ALL.map(Section::name);
-            let problem = Diagnostic::error("stray-line", line.span, "this line is in no section");
-            self.problems.push(match nearest(line.text, names) {
-                Some(name) => problem.help(format!("did you mean `{name}`?")),
-                None => {
-                    problem.help("sections are SpriteSet, LevelMapping, InteractionSet and TerminationSet")
-                }
-            });
-            return None;
-        };
-        if line.text != section.name() {
-            let message = format!("`{}` is not a section; names are case-sensitive", line.text);
-            let problem = Diagnostic::error("unknown-section", line.span, message);
-            self.problems.push(problem.help(format!("write `{}`", section.name())));
-        }
-        let seen = &mut self.description.has[section as usize];
-        if *seen {
-            let message = format!("a second {}", section.name());
-            let problem = Diagnostic::error("duplicate-section", line.span, message);
-            self.problems.push(problem.help("merge the two sections"));
-        }
-        *seen = true;
-        Some(section)
-    }
-
-    fn body(&mut self, section: Section, head: &Line<'_>, lines: &[Line<'_>]) {
-        let mut inside = Vec::new();
+    /// The sections as the reference finds them: what is not spelt exactly only ends the section before it.
+    fn parts<'a, 'b>(&mut self, lines: &'b [Line<'a>]) -> Vec<Part<'a, 'b>> {
+        let mut parts: Vec<Part<'a, 'b>> = Vec::new();
+        let mut open = false;
         for line in lines {
-            let words = line.text.split([' ', '\t']).count();
-            if line.indent <= head.indent {
-                let message = format!("this line is not indented below {}", section.name());
-                let problem = Diagnostic::error("stray-line", line.span, message);
-                self.problems.push(match nearest(line.text, Section::ALL.map(Section::name)) {
-                    Some(name) if words == 1 => problem.help(format!("did you mean `{name}`?")),
-                    _ => problem.help("indent it deeper than the section's name"),
-                });
-                if words == 1 && nearest(line.text, Section::ALL.map(Section::name)).is_some() {
-                    // A misspelt section: what follows belongs to it, and would only repeat the problem.
-                    break;
+            match sections::named(line.text) {
+                Some(section) => {
+                    open = line.text == section.name();
+                    if open {
+                        parts.push(Part { section, head: line, body: Vec::new() });
+                    }
                 }
-                continue;
+                None => {
+                    let Some(part) = parts.last_mut().filter(|_| open) else { continue };
+                    if line.indent > part.head.indent {
+                        part.body.push(line);
+                    } else {
+                        // A section of no known name: what is indented below it goes with it.
+                        open = false;
+                    }
+                }
             }
-            inside.push(line);
         }
+        parts
+    }
+
+    /// The sections as they were meant, with a problem for each that is not as it should be.
+    fn mended_parts<'a, 'b>(&mut self, header: &'b Line<'a>, lines: &'b [Line<'a>]) -> Vec<Part<'a, 'b>> {
+        let parts = sections::mended(header, lines, &mut self.problems);
+        for (at, part) in parts.iter().enumerate() {
+            if parts[..at].iter().any(|other| other.section == part.section) {
+                let message = format!("a second {}", part.section.name());
+                let problem = Diagnostic::error("duplicate-section", part.head.span, message);
+                self.problems.push(problem.help("merge the two sections"));
+            }
+        }
+        let place = |section| parts.iter().position(|part| part.section == section);
+        for section in [Section::InteractionSet, Section::TerminationSet] {
+            if let (Some(own), Some(sprites)) = (place(section), place(Section::SpriteSet))
+                && own < sprites
+            {
+                let message = format!("{} stands before the SpriteSet that it speaks of", section.name());
+                let problem = Diagnostic::error("section-order", parts[own].head.span, message);
+                self.problems
+                    .push(problem.help("put the SpriteSet first: the reference engine reads in order"));
+            }
+        }
+        parts
+    }
+
+    fn body(&mut self, part: &Part<'_, '_>) {
+        let (section, head) = (part.section, part.head);
         if section == Section::SpriteSet {
             let mut forest = Vec::new();
-            self.sprites(&inside, &mut forest, 0);
+            let lines = if self.as_reference { &part.body[..] } else { &self.indented(part) };
+            if !self.as_reference {
+                sections::off_grid(head.indent, lines, &mut self.problems);
+            }
+            self.sprites(lines, &mut forest, 0);
             self.description.sprites.append(&mut forest);
             return;
         }
-        let indent = inside.first().map_or(0, |line| line.indent);
-        for line in inside {
+        let indent = match self.as_reference {
+            true => part.body.first().map_or(0, |line| line.indent),
+            false => sections::usual_indent(
+                part.body.iter().map(|line| line.indent).filter(|&indent| indent > head.indent),
+            ),
+        };
+        for &line in &part.body {
             if self.as_reference && line.indent != indent {
                 if line.indent > indent {
                     continue;
                 }
                 self.description.messages += 1;
+            } else if line.indent <= head.indent {
+                self.outside(line, section);
             } else if line.indent != indent {
                 let problem =
                     Diagnostic::error("stray-indent", line.span, "this line is indented unlike the others")
@@ -225,9 +241,38 @@ impl Reader {
         }
     }
 
+    /// The lines of a SpriteSet that are indented below its name; a problem for each other.
+    fn indented<'a, 'b>(&mut self, part: &Part<'a, 'b>) -> Vec<&'b Line<'a>> {
+        let (inside, outside): (Vec<_>, Vec<_>) =
+            part.body.iter().partition(|line| line.indent > part.head.indent);
+        for line in outside {
+            self.outside(line, part.section);
+            // Read all the same, so that its name is known.
+            let sprite = self.sprite(line);
+            self.description.sprites.extend(sprite);
+        }
+        inside
+    }
+
+    fn outside(&mut self, line: &Line<'_>, section: Section) {
+        let message = format!("this line is not indented below {}", section.name());
+        let problem = Diagnostic::error("stray-line", line.span, message);
+        self.problems.push(problem.help("indent it like the other lines of the section"));
+    }
+
+    /// A word where none belongs.
+    fn stray_word(&mut self, word: &Word, message: impl Into<String>) {
+        let problem = Diagnostic::error("stray-word", word.span, message);
+        self.problems.push(match repair::parameter(&word.text) {
+            Some(param) => problem.help(format!("did you mean `{param}`?")),
+            None => problem.help(format!("remove `{}`", word.text)),
+        });
+    }
+
     /// Siblings are the lines at one depth; deeper lines are children of the line above (`spec/01` §1.3).
     fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
+        let indent = if self.as_reference { first.indent } else { sections::siblings_indent(lines) };
         if depth == MAX_DEPTH {
             let message = format!("sprites are nested more than {MAX_DEPTH} deep");
             self.problems.push(Diagnostic::error("too-deep", first.span, message));
@@ -237,10 +282,14 @@ impl Reader {
         while at < lines.len() {
             let line = lines[at];
             let deeper = lines[at + 1..].iter().take_while(|child| child.indent > line.indent).count();
-            if line.indent != first.indent {
-                let problem =
-                    Diagnostic::warning("uneven-indent", line.span, "siblings are indented differently")
-                        .help(format!("indent them all by {} columns", first.indent));
+            let told = |problem: &Diagnostic| problem.code == "uneven-indent" && problem.span == line.span;
+            if line.indent != indent && !self.problems.iter().any(told) {
+                let problem = Diagnostic::warning(
+                    "uneven-indent",
+                    line.span,
+                    "this line is indented unlike its siblings",
+                )
+                .help(format!("indent it by {indent} columns, like them"));
                 self.problems.push(problem);
             }
             let mut sprite = self.sprite(line);
@@ -263,21 +312,25 @@ impl Reader {
         let mut arrow = false;
         for token in self.tokens(line) {
             match token {
-                Token::Word(word) if sprite.name.text.is_empty() => sprite.name = word,
-                Token::Word(word) if sprite.class.is_none() => sprite.class = Some(word),
+                Token::Word(word) if sprite.name.text.is_empty() && (!arrow || self.as_reference) => {
+                    sprite.name = word;
+                }
+                Token::Word(word) if sprite.class.is_none() && (self.as_reference || !glued(&word)) => {
+                    sprite.class = Some(word);
+                }
                 Token::Word(word) => {
-                    let message = format!("`{}`: a sprite has one class", word.text);
-                    self.problems.push(Diagnostic::error("stray-word", word.span, message));
+                    self.stray_word(&word, format!("`{}`: a sprite has one class", word.text));
                 }
                 Token::Arrow(_) => arrow = true,
                 Token::Param(param) => sprite.params.push(param),
             }
         }
         if !arrow || sprite.name.text.is_empty() {
-            let problem =
-                Diagnostic::error("missing-arrow", line.span, "a sprite line is `name > Class key=value …`")
-                    .help("put ` > ` after the name, with a blank on both sides");
-            self.problems.push(problem);
+            let fixed = self.mend_arrow(line, arrow, "a sprite line is `name > Class key=value …`");
+            if let Some(name) = fixed.as_deref().and_then(|fixed| fixed.split_whitespace().next()) {
+                sprite.name.text = name.trim_end_matches('>').to_owned();
+                sprite.class = None;
+            }
         }
         if self.as_reference && !arrow {
             return None;
@@ -285,12 +338,35 @@ impl Reader {
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
 
+    /// The problem of a line whose arrow is missing or something else: at that word, if there is one. What to write there.
+    fn mend_arrow(&mut self, line: &Line<'_>, has_arrow: bool, shape: &str) -> Option<String> {
+        let mut words = line.text.split([' ', '\t']).filter(|word| !word.is_empty());
+        let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
+        let Some((word, fixed)) = meant else {
+            let help = match has_arrow {
+                true => "put the name of the sprite before the `>`",
+                false => "put ` > ` after the name, with a blank on both sides",
+            };
+            self.problems.push(Diagnostic::error("missing-arrow", line.span, shape).help(help));
+            return None;
+        };
+        let start = line.span.start + (word.as_ptr() as usize - line.text.as_ptr() as usize);
+        let span = Span::new(start, start + word.len());
+        let problem = Diagnostic::error("missing-arrow", span, format!("`{word}` is no ` > `; {shape}"));
+        self.problems.push(problem.help(format!("write ` {fixed} `, with blanks around the `>`")));
+        Some(fixed)
+    }
+
     fn mapping(&mut self, line: &Line<'_>) {
         let Ok(mut pairs) = Grammar::parse(Rule::mapping, line.text) else {
-            let problem =
-                Diagnostic::error("bad-mapping", line.span, "a mapping line is `c > sprite sprite …`")
-                    .help("one character, ` > `, then the names of sprites");
-            self.problems.push(problem);
+            let shape = "a mapping line is `c > sprite sprite …`";
+            if !line.text.split([' ', '\t']).any(|word| word == ">") {
+                self.mend_arrow(line, false, shape);
+            } else {
+                let problem = Diagnostic::error("bad-mapping", line.span, shape);
+                self.problems
+                    .push(problem.help("put one character before the `>`, then the names of sprites"));
+            }
             return;
         };
         let mut mapping = MappingLine { trivia: trivia(line), ..MappingLine::default() };
@@ -318,42 +394,51 @@ impl Reader {
 
     fn interaction(&mut self, line: &Line<'_>) {
         let mut names = Vec::new();
-        let mut effects = Vec::new();
+        let mut after = Vec::new();
         let mut interaction = InteractionLine { trivia: trivia(line), ..InteractionLine::default() };
         let mut arrow = false;
         for token in self.tokens(line) {
             match token {
                 Token::Arrow(_) => arrow = true,
-                Token::Word(word) if arrow => effects.push(word),
+                Token::Word(word) if arrow => after.push(word),
                 Token::Word(word) => names.push(word),
                 Token::Param(param) => interaction.params.push(param),
             }
         }
         if self.as_reference {
-            if self.broken || !arrow || effects.is_empty() || names.is_empty() {
+            if self.broken || !arrow || after.is_empty() || names.is_empty() {
                 self.description.messages += 1;
                 return;
             }
             interaction.first = names.remove(0);
             interaction.second = names;
-            interaction.effect = effects.pop().expect("there is one");
+            interaction.effect = after.pop().expect("there is one");
             self.description.interactions.push(interaction);
             return;
         }
         let shape = "an interaction is `sprite partner … > effect key=value …`";
-        if !arrow || names.len() < 2 || effects.len() != 1 {
-            let help = match (arrow, names.len(), effects.len()) {
-                (false, ..) => "put ` > ` before the effect, with a blank on both sides",
-                (_, 0 | 1, _) => "name two sprites before `>`: the one acted upon, then its partner (or EOS)",
-                (_, _, 0) => "name the effect after `>`",
-                _ => "name one effect only",
+        if !arrow {
+            self.mend_arrow(line, false, shape);
+            return;
+        }
+        let is_effect = |word: &Word| effects::NAMES.contains(&word.text.as_str());
+        if let ([_, ..], [effect, extra, ..]) = (&names[..], &after[..]) {
+            let extra = if is_effect(effect) || !is_effect(extra) { extra } else { effect }.clone();
+            self.stray_word(&extra, "an interaction has one effect");
+            after.retain(|effect| *effect != extra);
+            after.truncate(1);
+        }
+        if names.len() < 2 || after.is_empty() {
+            let help = match names.len() {
+                0 | 1 => "name two sprites before `>`: the one acted upon, then its partner (or EOS)",
+                _ => "name the effect after `>`",
             };
             self.problems.push(Diagnostic::error("bad-interaction", line.span, shape).help(help));
             return;
         }
         interaction.first = names.remove(0);
         interaction.second = names;
-        interaction.effect = effects.remove(0);
+        interaction.effect = after.remove(0);
         self.description.interactions.push(interaction);
     }
 
@@ -362,9 +447,10 @@ impl Reader {
         for token in self.tokens(line) {
             match token {
                 Token::Word(word) if termination.class.text.is_empty() => termination.class = word,
-                Token::Word(Word { span, .. }) | Token::Arrow(span) => {
+                Token::Word(word) => self.stray_word(&word, "a termination is `Class key=value …`"),
+                Token::Arrow(span) => {
                     let message = "a termination is `Class key=value …`";
-                    self.problems.push(Diagnostic::error("stray-word", span, message));
+                    self.problems.push(Diagnostic::error("stray-word", span, message).help("remove the `>`"));
                 }
                 Token::Param(param) => termination.params.push(param),
             }
@@ -374,8 +460,16 @@ impl Reader {
             return;
         }
         if termination.class.text.is_empty() {
+            let has = |key: &str| termination.params.iter().any(|param| param.key.text == key);
+            let class = match () {
+                () if has("stype") => "SpriteCounter",
+                () if has("subTypesNum") => "MultiSpriteCounterSubTypes",
+                () if has("stype1") => "MultiSpriteCounter",
+                () => "Timeout",
+            };
             let message = "a termination is `Class key=value …`";
-            self.problems.push(Diagnostic::error("bad-termination", line.span, message));
+            let problem = Diagnostic::error("bad-termination", line.span, message);
+            self.problems.push(problem.help(format!("put its class first: `{class}`?")));
         } else {
             self.description.terminations.push(termination);
         }
@@ -391,27 +485,88 @@ impl Reader {
         };
         let mut tokens = Vec::new();
         self.broken = false;
-        for pair in pairs.next().expect("the rule matched").into_inner() {
+        let mut pairs = pairs.next().expect("the rule matched").into_inner().peekable();
+        while let Some(pair) = pairs.next() {
             match pair.as_rule() {
                 Rule::word => tokens.push(Token::Word(word(line, &pair))),
                 Rule::arrow => tokens.push(Token::Arrow(span(line, &pair))),
                 Rule::param => {
+                    let whole = word(line, &pair);
                     let mut parts = pair.into_inner();
                     let mut part = || word(line, &parts.next().expect("a parameter has a key and a value"));
-                    tokens.push(Token::Param(Param { key: part(), value: part() }));
+                    let param = Param { key: part(), value: part() };
+                    if param.key.text.is_empty() && !self.as_reference {
+                        self.broken_param(line, whole, &mut tokens, &mut pairs);
+                    } else {
+                        tokens.push(Token::Param(param));
+                    }
                 }
                 Rule::broken => {
                     self.broken = true;
-                    let message = format!("`{}` is not `key=value`", pair.as_str());
-                    let problem = Diagnostic::error("bad-parameter", span(line, &pair), message);
-                    self.problems
-                        .push(problem.help("write it without blanks around the `=`, and with a value"));
+                    if !self.as_reference {
+                        self.broken_param(line, word(line, &pair), &mut tokens, &mut pairs);
+                    }
                 }
                 _ => {}
             }
         }
         tokens
     }
+
+    /// A word with an `=` that is no `key=value`: with blanks around the `=`, half of it missing, or several of them. What
+    /// it was meant to be is read, so that it costs one problem.
+    fn broken_param<'a>(
+        &mut self,
+        line: &Line<'_>,
+        whole: Word,
+        tokens: &mut Vec<Token>,
+        rest: &mut Peekable<Pairs<'a, Rule>>,
+    ) {
+        let next = rest.peek().filter(|next| next.as_rule() == Rule::word).map(|next| word(line, next));
+        let known = |word: &Word| {
+            SpriteClass::from_name(&word.text).is_some() || effects::NAMES.contains(&word.text.as_str())
+        };
+        let has_arrow = line.text.split([' ', '\t']).any(|word| word == ">");
+        if whole.text == "=>" || whole.text == "=" && !has_arrow && next.as_ref().is_some_and(known) {
+            // Meant as the arrow; whoever misses that says so.
+            return;
+        }
+        let (key, value) = whole.text.split_once('=').expect("it is broken at its `=`");
+        let value = value.rsplit('=').next().unwrap_or_default();
+        let key = match tokens.last() {
+            Some(Token::Word(before)) if key.is_empty() => Some(before.clone()),
+            _ => Some(Word { text: key.to_owned(), span: whole.span }).filter(|key| !key.text.is_empty()),
+        };
+        let value = match value {
+            "" => next,
+            value => Some(Word { text: value.to_owned(), span: whole.span }),
+        };
+        let message = format!("`{}` is not `key=value`", whole.text);
+        let (Some(key), Some(value)) = (key, value) else {
+            let problem = Diagnostic::error("bad-parameter", whole.span, message);
+            self.problems.push(match whole.text.strip_suffix('=') {
+                Some(key) => problem.help(format!("write a value after `{key}=`, without a blank")),
+                None => problem.help(format!("write the parameter's name before `{}`", whole.text)),
+            });
+            return;
+        };
+        let taken = |word: &Word| word.span.start != whole.span.start;
+        if taken(&key) {
+            tokens.pop();
+        }
+        if taken(&value) {
+            rest.next();
+        }
+        let span = Span::new(key.span.start, value.span.end);
+        let problem = Diagnostic::error("bad-parameter", span, message);
+        self.problems.push(problem.help(format!("write `{}={}`", key.text, value.text)));
+        tokens.push(Token::Param(Param { key, value }));
+    }
+}
+
+/// Whether a word where a class may stand is a parameter without its `=`.
+fn glued(word: &Word) -> bool {
+    SpriteClass::from_name(&word.text).is_none() && repair::parameter(&word.text).is_some()
 }
 
 fn span(line: &Line<'_>, pair: &Pair<'_, Rule>) -> Span {
@@ -457,6 +612,7 @@ mod tests {
         parse(source).1.into_iter().map(|problem| problem.code).collect()
     }
 
+    const NONE: [&str; 0] = [];
     const SMALL: &str = "BasicGame square_size=10\n  SpriteSet\n    a > Missile speed=1.5\n      b > color=RED\n  LevelMapping\n    x > a b\n  InteractionSet\n    a b EOS > killSprite scoreChange=-1\n  TerminationSet\n    Timeout limit=5 win=True\n";
 
     #[test]
@@ -473,12 +629,17 @@ mod tests {
 
     #[test]
     fn a_bad_line_costs_one_problem() {
-        assert_eq!(codes(&SMALL.replace("a b EOS > killSprite", "a b EOS killSprite")), ["bad-interaction"]);
+        assert_eq!(codes(&SMALL.replace("a b EOS > killSprite", "a b EOS killSprite")), ["missing-arrow"]);
         assert_eq!(codes(&SMALL.replace("a > Missile", "a Missile")), ["missing-arrow"]);
         assert_eq!(codes(&SMALL.replace("limit=5", "limit=")), ["bad-parameter"]);
+        assert_eq!(codes(&SMALL.replace("  LevelMapping", "  LevelMaping")), ["unknown-section"]);
+        assert_eq!(codes(&SMALL.replace("  LevelMapping\n", "")), ["missing-section"]);
+        assert_eq!(codes(&SMALL.replace("    a b EOS", "   a b EOS")), NONE);
+        assert_eq!(codes(&SMALL.replace("speed=1.5", "speed = 1.5")), ["bad-parameter"]);
+        assert_eq!(codes(&SMALL.replace("speed=1.5", "speed1.5")), ["stray-word"]);
         assert_eq!(
-            codes(&SMALL.replace("  LevelMapping", "  LevelMaping")),
-            ["missing-section", "stray-line"]
+            codes(&SMALL.replace("    x > a b\n", "    x > a b\n    Timeout limit=1\n")),
+            ["wrong-section"]
         );
         assert_eq!(codes(&SMALL.replace("x > a b", "xy > a b")), ["bad-mapping"]);
         assert_eq!(codes(&SMALL.replace("BasicGame", "Basicgame")), ["unknown-game-class"]);
