@@ -11,7 +11,7 @@ use crate::syntax::Description;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A sprite type of one game, by its place in the game's registry: `wall` is 0 and `avatar` is 1 in every game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -218,7 +218,10 @@ pub(crate) struct Pass {
 pub(crate) struct Rules {
     pub(crate) description: Description,
     pub(crate) digest: Digest,
+    /// What the text alone warns of.
     pub(crate) warnings: Vec<Diagnostic>,
+    /// Those and what the meaning of the rules warns of; found when first asked for.
+    pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,
     /// Loaded as the reference does: levels are, too.
     pub(crate) as_reference: bool,
     /// Messages that the reference has logged when the rules are loaded.
@@ -308,9 +311,14 @@ impl Game {
         crate::compile::compile_as_reference(&description).map(|rules| Game(Arc::new(rules)))
     }
 
-    /// What is legal in the file but surely not meant.
+    /// What is legal in the file but surely not meant, sorted by place; nothing for games loaded as the reference does.
+    ///
+    /// Cost: the first call analyses the rules ([`Analysis::of`](crate::Analysis::of)).
     pub fn warnings(&self) -> &[Diagnostic] {
-        &self.0.warnings
+        self.0.all_warnings.get_or_init(|| {
+            let meant = if self.0.as_reference { Vec::new() } else { crate::lint::lint(self) };
+            Diagnostics::sorted(self.0.warnings.iter().cloned().chain(meant).collect()).0
+        })
     }
 
     /// What the player can do now, besides nothing: sorted; only [`Action::Nil`] without an avatar.

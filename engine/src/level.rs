@@ -244,6 +244,9 @@ impl LevelReader<'_> {
             messages = cells.iter().filter(undefined).count() as u32;
             self.problems.retain(|problem| problem.code == "too-large");
         }
+        if !self.game.0.as_reference && !Diagnostics::has_errors(&self.problems) {
+            self.problems.extend(crate::lint::over_at_start(self.game, &cells));
+        }
         let problems = Diagnostics::sorted(self.problems);
         if Diagnostics::has_errors(&problems.0) {
             return Err(problems);

@@ -38,6 +38,7 @@ mod game;
 mod geometry;
 mod hash;
 mod level;
+mod lint;
 mod observe;
 mod occupancy;
 mod ontology;

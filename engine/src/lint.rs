@@ -1,0 +1,437 @@
+//! What is legal in a game but surely not meant, as far as the meaning of its rules tells. (What the text alone tells, the
+//! parser and the compiler say.)
+
+use crate::analysis::{Analysis, Deed, Encounter, Motion, Provided};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::game::{Game, SpriteType};
+use crate::ontology::class::SpriteClass;
+use crate::ontology::terminations::Condition;
+use crate::step::MAX_TICKS;
+use crate::syntax::Param;
+
+/// All warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].
+pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
+    let linter = Linter { game, analysis: &Analysis::of(game) };
+    let mut problems = Vec::new();
+    linter.rules_that_never_fire(&mut problems);
+    linter.terminations(&mut problems);
+    linter.hidden_sprites(&mut problems);
+    linter.ignored_parameters(&mut problems);
+    linter.lost_avatar(&mut problems);
+    problems
+}
+
+/// Terminations that hold when an episode of the level starts, by what the level places; `cells` are its characters.
+pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
+    let rules = &game.0;
+    if rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. })) {
+        return Vec::new();
+    }
+    let mut placed = vec![0_i64; rules.types.len()];
+    for &stype in cells.iter().flat_map(|&symbol| game.places(symbol)) {
+        placed[stype.index()] += 1;
+    }
+    let tree = |written: SpriteType| rules.types[written.index()].tree.iter().copied();
+    let count = |written: SpriteType| tree(written).map(|stype| placed[stype.index()]).sum::<i64>();
+    // What a placed sprite makes may be there before the first check.
+    let made = |written: SpriteType| {
+        let makers = game.sprite_types().filter(|stype| placed[stype.index()] > 0);
+        makers
+            .flat_map(|maker| &rules.types[maker.index()].traits.stypes)
+            .any(|&made| tree(written).any(|t| t == made))
+    };
+    let mut problems = Vec::new();
+    for (end, line) in rules.terminations.iter().zip(&rules.description.terminations) {
+        let (stypes, holds) = match &end.condition {
+            Condition::SpriteCounter { stype, limit } => (&[*stype][..], count(*stype) <= i64::from(*limit)),
+            Condition::SpriteCounterMore { stype, limit } => {
+                (&[*stype][..], count(*stype) >= i64::from(*limit))
+            }
+            Condition::MultiSpriteCounter { stypes, limit, min } => {
+                let sum = stypes.iter().map(|&stype| count(stype)).sum::<i64>();
+                (&stypes[..], sum == i64::from(*limit) || *min && sum > i64::from(*limit))
+            }
+            _ => continue,
+        };
+        if holds && !stypes.iter().any(|&stype| made(stype)) {
+            let counts = stypes.iter().map(|&stype| format!("{} `{}`", count(stype), game.name(stype)));
+            let outcome = if end.win { "won" } else { "lost" };
+            let message = format!(
+                "the level is {outcome} in its first tick: with {}, a {} holds",
+                counts.collect::<Vec<_>>().join(" and "),
+                line.class.text
+            );
+            let problem = Diagnostic::warning("ends-at-once", Span::new(0, 0), message);
+            problems.push(problem.help("place what it counts, or change its `limit=`"));
+        }
+    }
+    problems
+}
+
+struct Linter<'a> {
+    game: &'a Game,
+    analysis: &'a Analysis,
+}
+
+impl Linter<'_> {
+    /// Interactions of sprites that never meet, or that need more of a resource than anyone can have.
+    fn rules_that_never_fire(&self, problems: &mut Vec<Diagnostic>) {
+        let lines = &self.game.description().interactions;
+        for (number, line) in lines.iter().enumerate() {
+            let own: Vec<&Encounter> =
+                self.analysis.encounters().iter().filter(|encounter| encounter.line == number).collect();
+            let Some(reasons) = own.iter().map(|encounter| self.idle(encounter)).collect::<Option<Vec<_>>>()
+            else {
+                continue;
+            };
+            // What is never there has been told of by itself.
+            let Some(reason) = reasons.into_iter().find(|reason| !reason.is_empty()) else { continue };
+            let span = Span::new(line.first.span.start, line.effect.span.end);
+            let message = format!("this rule never fires: {reason}");
+            let problem = Diagnostic::warning("never-fires", span, message);
+            problems.push(problem.help("remove it, or let what it needs happen"));
+        }
+    }
+
+    /// Why an interaction never happens; empty if one of the two is never there; None if it may happen.
+    fn idle(&self, encounter: &Encounter) -> Option<String> {
+        let name = |stype: SpriteType| self.game.name(stype);
+        let first = self.tree(encounter.first);
+        let second = encounter.second.map(|second| self.tree(second));
+        if first.is_empty() || second.as_ref().is_some_and(Vec::is_empty) {
+            return Some(String::new());
+        }
+        if let Provided::Holds(_, resource, amount) = encounter.provided
+            && amount > 0
+            && !self.gained(resource)
+        {
+            return Some(format!("it needs {amount} `{}`, and nothing gives any", name(resource)));
+        }
+        let (second, other) = (second?, encounter.second?);
+        if first.iter().any(|&stype| self.roams(stype)) || second.iter().any(|&stype| self.roams(stype)) {
+            return None;
+        }
+        let together = |one: SpriteType, two: SpriteType| {
+            self.analysis.facts(one).symbols.iter().any(|&symbol| {
+                let places = self.game.places(symbol);
+                let count = |stype| places.iter().filter(|&&placed| placed == stype).count();
+                if one == two { count(one) > 1 } else { count(one) > 0 && count(two) > 0 }
+            })
+        };
+        let meet = first.iter().any(|&one| second.iter().any(|&two| together(one, two)));
+        (!meet).then(|| {
+            format!(
+                "neither `{}` nor `{}` ever moves, and no character places both",
+                name(encounter.first),
+                name(other)
+            )
+        })
+    }
+
+    /// The types that a rule on `written` holds for and that can occur.
+    fn tree(&self, written: SpriteType) -> Vec<SpriteType> {
+        let types = self.game.sprite_types();
+        types
+            .filter(|&stype| self.analysis.applies(written, stype) && self.analysis.facts(stype).possible)
+            .collect()
+    }
+
+    /// Whether sprites of the type can be elsewhere than where a level places them.
+    fn roams(&self, stype: SpriteType) -> bool {
+        let facts = self.analysis.facts(stype);
+        let info = &self.game.0.types[stype.index()];
+        let made = |deed: &Deed| match deed {
+            Deed::Become(to) | Deed::BecomeAll(_, to) | Deed::Make(to) => *to == stype,
+            Deed::BecomeAny(options) => options.contains(&stype),
+            _ => false,
+        };
+        let moves = |deed: &Deed| {
+            matches!(
+                deed,
+                Deed::Push | Deed::Carry | Deed::Teleport | Deed::Wrap | Deed::Clone | Deed::Undo(_)
+            )
+        };
+        facts.motion != Motion::Still
+            || info.traits.width_factor != 1.0
+            || info.traits.height_factor != 1.0
+            || self.game.sprite_types().any(|maker| self.analysis.facts(maker).makes.contains(&stype))
+            || !self.game.0.timed.is_empty()
+            || self.analysis.encounters().iter().any(|encounter| {
+                encounter.does(made) || self.analysis.applies(encounter.first, stype) && encounter.does(moves)
+            })
+    }
+
+    /// Whether a sprite can come to hold more of a resource.
+    fn gained(&self, resource: SpriteType) -> bool {
+        self.analysis.encounters().iter().any(|encounter| {
+            encounter.does(|deed| match deed {
+                Deed::Collect => self.analysis.applies(encounter.first, resource),
+                Deed::Change { resource: other, by, .. } => *other == resource && *by > 0,
+                _ => false,
+            })
+        })
+    }
+
+    /// Terminations that hold at the start or never, and the lack of one that loses.
+    fn terminations(&self, problems: &mut Vec<Diagnostic>) {
+        let lines = &self.game.description().terminations;
+        let all = &self.game.0.terminations;
+        let stoppable = all.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }));
+        for (end, line) in all.iter().zip(lines) {
+            let absent = |stypes: &[SpriteType]| stypes.iter().all(|&stype| !self.at_start(stype));
+            let at_once = match &end.condition {
+                Condition::SpriteCounter { stype, limit } => *limit >= 0 && absent(&[*stype]),
+                Condition::SpriteCounterMore { limit, .. } => *limit <= 0,
+                Condition::MultiSpriteCounter { stypes, limit, min } => {
+                    (*limit == 0 || *min && *limit < 0) && absent(stypes)
+                }
+                Condition::Timeout { limit } => {
+                    if *limit > MAX_TICKS {
+                        let message = format!("an episode has {MAX_TICKS} ticks at most: this never happens");
+                        let problem = Diagnostic::warning("never-ends", line.class.span, message);
+                        problems.push(problem.help(format!("write a limit below {MAX_TICKS}")));
+                    }
+                    *limit <= 0
+                }
+                _ => false,
+            };
+            if at_once && (!stoppable || matches!(end.condition, Condition::Timeout { .. })) {
+                let message = "this holds at the start of every level: the game is over in its first tick";
+                let problem = Diagnostic::warning("ends-at-once", line.class.span, message);
+                problems.push(problem.help("let levels place what it counts, or set another `limit=`"));
+            }
+        }
+        if !lines.is_empty() && all.iter().all(|end| end.win) {
+            let message = "the game cannot be lost before its last tick: no termination has `win=False`";
+            let problem = Diagnostic::warning("no-lose", lines[0].class.span, message);
+            problems.push(problem.help("add a Timeout, or what ends the game badly"));
+        }
+    }
+
+    /// Whether a level can place what counts as this type, or something makes it in the first tick.
+    fn at_start(&self, written: SpriteType) -> bool {
+        self.game.sprite_types().filter(|&stype| self.analysis.applies(written, stype)).any(|stype| {
+            let maker = |other: SpriteType| {
+                let facts = self.analysis.facts(other);
+                !facts.symbols.is_empty() && facts.makes.contains(&stype)
+            };
+            !self.analysis.facts(stype).symbols.is_empty() || self.game.sprite_types().any(maker)
+        })
+    }
+
+    /// Sprites that take part in rules and are drawn under scenery that takes part in none.
+    fn hidden_sprites(&self, problems: &mut Vec<Diagnostic>) {
+        let rules = &self.game.0;
+        let acts = |stype: SpriteType| {
+            let timed = !rules.timed.is_empty();
+            let takes_part = |encounter: &Encounter| {
+                self.analysis.applies(encounter.first, stype)
+                    || encounter.second.is_some_and(|second| self.analysis.applies(second, stype))
+            };
+            timed || self.analysis.encounters().iter().any(takes_part)
+        };
+        for line in &self.game.description().mapping {
+            let Ok(symbol) = u8::try_from(line.symbol) else { continue };
+            let places = self.game.places(symbol);
+            let order = |stype: SpriteType| rules.types[stype.index()].order;
+            for (&below, word) in places.iter().zip(&line.names) {
+                let covers = |&&above: &&SpriteType| {
+                    let traits = &rules.types[above.index()].traits;
+                    order(above) > order(below) && !traits.hidden && !traits.invisible && !acts(above)
+                };
+                let traits = &rules.types[below.index()].traits;
+                let seen = traits.hidden || traits.invisible || order(below).is_none();
+                let Some(&above) = places.iter().find(covers).filter(|_| !seen && acts(below)) else {
+                    continue;
+                };
+                let (above, below) = (self.game.name(above), self.game.name(below));
+                let message =
+                    format!("`{below}` is drawn under `{above}`, which no rule speaks of, and is not seen");
+                let problem = Diagnostic::warning("hidden-sprite", word.span, message);
+                problems.push(problem.help(format!("declare `{above}` before `{below}` in the SpriteSet")));
+            }
+        }
+    }
+
+    /// An avatar type that is drawn before all others: the reference does not look for the player's avatar there.
+    fn lost_avatar(&self, problems: &mut Vec<Diagnostic>) {
+        let Some(&first) = self.game.0.order.first() else { return };
+        if self.game.class(first).is_some_and(SpriteClass::is_avatar) {
+            let name = self.game.name(first);
+            let lines = self.game.description().sprite_lines();
+            let Some((_, line)) = lines.iter().find(|(_, line)| line.name.text == name) else { return };
+            let message =
+                format!("`{name}` stands before every other sprite, `wall` included: players do not find it");
+            let problem = Diagnostic::warning("lost-avatar", line.name.span, message);
+            problems.push(problem.help(format!("declare another sprite, such as `wall`, before `{name}`")));
+        }
+    }
+
+    /// Parameters that no class that has them looks at.
+    fn ignored_parameters(&self, problems: &mut Vec<Diagnostic>) {
+        let mut found: Vec<(&Param, bool, String)> = Vec::new();
+        for (_, line) in self.game.description().sprite_lines() {
+            let Some(stype) = self.game.sprite_type(&line.name.text) else { continue };
+            // On a parent's line it is for the subtypes to take or leave.
+            let heirs: Vec<SpriteType> = self
+                .game
+                .sprite_types()
+                .filter(|&heir| {
+                    let info = &self.game.0.types[heir.index()];
+                    info.leaf && info.path.contains(&stype)
+                })
+                .collect();
+            for param in &line.params {
+                let taken = heirs.iter().any(|&heir| self.looks_at(heir, &param.key.text));
+                found.push((param, taken, line.name.text.clone()));
+            }
+        }
+        for (param, taken, name) in found {
+            if !taken {
+                let key = &param.key.text;
+                let message = match key.as_str() {
+                    "jump_strength" => format!("`{name}` does not jump: `{key}` does nothing"),
+                    _ => format!("`{name}` has grid physics: `{key}` does nothing"),
+                };
+                let problem = Diagnostic::warning("ignored-parameter", param.span(), message);
+                problems.push(problem.help(match key.as_str() {
+                    "jump_strength" => "remove it, or choose a class that jumps",
+                    _ => "remove it, or add `physicstype=CONT`",
+                }));
+            }
+        }
+    }
+
+    /// Whether sprites of the type behave otherwise for the parameter.
+    fn looks_at(&self, stype: SpriteType, key: &str) -> bool {
+        use SpriteClass as C;
+        let info = &self.game.0.types[stype.index()];
+        let Some(class) = info.class else { return true };
+        match key {
+            "gravity" | "mass" | "friction" => info.traits.continuous || class.is_a(C::Walker),
+            "max_speed" => info.traits.continuous || class.is_a(C::Walker),
+            "jump_strength" => {
+                [C::PlatformerAvatar, C::BirdAvatar, C::WalkerJumper].iter().any(|&c| class.is_a(c))
+            }
+            _ => true,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Game;
+
+    const GAME: &str = "\
+BasicGame
+    SpriteSet
+        grass > Immovable
+        nest > SpawnPoint stype=chick prob=0.5
+        chick > RandomNPC
+        stone > Immovable
+        fence > Immovable
+        egg > Resource limit=3
+        avatar > MovingAvatar
+    LevelMapping
+        . > grass
+        n > nest
+        s > grass stone
+        f > grass fence
+        e > grass egg
+        A > grass avatar
+    InteractionSet
+        egg avatar > collectResource
+        avatar stone fence nest > stepBack
+        chick stone fence > stepBack
+        chick avatar > killIfOtherHasMore resource=egg limit=2 scoreChange=1
+    TerminationSet
+        SpriteCounter stype=nest win=False
+        Timeout limit=300 win=True
+";
+
+    #[track_caller]
+    fn check(replace: &str, with: &str, expect: &[(&str, usize)]) {
+        assert!(GAME.contains(replace), "{replace}");
+        let source = GAME.replace(replace, with);
+        let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}"));
+        let line = |start| crate::line_and_column(&source, start).0;
+        let told = game.warnings().iter().map(|warning| (warning.code, line(warning.span.start)));
+        assert_eq!(told.collect::<Vec<_>>(), expect, "{:?}", game.warnings());
+    }
+
+    #[test]
+    fn a_sound_game_has_no_warnings() {
+        check("", "", &[]);
+    }
+
+    #[test]
+    fn rules_that_never_fire() {
+        let rule = "avatar stone fence nest > stepBack\n";
+        check(rule, &format!("{rule}        stone fence > killSprite\n"), &[("never-fires", 20)]);
+        // Two in one cell.
+        let both = &GAME.replace("s > grass stone", "s > grass stone stone");
+        assert!(
+            Game::from_source(&both.replace(rule, &format!("{rule}        stone stone > killSprite\n")))
+                .unwrap()
+                .warnings()
+                .is_empty()
+        );
+        // Pushed things move.
+        let pushed = format!("{rule}        stone avatar > bounceForward\n        stone fence > undoAll\n");
+        check(rule, &pushed, &[]);
+        check("egg avatar > collectResource", "egg avatar > killSprite", &[("never-fires", 21)]);
+    }
+
+    #[test]
+    fn terminations_at_the_wrong_time() {
+        check("stype=nest win", "stype=chick win", &[]);
+        check("nest > SpawnPoint stype=chick prob=0.5", "nest > Immovable", &[("never-there", 5)]);
+        check("Timeout limit=300", "Timeout limit=0", &[("ends-at-once", 24)]);
+        check("Timeout limit=300", "Timeout limit=3000", &[("never-ends", 24)]);
+        check(
+            "SpriteCounter stype=nest win=False",
+            "SpriteCounterMore stype=nest win=False",
+            &[("ends-at-once", 23)],
+        );
+        check("stype=nest win=False", "stype=nest win=True", &[("no-lose", 23)]);
+    }
+
+    #[test]
+    fn sprites_under_scenery() {
+        let late = GAME
+            .replace("        grass > Immovable\n", "")
+            .replace("        avatar > Mov", "        grass > Immovable\n        avatar > Mov");
+        let game = Game::from_source(&late).unwrap();
+        let codes: Vec<&str> = game.warnings().iter().map(|warning| warning.code).collect();
+        assert_eq!(codes, ["hidden-sprite"; 3], "{:?}", game.warnings());
+    }
+
+    #[test]
+    fn parameters_of_the_other_physics() {
+        check("chick > RandomNPC", "chick > RandomNPC gravity=1", &[("ignored-parameter", 5)]);
+        check("chick > RandomNPC", "chick > RandomNPC gravity=1 physicstype=CONT", &[]);
+        check("avatar > MovingAvatar", "avatar > MovingAvatar jump_strength=5", &[("ignored-parameter", 9)]);
+    }
+
+    #[test]
+    fn avatars_before_everything() {
+        let first = GAME.replace(
+            "        grass > Immovable\n",
+            "        hen > MovingAvatar\n        wall > Immovable\n        grass > Immovable\n",
+        );
+        let game = Game::from_source(&first.replace("A > grass avatar", "A > grass hen")).unwrap();
+        assert!(game.warnings().iter().any(|warning| warning.code == "lost-avatar"), "{:?}", game.warnings());
+        let mut state = game.start(&game.level("A.n\n").unwrap(), crate::Seed::from_text("any"));
+        game.step(&mut state, crate::Action::Right);
+        assert_eq!(game.actions(&state), [crate::Action::Nil], "the warning is wrong: the player finds it");
+    }
+
+    #[test]
+    fn levels_that_are_over_at_once() {
+        let game = Game::from_source(GAME).unwrap();
+        assert!(game.level("A.n\n").unwrap().warnings().is_empty());
+        let over = game.level("A..\n").unwrap();
+        assert_eq!(over.warnings()[0].code, "ends-at-once");
+        assert!(over.warnings()[0].message.contains("lost"), "{}", over.warnings()[0].message);
+    }
+}
