@@ -62,6 +62,8 @@ pub use hash::{SearchKey, StateHash};
 pub use level::{Level, MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
 pub use observe::{Observation, SpriteRecord};
 pub use ontology::class::SpriteClass;
+pub use ontology::effects::NAMES as EFFECTS;
+pub use ontology::terminations::NAMES as TERMINATIONS;
 pub use sampler::Sampler;
 pub use seed::Seed;
 pub use state::State;

@@ -25,7 +25,7 @@ macro_rules! classes {
             }
 
             /// The parameters that this class adds to those of its parent.
-            fn own_parameters(self) -> &'static [&'static str] {
+            pub fn own_parameters(self) -> &'static [&'static str] {
                 match self { $(SpriteClass::$name => &$own),* }
             }
         }

@@ -28,8 +28,8 @@ pub(crate) enum Condition {
     Timeout { limit: i32 },
 }
 
-/// The termination classes.
-pub(crate) const NAMES: &[&str] = &[
+/// The termination classes of VGDL (`spec/01` §4.8).
+pub const NAMES: &[&str] = &[
     "SpriteCounter",
     "SpriteCounterMore",
     "MultiSpriteCounter",

@@ -24,7 +24,7 @@ pub(crate) trait Arguments {
 }
 
 /// The keywords that the engine plays, sorted.
-pub(crate) const NAMES: &[&str] = &[
+pub const NAMES: &[&str] = &[
     "addHealthPoints",
     "addHealthPointsToMax",
     "addTimer",

@@ -13,7 +13,8 @@ use crate::game::{EffectInfo, Limit, Pass, SpriteType};
 use crate::occupancy::Hits;
 use crate::state::{Slot, Timer, flag, memory};
 use crate::step::{MAX_TIMERS, Step};
-pub(crate) use build::{Arguments, NAMES, build};
+pub use build::NAMES;
+pub(crate) use build::{Arguments, build};
 
 /// An effect with its parameters, named as in VGDL.
 #[derive(Clone, Debug)]
