@@ -30,7 +30,7 @@ pub(crate) fn reference() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/gvgai");
     let found = folder.is_dir();
     if !found {
-        println!("skipped: no golden traces at {}", folder.display());
+        println!("SKIPPED: no golden traces at {}", folder.display());
     }
     found.then_some(folder)
 }
