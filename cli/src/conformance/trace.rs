@@ -160,14 +160,21 @@ fn records(line: usize, values: &[Value]) -> Result<Vec<SpriteRecord>, String> {
     values.iter().map(|value| record(value).ok_or_else(|| wrong(value))).collect()
 }
 
+/// A number, or what JSON has no numbers for.
+fn double(value: &Value) -> Option<f64> {
+    match value.as_str() {
+        Some("NaN") => Some(f64::NAN),
+        Some("Infinity") => Some(f64::INFINITY),
+        Some("-Infinity") => Some(f64::NEG_INFINITY),
+        _ => value.as_f64(),
+    }
+}
+
 /// `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`, sometimes with `{"res": …, "rot": …}` at the end.
 fn record(value: &Value) -> Option<SpriteRecord> {
     let list = value.as_array()?;
     let int = |at: usize| list.get(at)?.as_i64();
-    let number = |at: usize| match list.get(at)? {
-        Value::String(text) if text == "NaN" => Some(f64::NAN),
-        value => value.as_f64(),
-    };
+    let number = |at: usize| double(list.get(at)?);
     let mut record = SpriteRecord {
         id: int(0)?.try_into().ok()?,
         stype: int(1)?.try_into().ok()?,
@@ -185,7 +192,7 @@ fn record(value: &Value) -> Option<SpriteRecord> {
         rotation: 0.0,
     };
     if let Some(extra) = list.get(11) {
-        record.rotation = extra.get("rot").map_or(Some(0.0), Value::as_f64)?;
+        record.rotation = extra.get("rot").map_or(Some(0.0), double)?;
         if let Some(resources) = extra.get("res") {
             for (stype, amount) in resources.as_object()? {
                 record.resources.push((stype.parse().ok()?, amount.as_i64()?.try_into().ok()?));

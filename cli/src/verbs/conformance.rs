@@ -4,7 +4,7 @@ use crate::conformance::{Difference, Trace, compare};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use engine::Game;
+use engine::{Chance, Game, Outcome};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -154,18 +154,26 @@ fn replay(
             format!("{}: a trace of `{}` in the folder of `{name}`", path.display(), trace.header.game);
         return Err(Failure::malformed(message));
     }
+    // What the reference could not load must not load here, or stop before it starts.
+    let broken = trace.header.engine_error.is_some();
     let game = match game {
         Ok(game) => game,
+        Err(_) if broken => return Ok((0, None)),
         Err(why) => return refused(why.clone()),
     };
     let file = args.games.join(name).join(format!("lvl{}.txt", trace.header.level));
     let text = input::read_text(&file, engine::MAX_LEVEL_TEXT)?;
     let level = match game.level(&text) {
-        Ok(level) if trace.header.engine_error.is_none() => level,
-        Ok(_) => return refused("the reference could not load the level".to_owned()),
-        Err(_) if trace.header.engine_error.is_some() => return Ok((0, None)),
+        Ok(level) => level,
+        Err(_) if broken => return Ok((0, None)),
         Err(problems) => return refused(format!("{} does not load: {problems}", file.display())),
     };
+    if broken {
+        return match game.start_with(&level, Chance::from_java(trace.header.seed)).outcome() {
+            Outcome::Stopped(_) => Ok((0, None)),
+            _ => refused("the reference could not load the level".to_owned()),
+        };
+    }
     let difference = compare(game, &level, &trace);
     let episode =
         difference.map(|found| Episode { trace: shown.clone(), refused: None, difference: Some(found) });
