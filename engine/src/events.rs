@@ -243,13 +243,13 @@ impl Step<'_> {
         watch.interaction(info.line);
         self.work(partners.len());
         let times = effects::execute_batch(self, &info.effect, one, partners);
-        self.score(info.apply_score, info.score_change * times);
+        self.score(info.apply_score, info.score_change.wrapping_mul(times));
     }
 
     /// The partners of a sprite that notices what it stands on: testing a solid one just below it is what it notices.
     fn look_down(&mut self, slot: Slot, second: &TypeInfo, newborn: u32, hits: &mut Hits) {
         let rect = self.state.sprite(slot).rect;
-        let around = Rect { h: rect.h + GROUND, ..rect };
+        let around = Rect { h: rect.h.saturating_add(GROUND), ..rect };
         self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);
         for &hit in hits.iter() {
             self.notice_ground(slot, hit);
@@ -264,8 +264,8 @@ impl Step<'_> {
         if sprite.is(flag::ON_GROUND) || !solid {
             return;
         }
-        let shifted = sprite.rect.at(sprite.rect.x, sprite.rect.y + GROUND);
-        let below = other.last.y > sprite.last.y + sprite.rect.h / 2;
+        let shifted = sprite.rect.at(sprite.rect.x, sprite.rect.y.wrapping_add(GROUND));
+        let below = other.last.y > sprite.last.y.wrapping_add(sprite.rect.h / 2);
         let falling = sprite.rect.y > sprite.last.y;
         if shifted.intersects(other.rect) && below && falling {
             self.state.edit(one).set(flag::ON_GROUND, true);

@@ -108,6 +108,9 @@ pub enum Limit {
     NoSprite,
     /// A type turned into itself without end.
     EndlessTransform,
+    /// A sprite's parameters do not fit its class: the reference throws when it makes the sprite, or when it relies on
+    /// them.
+    UnfitSprite,
 }
 
 impl fmt::Display for Limit {
@@ -124,6 +127,7 @@ impl fmt::Display for Limit {
             }
             Limit::NoSprite => "an effect ran without the sprites that it needs",
             Limit::EndlessTransform => "a type was transformed into itself without end",
+            Limit::UnfitSprite => "the parameters of a sprite do not fit its class",
         })
     }
 }
@@ -149,6 +153,8 @@ pub(crate) struct TypeInfo {
     pub(crate) resource_limit: i32,
     /// A leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
     pub(crate) leaf: bool,
+    /// Lacks a parameter without which the reference dies of making such a sprite.
+    pub(crate) incomplete: bool,
     /// Messages that the reference logs when it makes the first sprite: parameters that the class does not have.
     pub(crate) unknown_parameters: u32,
     /// Notices what it stands on when rules test what it meets.
@@ -240,6 +246,8 @@ pub(crate) struct Rules {
     pub(crate) edge: Vec<(SpriteType, u16)>,
     pub(crate) passes: Vec<Pass>,
     pub(crate) timed: Vec<Timed>,
+    /// The game has `obs=`, and with it path finding.
+    pub(crate) finds_paths: bool,
     /// `obs=`: types that path finding goes around.
     pub(crate) obstacles: Vec<SpriteType>,
     pub(crate) terminations: Vec<Termination>,
@@ -249,8 +257,8 @@ pub(crate) struct Rules {
     pub(crate) reads_tick: bool,
     /// The largest sprite, in cells, rounded up.
     pub(crate) reach: i32,
-    /// Whether some type is larger or smaller than a cell.
-    pub(crate) scales: bool,
+    /// Whether the first sprite of a type can differ from later ones.
+    pub(crate) first_differs: bool,
 }
 
 /// A game, ready to play.

@@ -32,8 +32,8 @@ impl Rect {
             && other.h > 0
             && other.x >= self.x
             && other.y >= self.y
-            && other.x.saturating_add(other.w) <= self.x + self.w
-            && other.y.saturating_add(other.h) <= self.y + self.h
+            && other.x.saturating_add(other.w) <= self.x.saturating_add(self.w)
+            && other.y.saturating_add(other.h) <= self.y.saturating_add(self.h)
     }
 
     /// The same size at another corner.

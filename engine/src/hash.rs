@@ -5,7 +5,9 @@
 //! [`State::search_key`] covers live behaviour only and is what transposition tables use.
 
 use crate::game::{Game, Rules};
+use crate::ontology::class::SpriteClass;
 use crate::state::{Extra, Sprite, State, Target, flag};
+use crate::step::MAX_TICKS;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
@@ -88,14 +90,19 @@ fn two(a: i32, b: i32) -> u64 {
     u64::from(a as u32) << 32 | u64::from(b as u32)
 }
 
+/// The bits of a double; what is no number has other bits on other machines.
+fn bits(value: f64) -> u64 {
+    if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
+}
+
 /// The share of one sprite in the state hash.
 pub(crate) fn sprite_hash(sprite: &Sprite) -> u128 {
     let mut mixer = Mixer::new(u64::from(sprite.id));
     let kind = i32::from(sprite.stype.0) << 16 | i32::from(sprite.flags & !flag::TRANSIENT);
     mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
     mixer.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
-    mixer.pair(sprite.orientation.x.to_bits(), sprite.orientation.y.to_bits());
-    mixer.pair(sprite.speed.to_bits(), two(sprite.moved_at, kind));
+    mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
+    mixer.pair(bits(sprite.speed), two(sprite.moved_at, kind));
     mixer.pair(two(sprite.health, sprite.max_health), two(sprite.time_to_live, i32::from(sprite.heading)));
     mixer.pair(two(sprite.count, sprite.start), u64::from(sprite.spawns.0));
     mixer.finish()
@@ -133,22 +140,36 @@ impl State {
             mixer.pair(u64::from(id), u64::from(extra.block_time as u32));
             self.extra_words(extra, &mut mixer);
         }
+        let mut replaced: Vec<_> =
+            self.replaced.iter().map(|one| (self.sprite(one.holder).id, one.place, one.stype.0)).collect();
+        replaced.sort_unstable();
+        for (id, place, stype) in replaced {
+            mixer.pair(u64::from(id) << 32 | u64::from(place), u64::from(stype));
+        }
         for timer in &self.timers {
             mixer.pair(u64::from(timer.timed), timer.due as u64);
         }
         mixer.pair(self.jumps.state(), (self.timers.len() as u64) << 1 | u64::from(self.can_end));
-        for (chunk, bytes) in self.memory.chunks(8).enumerate() {
-            mixer.pair(chunk as u64, bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
-        }
-        for (stype, _) in self.templates.iter().enumerate().filter(|(_, made)| **made) {
-            mixer.pair(stype as u64, 1);
-        }
+        self.memory_words(&mut mixer);
+        self.template_words(&mut mixer);
         StateHash(mixer.finish())
     }
 
+    fn memory_words(&self, mixer: &mut Mixer) {
+        for (chunk, bytes) in self.memory.chunks(8).enumerate() {
+            mixer.pair(chunk as u64, bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
+        }
+    }
+
+    fn template_words(&self, mixer: &mut Mixer) {
+        for (stype, _) in self.templates.iter().enumerate().filter(|(_, made)| **made) {
+            mixer.pair(stype as u64, 1);
+        }
+    }
+
     fn extra_words(&self, extra: &Extra, mixer: &mut Mixer) {
-        mixer.pair(extra.rotation.to_bits(), extra.gravity.to_bits());
-        mixer.pair(extra.facing.x.to_bits(), extra.facing.y.to_bits());
+        mixer.pair(bits(extra.rotation), bits(extra.gravity));
+        mixer.pair(bits(extra.facing.x), bits(extra.facing.y));
         let target = match extra.target {
             Target::None => (0, 0),
             Target::Sprite(slot) => (1, u64::from(self.sprite(slot).id)),
@@ -199,11 +220,17 @@ impl State {
                     held.map(|held| two(i32::from(held.resource.0), held.amount)).collect();
                 held.sort_unstable();
                 held.into_iter().for_each(|word| mixer.pair(1, word));
+                let count = rules.types[stype.index()].traits.stypes.len();
+                if self.replaced.iter().any(|one| one.holder == slot) {
+                    let list = (0..count).map(|place| self.missile(rules, slot, place));
+                    list.for_each(|missile| mixer.pair(2, u64::from(missile.0)));
+                }
             }
         }
-        let memory = self.memory.iter().fold(0u64, |word, &byte| word.rotate_left(5) ^ u64::from(byte));
-        let templates = self.templates.iter().fold(0u64, |word, &made| word.rotate_left(1) ^ u64::from(made));
-        mixer.pair(memory, if rules.scales { templates } else { 0 });
+        self.memory_words(&mut mixer);
+        if rules.first_differs {
+            self.template_words(&mut mixer);
+        }
         SearchKey(mixer.finish())
     }
 
@@ -216,23 +243,25 @@ impl State {
     fn live_words(&self, rules: &Rules, sprite: &Sprite, mixer: &mut Mixer) {
         let info = &rules.types[sprite.stype.index()];
         let frozen = sprite.is(flag::FROZEN);
-        let age = if frozen { sprite.moved_at } else { self.tick - sprite.moved_at };
+        let age = if frozen { sprite.moved_at } else { self.tick.wrapping_sub(sprite.moved_at) };
         // The age is read at the earliest in the sprite's next update, one tick on.
-        let age = if frozen { age } else { age.saturating_add(1) }.min(info.traits.cooldown);
-        let kind =
-            i32::from(sprite.flags & !(flag::TRANSIENT | flag::RECORDED) | sprite.flags & flag::DISABLED);
+        let age = if frozen { age } else { age.wrapping_add(1) };
+        // All ages from the cooldown on are alike, except that the reference's overflow in the end.
+        let age = if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) };
+        let kind = i32::from(sprite.flags & !(flag::TRANSIENT | flag::AVATAR | flag::FROM_AVATAR));
         mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
         mixer.pair(two(age, kind), two(sprite.health, sprite.max_health));
-        mixer.pair(sprite.orientation.x.to_bits(), sprite.orientation.y.to_bits());
-        // Spawners fire when (start + tick) is a multiple of the cooldown; without a first update, at any tick.
-        let phase = match (sprite.start, info.class) {
-            (-1, _) => -1,
-            (start, Some(class)) if class.is_a(crate::SpriteClass::SpawnPoint) => {
-                (start.wrapping_add(self.tick)).rem_euclid(info.traits.cooldown)
-            }
-            _ => 0,
+        mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
+        // Spawners fire when the tick of their first update plus this one is a multiple of the cooldown.
+        let spawns = |class: SpriteClass| {
+            class.is_a(SpriteClass::SpawnPoint) || class == SpriteClass::SpawnPointMultiSprite
         };
-        mixer.pair(sprite.speed.to_bits(), two(phase, sprite.time_to_live));
+        let phase = match sprite.start {
+            _ if !info.class.is_some_and(spawns) => 0,
+            -1 => -1 - self.tick.rem_euclid(info.traits.cooldown),
+            start => start.wrapping_add(self.tick).rem_euclid(info.traits.cooldown),
+        };
+        mixer.pair(bits(sprite.speed), two(phase, sprite.time_to_live));
         mixer.pair(two(sprite.count, i32::from(sprite.heading)), u64::from(sprite.spawns.0));
         if let Some(extra) = self.extras.get(usize::from(sprite.extra)) {
             mixer.pair(1, u64::from(self.tick.saturating_sub(extra.block_time).min(6) as u32));

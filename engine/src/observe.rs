@@ -60,7 +60,10 @@ impl Game {
                 let sprite = state.sprite(slot);
                 let span = |from: i32, size: i32, limit: i32| {
                     let first = from.div_euclid(state.block).clamp(0, limit);
-                    let last = (from.saturating_add(size) - 1).div_euclid(state.block).clamp(-1, limit - 1);
+                    let last = from
+                        .saturating_add(size.saturating_sub(1))
+                        .div_euclid(state.block)
+                        .clamp(-1, limit - 1);
                     first as usize..(last + 1) as usize
                 };
                 for row in span(sprite.rect.y, sprite.rect.h, state.rows) {

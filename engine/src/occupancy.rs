@@ -80,9 +80,11 @@ impl State {
             return self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
         }
         let reach = if reached { rules.reach.saturating_mul(self.block) - 1 } else { 0 };
-        let columns =
-            self.column(rect.x.saturating_sub(reach))..=self.column(rect.x.saturating_add(rect.w - 1));
-        for row in self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h - 1)) {
+        let columns = self.column(rect.x.saturating_sub(reach))
+            ..=self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
+        for row in
+            self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h.saturating_sub(1)))
+        {
             for column in columns.clone() {
                 self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
             }
@@ -99,9 +101,11 @@ impl State {
         hits: &mut Hits,
     ) {
         let reach = rules.reach.saturating_mul(self.block) - 1;
-        let columns =
-            self.column(rect.x.saturating_sub(reach))..=self.column(rect.x.saturating_add(rect.w - 1));
-        for row in self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h - 1)) {
+        let columns = self.column(rect.x.saturating_sub(reach))
+            ..=self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
+        for row in
+            self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h.saturating_sub(1)))
+        {
             for column in columns.clone() {
                 self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
             }

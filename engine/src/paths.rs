@@ -49,7 +49,8 @@ impl Heap {
 }
 
 impl State {
-    /// Notes which cells hold an obstacle now, at the start: they stay obstacles. Hidden sprites are not seen.
+    /// Notes which cells hold an obstacle now, at the start: they stay obstacles. Hidden sprites are not seen. An avatar
+    /// with three actions makes all paths of the episode go left and right only, whatever becomes of it.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
         let mut obstacles = vec![false; (self.columns * self.rows) as usize];
         for &stype in rules.obstacles.iter().filter(|stype| !rules.types[stype.index()].traits.hidden) {
@@ -60,10 +61,11 @@ impl State {
             }
         }
         self.obstacles = obstacles;
+        self.sideways = self.avatar_actions(rules) == 3;
     }
 
     /// The first step of the path between two pixels; None if there is none, or none to go. Cost: O(cells).
-    pub(crate) fn first_step(&self, rules: &Rules, from: (i32, i32), to: (i32, i32)) -> Option<Direction> {
+    pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> Option<Direction> {
         let start = self.path_cell(from)?;
         let goal = self.path_cell(to)?;
         if start == goal || self.obstacles[start] || self.obstacles[goal] {
@@ -71,8 +73,7 @@ impl State {
         }
         let (up, down) = (Direction::UP, Direction::DOWN);
         let (left, right) = (Direction::LEFT, Direction::RIGHT);
-        let sideways = self.avatar_actions(rules) == 3;
-        let ways: &[Direction] = if sideways { &[left, right] } else { &[up, down, left, right] };
+        let ways: &[Direction] = if self.sideways { &[left, right] } else { &[up, down, left, right] };
         // For each reached cell, the first step of the way there.
         let mut first: Vec<Option<Direction>> = vec![None; self.obstacles.len()];
         let mut frontier = Heap::default();

@@ -118,6 +118,15 @@ pub(crate) struct Held {
     pub(crate) amount: i32,
 }
 
+/// An entry of the list of a BomberRandomMissile that is another one now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Replaced {
+    pub(crate) holder: Slot,
+    /// The place in the list.
+    pub(crate) place: u16,
+    pub(crate) stype: SpriteType,
+}
+
 /// What only few sprites have: those that turn, fall differently from their type, or pursue one target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Extra {
@@ -200,6 +209,10 @@ pub struct State {
     pub(crate) timers: Vec<Timer>,
     /// Cells that path finding goes around; empty without `obs=`.
     pub(crate) obstacles: Vec<bool>,
+    /// Paths go left and right only.
+    pub(crate) sideways: bool,
+    /// Entries of the lists of BomberRandomMissiles that updateSpawnType has replaced.
+    pub(crate) replaced: Vec<Replaced>,
     /// The second stream of chance, which only WalkerJumper draws from.
     pub(crate) jumps: Chance,
 }
@@ -222,8 +235,8 @@ macro_rules! clone_fields {
 }
 
 clone_fields! { to, from;
-    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash jumps;
-    buffers sprites groups cells moved stale killed held memory templates shields pulled extras timers obstacles
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash jumps sideways;
+    buffers sprites groups cells moved stale killed held memory templates shields pulled extras timers obstacles replaced
 }
 
 impl State {
@@ -368,6 +381,9 @@ impl State {
         if !self.extras.is_empty() {
             self.release_extra(slot);
         }
+        if !self.replaced.is_empty() {
+            self.replaced.retain(|replaced| replaced.holder != slot);
+        }
         let sprite = &mut self.sprites[usize::from(slot)];
         (sprite.next, sprite.flags) = (self.free, flag::GONE);
         self.free = slot;
@@ -421,6 +437,30 @@ impl State {
         let Sprite { stype, extra, .. } = *self.sprite(slot);
         let own = self.extras.get(usize::from(extra)).map(|extra| extra.gravity);
         own.unwrap_or(rules.types[stype.index()].traits.gravity)
+    }
+
+    /// One of the types that a BomberRandomMissile makes.
+    pub(crate) fn missile(&self, rules: &Rules, slot: Slot, place: usize) -> SpriteType {
+        let is_it = |one: &&Replaced| one.holder == slot && usize::from(one.place) == place;
+        let own = || rules.types[self.sprite(slot).stype.index()].traits.stypes[place];
+        self.replaced.iter().find(is_it).map_or_else(own, |replaced| replaced.stype)
+    }
+
+    /// Replaces the first entry of a BomberRandomMissile's list that is `before`.
+    pub(crate) fn replace_missile(
+        &mut self,
+        rules: &Rules,
+        slot: Slot,
+        before: SpriteType,
+        stype: SpriteType,
+    ) {
+        let count = rules.types[self.sprite(slot).stype.index()].traits.stypes.len();
+        let Some(place) = (0..count).find(|&place| self.missile(rules, slot, place) == before) else {
+            return;
+        };
+        let place = place as u16;
+        self.replaced.retain(|one| (one.holder, one.place) != (slot, place));
+        self.replaced.push(Replaced { holder: slot, place, stype });
     }
 
     /// Plans a timer before all that are due at the same tick (`spec/03` §6.2).

@@ -5,6 +5,8 @@ use crate::chance::Chance;
 use crate::game::{Action, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::level::{Level, MAX_SPRITES};
+use crate::ontology::class::SpriteClass;
+use crate::ontology::traits::Traits;
 use crate::ontology::{avatars, sprites};
 use crate::state::{Group, NONE, Slot, Sprite, State, Timer, flag, memory};
 
@@ -86,6 +88,8 @@ impl Game {
             extras: Vec::new(),
             timers: Vec::new(),
             obstacles: Vec::new(),
+            sideways: false,
+            replaced: Vec::new(),
             jumps: chance,
         };
         let mut step = Step { rules, state: &mut state, updating: -1, stopped: None, effects: 0 };
@@ -105,7 +109,7 @@ impl Game {
                 state.plan(Timer { due, timed: at as u16 });
             }
         }
-        if !rules.obstacles.is_empty() {
+        if rules.finds_paths {
             state.mark_obstacles(rules);
         }
         state.freshen();
@@ -177,22 +181,28 @@ impl Step<'_> {
     /// Whether the sprite takes part in update phases: its type does, and it is the player's avatar or none.
     fn is_updated(&self, slot: Slot) -> bool {
         let sprite = self.state.sprite(slot);
-        !sprite.is(flag::FROZEN)
-            && self.rules.types[sprite.stype.index()].order.is_some()
-            && (!sprite.is(flag::AVATAR) || slot == self.state.avatar)
+        !sprite.is(flag::FROZEN) && self.rules.types[sprite.stype.index()].order.is_some()
+    }
+
+    /// Whether the sprite's class is an avatar's; what the sprite passes for is [`flag::AVATAR`].
+    pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
+        self.rules.types[self.state.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }
 
     fn update(&mut self, action: Action) {
         let avatar = self.state.avatar;
         if avatar != NONE && !self.state.sprite(avatar).is(flag::DISABLED) {
+            let stype = self.state.sprite(avatar).stype;
+            self.turn_picture(&self.rules.types[stype.index()].traits, avatar);
             avatars::update(self, avatar, action);
         }
         for at in 0..self.rules.movers.len() {
             let stype = self.rules.movers[at];
-            self.updating =
-                i32::from(self.rules.types[stype.index()].order.expect("movers are in the update order"));
+            let info = &self.rules.types[stype.index()];
+            self.updating = i32::from(info.order.expect("movers are in the update order"));
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
+                self.turn_picture(&info.traits, slot);
                 sprites::update(self, slot);
                 if self.stopped.is_some() {
                     return;
@@ -203,6 +213,13 @@ impl Step<'_> {
         self.updating = -1;
     }
 
+    /// The reference looks for the picture of a sprite's orientation before each update, and throws if there is none.
+    fn turn_picture(&mut self, traits: &Traits, slot: Slot) {
+        if traits.oriented_image && !Direction::BASE.contains(&self.state.sprite(slot).orientation) {
+            self.stop(Limit::UnfitSprite);
+        }
+    }
+
     /// The player's avatar: of the sprites of avatar classes, by update order, the last one made of the first type
     /// (`spec/01` §4.2; a single avatar is what checked levels have).
     fn find_avatar(&mut self) {
@@ -210,6 +227,7 @@ impl Step<'_> {
         let slots = types.flat_map(|&stype| self.state.slots(stype));
         let avatar = slots.filter(|&slot| self.state.sprite(slot).is(flag::AVATAR)).last();
         match avatar {
+            Some(slot) if !self.can_be_played(slot) => self.stop(Limit::UnfitSprite),
             Some(slot) => self.control(slot),
             None => self.message(),
         }
@@ -218,7 +236,8 @@ impl Step<'_> {
     /// The reference removes all avatars but the first made, with a message; checked levels have one.
     fn remove_extra_avatars(&mut self) {
         let slots = 0..self.state.sprites.len() as Slot;
-        let avatars: Vec<Slot> = slots.filter(|&slot| self.state.sprite(slot).is(flag::AVATAR)).collect();
+        let counts = |slot: &Slot| self.state.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);
+        let avatars: Vec<Slot> = slots.filter(counts).collect();
         let Some((_, extra @ [_, ..])) = avatars.split_first() else { return };
         self.message();
         for &slot in extra {
@@ -235,7 +254,7 @@ impl Step<'_> {
         let sprite = self.state.edit(slot);
         if sprite.is(flag::FROZEN) && !sprite.is(flag::DISABLED) {
             sprite.set(flag::FROZEN, false);
-            sprite.moved_at = tick - sprite.moved_at;
+            sprite.moved_at = tick.wrapping_sub(sprite.moved_at);
         }
     }
 
@@ -301,44 +320,58 @@ impl Step<'_> {
             self.stop(Limit::NoType);
             return None;
         }
-        for &ancestor in &rules.types[stype.index()].path {
-            if rules.types[ancestor.index()].singleton && self.state.count(rules, ancestor) > 0 {
-                return None;
-            }
+        // A full board comes first: it is worth a message, a singleton is not.
+        let taken = |ancestor: &SpriteType| {
+            rules.types[ancestor.index()].singleton && self.state.count(rules, *ancestor) > 0
+        };
+        if !self.is_full() && rules.types[stype.index()].path.iter().any(taken) {
+            return None;
         }
         self.add_forced(stype, x, y)
+    }
+
+    fn is_full(&self) -> bool {
+        self.state.population > MAX_SPRITES as i32
     }
 
     /// Makes a sprite whatever singletons there are.
     pub(crate) fn add_forced(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         let info = &self.rules.types[stype.index()];
-        if self.state.population > MAX_SPRITES as i32 {
+        if self.is_full() {
             self.message();
             return None;
         }
-        if info.class.is_none() {
+        let Some(class) = info.class else {
             self.stop(Limit::NoType);
             return None;
+        };
+        if info.incomplete {
+            self.stop(Limit::UnfitSprite);
         }
         let traits = &info.traits;
         let block = self.state.block;
         let scaled = |factor: f64| (f64::from(block) * factor) as i32;
         let rect = Rect { x, y, w: scaled(traits.width_factor), h: scaled(traits.height_factor) };
         let first = !std::mem::replace(&mut self.state.templates[stype.index()], true);
+        if !first && rect.h == 0 {
+            self.stop(Limit::FlatSprite);
+        }
         if first {
             self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
         }
-        let is_avatar = info.class.is_some_and(|class| class.is_avatar());
         // Sprites of avatar classes are updated, and age, only as the player's.
-        let order = info.order.map(i32::from).filter(|_| !is_avatar);
+        let order = info.order.map(i32::from).filter(|_| !class.is_avatar());
         // Still to be updated in this tick: then its age will be 1 at that update.
         let due = order.is_some_and(|order| order < self.updating);
-        let mut flags = flag::FIRST_TICK;
-        for (bit, on) in
-            [(flag::AVATAR, is_avatar), (flag::ORIENTED, traits.is_oriented), (flag::FROZEN, order.is_none())]
-        {
-            flags |= if on { bit } else { 0 };
-        }
+        let flags = [
+            (flag::AVATAR, traits.is_avatar),
+            (flag::FROM_AVATAR, traits.is_from_avatar),
+            (flag::ON_GROUND, traits.on_ground),
+            (flag::FIRST_TICK, traits.is_first_tick),
+            (flag::ORIENTED, traits.is_oriented),
+            (flag::FROZEN, order.is_none()),
+        ];
+        let flags = flags.into_iter().fold(0, |all, (bit, on)| if on { all | bit } else { all });
         let sprite = Sprite {
             rect,
             // The first sprite of a type keeps the unscaled size until its first update.
@@ -347,15 +380,20 @@ impl Step<'_> {
             speed: traits.speed,
             id: self.state.next_id,
             moved_at: match order {
-                None => 0,
-                Some(_) => self.state.tick - i32::from(due),
+                None => traits.last_move,
+                Some(_) => (self.state.tick - i32::from(due)).wrapping_sub(traits.last_move),
             },
             health: traits.health,
             max_health: traits.max_health,
             time_to_live: traits.time_to_live,
             count: traits.age,
             start: traits.start,
-            spawns: traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
+            spawns: match class {
+                // A copy of the first one has forgotten what it leaves behind, and leaves what has the number 0: wall.
+                SpriteClass::OngoingTurningAvatar if !first => SpriteType(0),
+                SpriteClass::OngoingTurningAvatar => traits.spawn_behind.unwrap_or(SpriteType(0)),
+                _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
+            },
             extra: NONE,
             stype,
             flags,
@@ -385,10 +423,10 @@ impl Step<'_> {
 
     /// Kills: avatars are disabled and stay, others go at the end of the tick (`spec/03` §5.1).
     pub(crate) fn kill(&mut self, slot: Slot) {
-        let sprite = self.state.sprite(slot);
-        if !sprite.is(flag::AVATAR) {
+        if !self.can_be_played(slot) {
             return self.remove(slot);
         }
+        let sprite = self.state.sprite(slot);
         if sprite.is(flag::DISABLED) {
             return;
         }
@@ -409,13 +447,13 @@ impl Step<'_> {
     /// The reference's `lastmove`: ticks since the last move, as it stands in this tick's update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
         let sprite = self.state.sprite(slot);
-        if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.state.tick - sprite.moved_at }
+        if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.state.tick.wrapping_sub(sprite.moved_at) }
     }
 
     pub(crate) fn set_age(&mut self, slot: Slot, age: i32) {
         let tick = self.state.tick;
         let sprite = self.state.edit(slot);
-        sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick - age };
+        sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
     }
 
     fn mark_moved(&mut self, slot: Slot) {
@@ -428,11 +466,11 @@ impl Step<'_> {
 
     /// Puts a sprite somewhere else, size included.
     pub(crate) fn place(&mut self, slot: Slot, rect: Rect) {
-        if self.state.sprite(slot).rect == rect {
-            return;
-        }
         if rect.h == 0 {
             self.stop(Limit::FlatSprite);
+        }
+        if self.state.sprite(slot).rect == rect {
+            return;
         }
         self.state.leave_cell(slot);
         self.state.edit(slot).rect = rect;
@@ -470,6 +508,6 @@ impl Step<'_> {
     /// (x, y) of the displacement in this tick.
     pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
         let Sprite { rect, last, .. } = *self.state.sprite(slot);
-        Direction { x: f64::from(rect.x - last.x), y: f64::from(rect.y - last.y) }
+        Direction { x: f64::from(rect.x.wrapping_sub(last.x)), y: f64::from(rect.y.wrapping_sub(last.y)) }
     }
 }

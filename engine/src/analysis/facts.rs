@@ -157,14 +157,13 @@ fn motion(class: SpriteClass, traits: &Traits) -> Motion {
     match class {
         class if class.is_avatar() => Motion::Steered,
         _ if traits.stationary => Motion::Still,
-        _ if follows => match traits.stypes.first() {
+        _ if follows => match traits.stypes.first().filter(|target| **target != SpriteType::NONE) {
             Some(&target) if traits.fleeing => Motion::Fleeing(target),
             Some(&target) => Motion::Chasing(target),
             None => Motion::Wandering,
         },
         C::RandomNPC | C::RandomInertial | C::RandomBomber => Motion::Wandering,
         C::Walker | C::WalkerJumper => Motion::Straight(traits.orientation),
-        C::SpriteProducer => Motion::Still,
         // What has no direction of its own moves only if it is given one.
         _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
         _ => Motion::Still,
@@ -186,7 +185,7 @@ fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
     let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
     let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
-    made.iter().copied().chain(traits.spawn_behind).collect()
+    made.iter().copied().chain(traits.spawn_behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }
 
 /// Marks what can be on the board: a fixed point over what is placed and what that makes.
@@ -252,7 +251,8 @@ pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
             C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Steering::Jumping,
             _ => Steering::FourWay,
         };
-        let (shots, ammo) = (fact.makes.clone(), info.traits.ammo.to_vec());
+        let (shots, mut ammo) = (fact.makes.clone(), info.traits.ammo.to_vec());
+        ammo.retain(|&stype| stype != SpriteType::NONE);
         avatars.push(Avatar {
             stype: SpriteType(at),
             steering,

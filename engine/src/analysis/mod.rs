@@ -203,7 +203,7 @@ impl Analysis {
 
     /// Where touching a portal of this type leads.
     pub fn leads_to(&self, stype: SpriteType) -> Option<SpriteType> {
-        self.game.0.types[stype.index()].leads_to()
+        self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
     /// What a maker sends out, and in which direction, if that goes straight ahead.

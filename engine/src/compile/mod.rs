@@ -2,12 +2,14 @@
 
 mod interactions;
 mod params;
+mod references;
 mod sprites;
 mod terminations;
 
 use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
+use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites as behaviour;
 use crate::ontology::terminations::Condition;
 use crate::syntax::{Description, Literal, Param, Section, Word, literal, print_bare};
@@ -129,12 +131,16 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
         return Err(problems);
     }
 
+    let speeds_change = program.effects.iter().any(|info| info.effect.gives_speed());
     let moves = |stype: &SpriteType| {
         let info = &types[stype.index()];
-        info.class.is_some_and(|class| !behaviour::is_idle(class, &info.traits))
+        info.class.is_some_and(|class| !behaviour::is_idle(class, &info.traits, speeds_change))
     };
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
+    // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
+    let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
+    let messages = messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
     Ok(Rules {
         digest: Digest::of(print_bare(description).as_bytes()),
         description: description.clone(),
@@ -151,11 +157,12 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
         edge: program.edge,
         passes: program.passes,
         timed: program.timed,
+        finds_paths: path_obstacles(description).is_some(),
         obstacles,
         reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. })),
         terminations,
-        reach: factors.clone().fold(1, |reach, factor| reach.max((factor.ceil() as i32).min(MAX_REACH))),
-        scales: factors.clone().any(|factor| factor != 1.0),
+        reach: factors.clone().fold(1, |reach, factor| reach.max(factor.ceil() as i32)),
+        first_differs: types.iter().any(first_differs),
         types,
     })
 }
@@ -258,10 +265,22 @@ fn never_there(
     }
 }
 
-/// `obs=`: the types that path finding goes around.
-fn obstacles(description: &Description, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SpriteType> {
+/// A later sprite is a copy of the first: it has its size from the start, its parameters have been complained of, and if
+/// it leaves something behind it is wall.
+fn first_differs(info: &TypeInfo) -> bool {
+    let scales = [info.traits.width_factor, info.traits.height_factor] != [1.0, 1.0];
+    scales || info.unknown_parameters > 0 || info.class == Some(SpriteClass::OngoingTurningAvatar)
+}
+
+/// `obs=`, if its value reads as a text.
+fn path_obstacles(description: &Description) -> Option<&Param> {
     let given = description.header.params.iter().rev().find(|param| param.key.text == "obs");
-    let Some(param) = given else { return Vec::new() };
+    given.filter(|param| matches!(params::convert("obs", &param.value.text), params::Value::Text(_)))
+}
+
+/// The types that path finding goes around.
+fn obstacles(description: &Description, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SpriteType> {
+    let Some(param) = path_obstacles(description) else { return Vec::new() };
     let word = |text: &str| Word { text: text.to_owned(), span: param.value.span };
     param.value.text.split(',').filter_map(|name| names.resolve(&word(name), problems)).collect()
 }

@@ -143,12 +143,24 @@ const BASE: &[&str] = &[
     "randomtiling",
     "frameRate",
     "draw_arrow",
+    "is_from_avatar",
+    "lastmove",
+    "isFirstTick",
+    "on_ground",
 ];
+
+/// Fields of the reference that a parameter can name to no effect: they are overwritten, or only drawing reads them.
+const BOOK_KEEPING: &[&str] =
+    &["spriteID", "bucket", "bucketSharp", "name", "images", "frameRemaining", "currentFrame"];
 
 /// Sets one parameter on the traits of a sprite type. Names of sprites (`stype`, `ammo`) are resolved by the caller.
 pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) -> Result<(), Diagnostic> {
     let key = param.key.text.as_str();
     let own = class.parameters();
+    if BOOK_KEEPING.contains(&key) {
+        let message = format!("`{key}` is set by the engine");
+        return Err(Diagnostic::error("bad-parameter", param.key.span, message).help("remove it"));
+    }
     if !BASE.contains(&key) && !own.contains(&key) {
         let message = format!("{} has no parameter `{key}`", class.name());
         let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
@@ -183,12 +195,12 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "cooldown" => traits.cooldown = int()?,
         "physicstype" => {
             let physics = int()?;
+            (traits.continuous, traits.off_grid) = (physics == 1, physics != 0);
             if !(0..=1).contains(&physics) {
                 let message = "`physicstype` takes GRID or CONT";
                 let problem = Diagnostic::error("wrong-type", param.value.span, message);
                 return Err(problem.help("use `physicstype=GRID`"));
             }
-            traits.continuous = physics == 1;
         }
         "orientation" => traits.orientation = direction()?,
         "is_oriented" => traits.is_oriented = boolean()?,
@@ -206,13 +218,24 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "portal" => traits.portal = boolean()?,
         "is_npc" => traits.is_npc = boolean()?,
         "is_resource" | "is_avatar" => {
-            if boolean()? != (if key == "is_avatar" { class.is_avatar() } else { traits.is_resource }) {
+            let (field, fits) = match key {
+                "is_avatar" => (&mut traits.is_avatar, class.is_avatar()),
+                _ => (&mut traits.is_resource, class.is_a(SpriteClass::Resource)),
+            };
+            *field = boolean()?;
+            if *field != fits {
                 let message = format!("`{key}` does not fit the class {}", class.name());
                 return Err(
                     Diagnostic::error("bad-parameter", param.span(), message).help("choose another class")
                 );
             }
         }
+        "is_from_avatar" => traits.is_from_avatar = boolean()?,
+        "lastmove" => traits.last_move = int()?,
+        "isFirstTick" => traits.is_first_tick = boolean()?,
+        "on_ground" => traits.on_ground = boolean()?,
+        // Usable as a text only: what reads as a number, a boolean or a constant is lost.
+        "orientedImg" => traits.oriented_image = matches!(value, Value::Text(_)),
         "singleton" | "is_stochastic" | "draw_arrow" | "autotiling" => drop(boolean()?),
         "hidden" => traits.hidden = switch()?,
         "invisible" => traits.invisible = switch()?,
@@ -245,7 +268,8 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "spreadprob" => traits.spread_probability = number()?,
         "cons" => traits.cons = int()?,
         "fleeing" => traits.fleeing = boolean()?,
-        "maxDistance" => traits.max_distance = f64::from(int()?),
+        // A field of 32 bits in the reference.
+        "maxDistance" => traits.max_distance = f64::from(int()? as f32),
         "prob" => traits.prob = number()?,
         "total" => traits.total = int()?,
         "spawnorientation" => traits.spawn_orientation = direction()?,
@@ -254,7 +278,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "minAmmo" => traits.min_ammo = int()?,
         "ammoCost" => traits.ammo_cost = int()?,
         "stype" | "stype1" | "stype2" | "stypes" | "stypeMissile" | "spawnBehind" | "ammo" | "img"
-        | "orientedImg" | "resource_name" => {}
+        | "resource_name" => {}
         _ => unreachable!("every parameter of the tables is matched: {key}"),
     }
     Ok(())

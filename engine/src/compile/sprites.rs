@@ -1,6 +1,7 @@
 //! The SpriteSet: registry, inheritance, update order (`spec/01` §1.6).
 
 use super::params::set_trait;
+use super::references::{Subject, references};
 use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{SpriteType, TypeInfo};
@@ -57,10 +58,15 @@ pub(super) fn types(
     }
     for at in 0..types.len() {
         if let Some(class) = types[at].class {
-            let found = references(&registry[at], class, Names { types: &types }, problems);
+            let Resolved { line, name, params, descendants, .. } = &registry[at];
+            let span = line.map(|line| line.name.span).unwrap_or_default();
+            let subject = Subject { name, span, class, params, leaf: descendants.is_empty() };
+            let found = references(subject, Names { types: &types }, problems);
+            types[at].incomplete = found.incomplete;
             let traits = &mut types[at].traits;
-            (traits.stypes, traits.ammo) = (found.stypes.into(), found.ammo.into());
+            (traits.stypes, traits.ammo) = (found.stypes, found.ammo);
             traits.spawn_behind = found.behind;
+            traits.resource = found.resource.unwrap_or(SpriteType(at as u16));
         }
     }
     (types, order)
@@ -226,8 +232,9 @@ fn type_info(
         }
     }
     traits.settle();
-    let singleton =
-        |param: &Param| param.key.text == "singleton" && param.value.text.eq_ignore_ascii_case("true");
+    let singleton = |param: &Param| {
+        (param.key.text == "singleton").then(|| param.value.text.eq_ignore_ascii_case("true"))
+    };
     TypeInfo {
         name: sprite.name.clone(),
         class,
@@ -237,8 +244,9 @@ fn type_info(
         path,
         tree,
         order: None,
-        singleton: sprite.line.is_some_and(|line| line.params.iter().any(singleton)),
+        singleton: sprite.line.and_then(|line| line.params.iter().rev().find_map(singleton)) == Some(true),
         leaf: sprite.descendants.is_empty(),
+        incomplete: false,
         unknown_parameters: if policy == Policy::Reference { unknown_parameters } else { 0 },
         ground_aware: class.is_some_and(SpriteClass::is_ground_aware),
     }
@@ -252,88 +260,6 @@ fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClas
         problems.push(problem.suggest(&word.text, SpriteClass::ALL.iter().map(|class| class.name())));
     }
     found
-}
-
-/// The sprites that a type's parameters name.
-struct References {
-    stypes: Vec<SpriteType>,
-    ammo: Vec<SpriteType>,
-    behind: Option<SpriteType>,
-}
-
-fn references(
-    sprite: &Resolved<'_>,
-    class: SpriteClass,
-    names: Names<'_>,
-    problems: &mut Vec<Diagnostic>,
-) -> References {
-    use SpriteClass as C;
-    let takes = class.parameters();
-    let mut list = |key: &str, many: bool| -> Vec<SpriteType> {
-        let Some(param) = sprite.params.iter().find(|param| param.key.text == key) else { return Vec::new() };
-        if !takes.contains(&key) {
-            return Vec::new();
-        }
-        let mut found = Vec::new();
-        let mut start = param.value.span.start;
-        for text in param.value.text.split(',') {
-            let span = Span::new(start, start + text.len());
-            start += text.len() + 1;
-            found.extend(names.resolve_value(param, &Word { text: text.to_owned(), span }, problems));
-        }
-        if found.len() > 1 && !many {
-            let message = format!("`{key}` of {} names one sprite", class.name());
-            problems.push(Diagnostic::error("wrong-type", param.value.span, message));
-        }
-        found
-    };
-    let lists = class.is_a(C::ShootAvatar) || class == C::WizardAvatar;
-    // What a class makes or follows, under the name that the class has for it.
-    let key = match class {
-        C::SpawnPointMultiSprite => "stypes",
-        C::BomberRandomMissile => "stypeMissile",
-        class if class.is_a(C::AlternateChaser) => "stype1",
-        _ => "stype",
-    };
-    let stypes = list(key, lists || key != "stype");
-    if key == "stype1" {
-        list("stype2", true);
-    }
-    let ammo = list("ammo", class.is_a(C::ShootAvatar));
-    let behind = list("spawnBehind", false);
-    let makes = lists
-        || class.is_a(C::SpawnPoint)
-        || matches!(class, C::FlakAvatar | C::Spreader | C::SpawnPointMultiSprite);
-    let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
-    let needs = makes && class != C::Spreader || follows || class == C::Portal;
-    let given = sprite.params.iter().find(|param| param.key.text == key);
-    let place = sprite.line.map(|line| line.name.span).unwrap_or_default();
-    match given {
-        None if needs && sprite.descendants.is_empty() => {
-            let message = format!("{} `{}` needs `{key}=`, the name of a sprite", class.name(), sprite.name);
-            problems.push(Diagnostic::error("missing-parameter", place, message));
-        }
-        Some(param) if makes => {
-            for &stype in &stypes {
-                let word = Word { text: names.types[stype.index()].name.clone(), span: param.value.span };
-                names.instantiable(stype, &word, problems);
-                let own = names.types[stype.index()].name == sprite.name;
-                if own && (class.is_a(C::SpawnPoint) || class == C::Spreader) {
-                    let message = format!("`{}` would make sprites of its own type", sprite.name);
-                    let problem = Diagnostic::error("spawns-itself", param.value.span, message);
-                    problems
-                        .push(problem.help("the reference engine dies of that; let it make another type"));
-                }
-            }
-        }
-        None if class == C::Spreader && sprite.descendants.is_empty() => {
-            let message = format!("without `stype=`, `{}` would spread into its own type", sprite.name);
-            let problem = Diagnostic::error("spawns-itself", place, message);
-            problems.push(problem.help("the reference engine dies of that; name another type with `stype=`"));
-        }
-        _ => {}
-    }
-    References { stypes, ammo, behind: behind.first().copied() }
 }
 
 /// Drawing order: `wall`, the leaves as the file has them, `avatar` last; updates go backwards (`spec/01` §1.6.5).

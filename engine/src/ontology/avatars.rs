@@ -59,13 +59,13 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
     }
 }
 
-fn is_continuous(step: &Step<'_>, slot: Slot) -> bool {
-    step.rules.types[step.state.sprite(slot).stype.index()].traits.continuous
+fn is_off_grid(step: &Step<'_>, slot: Slot) -> bool {
+    step.rules.types[step.state.sprite(slot).stype.index()].traits.off_grid
 }
 
-/// The passive movement that only continuous physics gives to avatars.
+/// The passive movement that grid physics does not give to avatars.
 fn glide(step: &mut Step<'_>, slot: Slot) {
-    if is_continuous(step, slot) {
+    if is_off_grid(step, slot) {
         physics::passive(step, slot);
     }
 }
@@ -79,7 +79,7 @@ fn moving(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
 /// Faces where it went.
 fn oriented(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
     let movement = moving(step, slot, direction);
-    if movement == Movement::Move && !is_continuous(step, slot) {
+    if movement == Movement::Move && !is_off_grid(step, slot) {
         let facing = step.last_direction(slot).normalised();
         step.state.edit(slot).orientation = facing;
     }
@@ -118,7 +118,7 @@ fn flak(step: &mut Step<'_>, slot: Slot) {
 fn spend(step: &mut Step<'_>, slot: Slot, ammo: SpriteType, cost: i32) {
     let held = step.state.held.iter_mut().find(|held| held.holder == slot && held.resource == ammo);
     if let Some(held) = held {
-        held.amount = held.amount.saturating_sub(cost);
+        held.amount = held.amount.wrapping_sub(cost);
     }
 }
 
@@ -187,8 +187,7 @@ fn ongoing_turning(step: &mut Step<'_>, slot: Slot, direction: Direction) {
     physics::passive(step, slot);
     let sprite = *step.state.sprite(slot);
     if !sprite.rect.intersects(sprite.last) {
-        let traits = &step.rules.types[sprite.stype.index()].traits;
-        step.add(traits.spawn_behind.unwrap_or(SpriteType(0)), sprite.last.x, sprite.last.y);
+        step.add(sprite.spawns, sprite.last.x, sprite.last.y);
     }
 }
 
@@ -308,7 +307,7 @@ fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action)
     platformer(step, slot, direction, action);
     let rules = step.rules;
     let tick = step.state.tick;
-    let ready = step.state.extra(rules, slot).block_time + 5 <= tick;
+    let ready = step.state.extra(rules, slot).block_time.wrapping_add(5) <= tick;
     if action == Action::Up && ready {
         physics::active(step, slot, Direction::DOWN, -1.0);
         let sprite = *step.state.sprite(slot);

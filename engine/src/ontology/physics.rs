@@ -22,14 +22,17 @@ fn is_continuous(rules: &Rules, step: &Step<'_>, slot: Slot) -> bool {
     rules.types[step.state.sprite(slot).stype.index()].traits.continuous
 }
 
-/// Moves a sprite along its own orientation. The first call only marks the sprite as having had it.
+/// Moves a sprite along its own orientation, unless it is static. The first call only marks the sprite as having had it.
 pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
     let sprite = *step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    if traits.is_static || traits.only_active {
+        return;
+    }
     if sprite.is(flag::FIRST_TICK) {
         step.state.edit(slot).set(flag::FIRST_TICK, false);
         return;
     }
-    let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.continuous {
         if sprite.speed == 0.0 {
             return;
@@ -85,8 +88,11 @@ fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> 
         y: force.y / mass + sprite.orientation.y * speed,
     };
     let length = (velocity.x * velocity.x + velocity.y * velocity.y).sqrt();
-    let limited =
-        if traits.max_speed == -1.0 || length <= traits.max_speed { length } else { traits.max_speed };
+    let limited = if traits.max_speed == -1.0 || length.is_nan() || length <= traits.max_speed {
+        length
+    } else {
+        traits.max_speed
+    };
     let sprite = step.state.edit(slot);
     sprite.orientation = velocity.normalised();
     sprite.speed = limited;

@@ -27,12 +27,23 @@ pub(crate) struct Traits {
     pub(crate) portal: bool,
     pub(crate) is_npc: bool,
     pub(crate) is_resource: bool,
+    pub(crate) is_avatar: bool,
+    pub(crate) is_from_avatar: bool,
+    /// Ticks since the last move, whether the first passive movement is still to come, and whether it stands on
+    /// something: how a sprite starts.
+    pub(crate) last_move: i32,
+    pub(crate) is_first_tick: bool,
+    pub(crate) on_ground: bool,
+    /// Has pictures for the four directions, and none for others.
+    pub(crate) oriented_image: bool,
     pub(crate) hidden: bool,
     pub(crate) invisible: bool,
     pub(crate) color: Option<[u8; 3]>,
     /// `limit` of Resource and Flicker.
     pub(crate) limit: i32,
     pub(crate) value: i32,
+    /// What a Resource is collected as.
+    pub(crate) resource: SpriteType,
     pub(crate) age: i32,
     pub(crate) spread_probability: f64,
     pub(crate) cons: i32,
@@ -46,6 +57,8 @@ pub(crate) struct Traits {
     pub(crate) ammo_cost: i32,
     /// Continuous physics; grid physics otherwise.
     pub(crate) continuous: bool,
+    /// Not declared to have grid physics. A physics that does not exist is the grid's, but avatars glide all the same.
+    pub(crate) off_grid: bool,
     pub(crate) mass: f64,
     pub(crate) gravity: f64,
     pub(crate) friction: f64,
@@ -96,11 +109,18 @@ impl Traits {
             portal: false,
             is_npc: false,
             is_resource: false,
+            is_avatar: class.is_avatar(),
+            is_from_avatar: false,
+            last_move: 0,
+            is_first_tick: true,
+            on_ground: false,
+            oriented_image: false,
             hidden: false,
             invisible: false,
             color: None,
             limit: 0,
             value: 1,
+            resource: SpriteType::NONE,
             age: 0,
             spread_probability: 1.0,
             cons: 0,
@@ -113,6 +133,7 @@ impl Traits {
             min_ammo: -1,
             ammo_cost: 1,
             continuous: false,
+            off_grid: false,
             mass: 1.0,
             gravity: 0.0,
             friction: 0.0,
@@ -180,7 +201,7 @@ impl Traits {
                 self.is_npc = true;
                 self.fleeing = class == C::Fleeing;
                 if class == C::RandomInertial {
-                    self.continuous = true;
+                    (self.continuous, self.off_grid) = (true, true);
                     self.is_oriented = true;
                 }
             }

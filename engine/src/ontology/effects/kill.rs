@@ -25,7 +25,7 @@ pub(super) fn all(step: &mut Step<'_>, stype: SpriteType) {
 
 pub(super) fn if_from_above(step: &mut Step<'_>, index: u16, one: Slot, two: Slot) {
     let (first, second) = (step.state.sprite(one), step.state.sprite(two));
-    let above = first.last.y > second.last.y + second.rect.h / 2;
+    let above = first.last.y > second.last.y.wrapping_add(second.rect.h / 2);
     let falling = second.rect.y > second.last.y;
     when(step, index, one, above && falling);
 }

@@ -254,6 +254,11 @@ impl Effect {
         }
     }
 
+    /// Whether it can give speed to a sprite of grid physics that has none.
+    pub(crate) fn gives_speed(&self) -> bool {
+        matches!(self, Effect::ChangeSpeed { .. } | Effect::WallStop | Effect::WallReverse)
+    }
+
     /// Whether executing it can draw from the chance.
     pub(crate) fn draws(&self) -> bool {
         matches!(
@@ -320,7 +325,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             kill::remove_score(step, one, two.filter(|_| *kill_second), *stype);
         }
         (Effect::UpdateSpawnType { stype, spawn_point }, _) => {
-            spawn::update_type(step, two.is_some(), *stype, *spawn_point);
+            spawn::update_type(step, two, *stype, *spawn_point);
         }
         (Effect::SpawnIfCounterSubTypes { .. }, _) => spawn::if_counter_subtypes(step, index, one, effect),
         (Effect::WaterPhysics, _) => step.state.extra(step.rules, one).gravity = 0.2,
@@ -350,7 +355,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             let hit = step.state.amount(two, *resource) >= *limit;
             kill::when(step, index, one, hit);
             if hit && *subtract {
-                step.state.add_amount(two, *resource, -limit);
+                step.state.add_amount(two, *resource, limit.wrapping_neg());
             }
         }
         (Effect::Align { orient }, Some(two)) => motion::align(step, one, two, *orient),
@@ -405,7 +410,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
         Effect::AddTimer { timed } => add_timer(step, *timed),
         Effect::KillIfNotUpright | Effect::WaterPhysics => step.stop(Limit::NoSprite),
         Effect::UpdateSpawnType { stype, spawn_point } => {
-            spawn::update_type(step, false, *stype, *spawn_point)
+            spawn::update_type(step, None, *stype, *spawn_point)
         }
         _ => step.message(),
     }

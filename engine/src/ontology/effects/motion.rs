@@ -1,7 +1,7 @@
 //! Effects on place, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
 
 use super::SpeedChange;
-use crate::game::SpriteType;
+use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::physics;
 use crate::state::{NONE, Slot, flag};
@@ -22,10 +22,10 @@ pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
     let came = Direction { x: now.0 - before.0, y: now.1 - before.1 }.normalised();
     let rect = sprite.rect;
     match came {
-        Direction::DOWN => rect.at(rect.x, other.y - rect.h),
-        Direction::RIGHT => rect.at(other.x - rect.w, rect.y),
-        Direction::UP => rect.at(rect.x, other.y + other.h),
-        Direction::LEFT => rect.at(other.x + other.w, rect.y),
+        Direction::DOWN => rect.at(rect.x, other.y.wrapping_sub(rect.h)),
+        Direction::RIGHT => rect.at(other.x.wrapping_sub(rect.w), rect.y),
+        Direction::UP => rect.at(rect.x, other.y.wrapping_add(other.h)),
+        Direction::LEFT => rect.at(other.x.wrapping_add(other.w), rect.y),
         _ => sprite.last,
     }
 }
@@ -140,9 +140,9 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
     let direction = step.last_direction(two).normalised();
     let amount = (step.state.sprite(two).speed * physics::grid_size(step, one)) as i32;
     step.displace(one, direction, amount);
-    if step.rules.types[step.state.sprite(one).stype.index()].traits.continuous {
+    if step.rules.types[step.state.sprite(one).stype.index()].traits.off_grid {
         let (rect, carrier) = (step.state.sprite(one).rect, step.state.sprite(two).rect);
-        step.place(one, rect.at(rect.x, carrier.y - carrier.h));
+        step.place(one, rect.at(rect.x, carrier.y.wrapping_sub(carrier.h)));
         step.state.edit(one).orientation.y = 0.0;
     }
     if onto {
@@ -155,6 +155,9 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
 pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
     let info = &step.rules.types[step.state.sprite(two).stype.index()];
     let Some(exit_type) = info.leads_to() else { return step.message() };
+    if exit_type == SpriteType::NONE {
+        return step.stop(Limit::NoType);
+    }
     let count = step.state.group(exit_type).count;
     if count == 0 {
         return step.kill(one);

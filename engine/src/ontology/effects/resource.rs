@@ -1,21 +1,32 @@
 //! Effects on resources (`spec/03` §8.2).
 
-use crate::game::SpriteType;
+use crate::game::{Limit, SpriteType};
+use crate::ontology::class::SpriteClass;
 use crate::state::Slot;
 use crate::step::Step;
+
+/// What a resource is collected as, how much it is worth and how much of it there can be; None if it is no resource.
+fn resource_of(step: &mut Step<'_>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
+    let info = &step.rules.types[step.state.sprite(slot).stype.index()];
+    let resource = info.traits.resource;
+    if !info.traits.is_resource {
+        return None;
+    }
+    if resource == SpriteType::NONE || !info.class.is_some_and(|class| class.is_a(SpriteClass::Resource)) {
+        step.stop(Limit::UnfitSprite);
+        return None;
+    }
+    Some((resource, info.traits.value, step.rules.types[resource.index()].resource_limit))
+}
 
 /// The partner takes the resource, up to its limit. On a sprite that is no resource nothing happens, not even to what
 /// the effect remembers.
 pub(super) fn collect(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, kill: bool) {
-    let resource = step.state.sprite(one).stype;
-    let info = &step.rules.types[resource.index()];
-    if !info.traits.is_resource {
-        return;
-    }
-    let room = info.resource_limit - step.state.amount(two, resource);
-    step.apply_score(index, room > 0);
-    if room > 0 {
-        step.state.add_amount(two, resource, info.traits.value.min(room));
+    let Some((resource, value, limit)) = resource_of(step, one) else { return };
+    let amount = step.state.amount(two, resource);
+    step.apply_score(index, amount < limit);
+    if amount < limit {
+        step.state.add_amount(two, resource, value.min(limit.wrapping_sub(amount)));
         if kill {
             step.remove(one);
         }
@@ -31,17 +42,13 @@ pub(super) fn collect_if_held(
     (held, value): (SpriteType, i32),
     kill: bool,
 ) {
-    let resource = step.state.sprite(one).stype;
-    let info = &step.rules.types[resource.index()];
-    if !info.traits.is_resource {
-        return;
-    }
+    let Some((resource, worth, limit)) = resource_of(step, one) else { return };
     step.apply_score(index, false);
     if step.state.amount(two, held) < value {
         return;
     }
-    if step.state.amount(two, resource) + info.traits.value <= info.resource_limit {
-        step.state.add_amount(two, resource, info.traits.value);
+    if step.state.amount(two, resource).wrapping_add(worth) <= limit {
+        step.state.add_amount(two, resource, worth);
         step.apply_score(index, true);
     }
     if kill {

@@ -49,7 +49,8 @@ pub(super) fn beside(
     }
     let from = if step_back { sprite.last } else { sprite.rect };
     let block = step.state.block;
-    step.add(stype, from.x + shift.0 * block, from.y + shift.1 * block);
+    let (x, y) = (from.x.wrapping_add(shift.0 * block), from.y.wrapping_add(shift.1 * block));
+    step.add(stype, x, y);
 }
 
 /// Where the partner was, if it has left that place.
@@ -83,23 +84,26 @@ pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, ef
     step.add(if met { stype } else { otherwise }, rect.x, rect.y);
 }
 
-/// Spawn points of a type and its relatives make another type from now on.
+/// Spawn points of a type and its relatives make another type from now on; those that draw from a list, instead of the
+/// partner's.
 pub(super) fn update_type(
     step: &mut Step<'_>,
-    has_partner: bool,
+    partner: Option<Slot>,
     stype: SpriteType,
     spawn_point: SpriteType,
 ) {
     let rules = step.rules;
     for &family in &rules.types[spawn_point.index()].tree {
-        let is_spawner =
-            rules.types[family.index()].class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
+        let class = rules.types[family.index()].class;
+        let is_spawner = class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
         let mut slot = step.state.group(family).head;
         while slot != NONE && is_spawner {
-            if !has_partner {
-                return step.stop(Limit::NoSprite);
-            }
+            let Some(partner) = partner else { return step.stop(Limit::NoSprite) };
             step.state.edit(slot).spawns = stype;
+            if class == Some(SpriteClass::BomberRandomMissile) {
+                let before = step.state.sprite(partner).stype;
+                step.state.replace_missile(rules, slot, before, stype);
+            }
             slot = step.state.sprite(slot).next;
         }
     }

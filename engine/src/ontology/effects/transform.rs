@@ -133,7 +133,7 @@ fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
         }
     }
     // The player moves on with the avatar, if the new sprite can be one; else the old one stays, disabled.
-    let player_lost = before.is(flag::AVATAR) && !step.state.sprite(new).is(flag::AVATAR);
+    let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
         step.control(new);
     }

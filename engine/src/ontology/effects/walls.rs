@@ -12,7 +12,9 @@ use crate::trigonometry::{cos, sin};
 fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
     let sprite = step.state.sprite(one);
     let rect = sprite.rect;
-    let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| (a + a_size).min(b + b_size) - a.max(b);
+    let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
+        a.wrapping_add(a_size).min(b.wrapping_add(b_size)).wrapping_sub(a.max(b))
+    };
     let horizontal = rect.h == overlap(rect.y, rect.h, other.y, other.h);
     let vertical = rect.w == overlap(rect.x, rect.w, other.x, other.w);
     if horizontal || vertical {
@@ -22,13 +24,13 @@ fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
     let velocity = Direction { x: sprite.orientation.x * speed, y: sprite.orientation.y * speed };
     let time = |last: i32, size: i32, from: i32, extent: i32, velocity: f64| {
         let gap = if velocity > 0.0 {
-            last + size - from
+            last.wrapping_add(size).wrapping_sub(from)
         } else if velocity < 0.0 {
-            from + extent - last
+            from.wrapping_add(extent).wrapping_sub(last)
         } else {
-            last - from
+            last.wrapping_sub(from)
         };
-        (f64::from(gap.abs()) / velocity).abs()
+        (f64::from(gap.wrapping_abs()) / velocity).abs()
     };
     let across = time(sprite.last.x, rect.w, other.x, other.w, velocity.x);
     let along = time(sprite.last.y, rect.h, other.y, other.h, velocity.y);
@@ -41,10 +43,10 @@ fn joined(step: &Step<'_>, one: Slot, partners: &mut Hits) -> (i32, Rect) {
     if let [first, second] = partners[..] {
         let (a, b) = (rect(first), rect(second));
         if a.centre().0 == b.centre().0 {
-            return (2, Rect { x: a.x, y: a.y.min(b.y), w: a.w, h: 2 * a.h });
+            return (2, Rect { x: a.x, y: a.y.min(b.y), w: a.w, h: a.h.wrapping_mul(2) });
         }
         if a.centre().1 == b.centre().1 {
-            return (2, Rect { x: a.x.min(b.x), y: a.y, w: 2 * a.w, h: a.h });
+            return (2, Rect { x: a.x.min(b.x), y: a.y, w: a.w.wrapping_mul(2), h: a.h });
         }
     }
     if partners.len() > 1 {
@@ -142,7 +144,9 @@ pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: 
     let (ball, paddle) = (*step.state.sprite(one), step.state.sprite(two).rect);
     let velocity = Direction { x: ball.orientation.x * ball.speed, y: ball.orientation.y * ball.speed };
     let gap = |last: i32, size: i32, from: i32, extent: i32| {
-        f64::from((last - (from + extent)).abs().min((last + size - from).abs()))
+        let before = last.wrapping_sub(from.wrapping_add(extent)).wrapping_abs();
+        let after = last.wrapping_add(size).wrapping_sub(from).wrapping_abs();
+        f64::from(before.min(after))
     };
     let across = (gap(ball.last.x, ball.rect.w, paddle.x, paddle.w) / velocity.x).abs();
     let along = (gap(ball.last.y, ball.rect.h, paddle.y, paddle.h) / velocity.y).abs();

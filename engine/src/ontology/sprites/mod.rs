@@ -14,17 +14,18 @@ use crate::step::Step;
 /// `heading` of an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u16 = 4;
 
-/// Whether the update of such sprites does anything at all: if not, they cost nothing in a tick.
-pub(crate) fn is_idle(class: SpriteClass, traits: &Traits) -> bool {
+/// Whether the update of such sprites does anything at all: if not, they cost nothing in a tick. `speeds_change` says
+/// whether some effect of the game can give speed to what has none.
+pub(crate) fn is_idle(class: SpriteClass, traits: &Traits, speeds_change: bool) -> bool {
     use SpriteClass as C;
     match class {
-        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack | C::Portal => {
-            let stays = traits.is_static || traits.only_active || traits.speed == 0.0;
-            stays && traits.time_to_live < 0
-        }
-        C::SpriteProducer => true,
-        class => class.is_avatar(),
+        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => {}
+        C::Portal | C::SpriteProducer => {}
+        class => return class.is_avatar(),
     }
+    let stands = traits.speed == 0.0 && !traits.continuous && !speeds_change;
+    let stays = traits.is_static || traits.only_active || stands;
+    stays && traits.time_to_live < 0 && !traits.oriented_image
 }
 
 /// Whether sprites of the class can draw from the chance.
@@ -42,10 +43,8 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot) {
     let stype = step.state.sprite(slot).stype;
     let class = step.rules.types[stype.index()].class.expect("sprites are made of types with a class");
     match class {
-        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack | C::Portal => {
-            base(step, slot)
-        }
-        C::Missile | C::ErraticMissile => base(step, slot),
+        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => base(step, slot),
+        C::Portal | C::SpriteProducer | C::Missile | C::ErraticMissile => base(step, slot),
         C::RandomMissile => plain::random_missile(step, slot),
         C::Flicker | C::OrientedFlicker => plain::flicker(step, slot),
         C::Spreader => plain::spreader(step, slot),
@@ -64,8 +63,7 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot) {
         C::BomberRandomMissile => producers::bomber_random_missile(step, slot),
         C::SpawnPointMultiSprite => producers::multi_sprite(step, slot),
         // Avatars are updated as the player's or not at all.
-        C::SpriteProducer
-        | C::MovingAvatar
+        C::MovingAvatar
         | C::HorizontalAvatar
         | C::VerticalAvatar
         | C::NullAvatar
@@ -87,17 +85,9 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot) {
     }
 }
 
-/// Passive movement, of those that are not static; what every update begins with.
-fn passive(step: &mut Step<'_>, slot: Slot) {
-    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
-    if !traits.is_static && !traits.only_active {
-        physics::passive(step, slot);
-    }
-}
-
 /// The update of every sprite that does not replace it: passive movement, then the time to live.
 fn base(step: &mut Step<'_>, slot: Slot) {
-    passive(step, slot);
+    physics::passive(step, slot);
     let time_to_live = step.state.sprite(slot).time_to_live;
     if time_to_live > 0 {
         step.state.edit(slot).time_to_live -= 1;

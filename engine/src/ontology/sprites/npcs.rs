@@ -1,6 +1,6 @@
 //! Characters that move by chance or after others (`spec/02` §7).
 
-use super::{NO_HEADING, passive};
+use super::NO_HEADING;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::physics;
@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 type Options = SmallVec<[Direction; 8]>;
 
 pub(super) fn random_npc(step: &mut Step<'_>, slot: Slot) {
-    passive(step, slot);
+    physics::passive(step, slot);
     let direction = random_move(step, slot);
     walk(step, slot, direction);
 }
@@ -66,7 +66,7 @@ pub(super) fn los_chaser(step: &mut Step<'_>, slot: Slot) {
 }
 
 fn chase_visible(step: &mut Step<'_>, slot: Slot, sees: impl Fn(Rect, Rect) -> bool) {
-    passive(step, slot);
+    physics::passive(step, slot);
     let own = *step.state.sprite(slot);
     let traits = &step.rules.types[own.stype.index()].traits;
     let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
@@ -127,17 +127,14 @@ fn closest(continuous: bool, from: Rect, targets: impl Iterator<Item = Rect>) ->
 
 /// PathChaser: along the path to the first of the closest targets.
 pub(super) fn path_chaser(step: &mut Step<'_>, slot: Slot) {
-    if step.state.obstacles.is_empty() {
-        return step.stop(Limit::NoPaths);
-    }
-    passive(step, slot);
+    physics::passive(step, slot);
     let own = *step.state.sprite(slot);
     let traits = &step.rules.types[own.stype.index()].traits;
     let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
     let rects = targets.into_iter().map(|target| step.state.sprite(target).rect);
     let direction = match closest(traits.continuous, own.rect, rects).first() {
         Some(target) => {
-            let way = step.state.first_step(step.rules, (own.rect.x, own.rect.y), (target.x, target.y));
+            let way = first_step(step, own.rect, (target.x, target.y));
             step.state.edit(slot).count = traits.cons;
             way.unwrap_or(Direction::NONE)
         }
@@ -146,11 +143,24 @@ pub(super) fn path_chaser(step: &mut Step<'_>, slot: Slot) {
     walk(step, slot, direction);
 }
 
+/// The first step of the way to a place; a game without `obs=` has no paths, and asking for one is the end of it.
+fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Direction> {
+    if !step.rules.finds_paths {
+        step.stop(Limit::NoPaths);
+        return None;
+    }
+    step.state.first_step((from.x, from.y), to)
+}
+
 /// The targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself among them, so
 /// that those of a leaf type are there twice.
 fn alternate_targets(step: &mut Step<'_>, slot: Slot) -> SmallVec<[Slot; 8]> {
     let rules = step.rules;
     let stypes = &rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
+    if stypes.contains(&SpriteType::NONE) {
+        step.stop(Limit::NoType);
+        return SmallVec::new();
+    }
     let total: i32 = stypes.iter().map(|&stype| step.state.count(rules, stype)).sum();
     if total == 0 {
         return SmallVec::new();
@@ -166,7 +176,7 @@ fn alternate_targets(step: &mut Step<'_>, slot: Slot) -> SmallVec<[Slot; 8]> {
 
 /// AlternateChaser: a step nearer to one of the closest targets; it never flees, whatever its parameters say.
 pub(super) fn alternate_chaser(step: &mut Step<'_>, slot: Slot) {
-    passive(step, slot);
+    physics::passive(step, slot);
     let targets = alternate_targets(step, slot);
     approach(step, slot, &targets);
 }
@@ -188,7 +198,7 @@ fn approach(step: &mut Step<'_>, slot: Slot, targets: &[Slot]) {
 pub(super) fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot)) {
     let epsilon = step.rules.types[step.state.sprite(slot).stype.index()].traits.epsilon;
     if step.state.chance.double() < epsilon {
-        passive(step, slot);
+        physics::passive(step, slot);
         let direction = Direction::BASE[step.state.chance.below(4) as usize];
         walk(step, slot, direction);
     } else {
@@ -198,10 +208,7 @@ pub(super) fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step
 
 /// PathAltChaser: keeps to one target until it stands on it, along paths.
 pub(super) fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) {
-    if step.state.obstacles.is_empty() {
-        return step.stop(Limit::NoPaths);
-    }
-    passive(step, slot);
+    physics::passive(step, slot);
     let rules = step.rules;
     let own = step.state.sprite(slot).rect;
     let current = match step.state.extra(rules, slot).target {
@@ -222,12 +229,11 @@ pub(super) fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) {
         let direction = Direction::BASE[step.state.chance.below(4) as usize];
         return walk(step, slot, direction);
     };
-    let from = (own.x, own.y);
-    let mut way = step.state.first_step(rules, from, (rect.x, rect.y));
+    let mut way = first_step(step, own, (rect.x, rect.y));
     let extra = step.state.extra(rules, slot);
     extra.target = target;
     match (way, extra.last_known) {
-        (None, Some(known)) => way = step.state.first_step(rules, from, known),
+        (None, Some(known)) => way = first_step(step, own, known),
         _ => extra.last_known = Some((rect.x, rect.y)),
     }
     walk(step, slot, way.unwrap_or(Direction::NONE));

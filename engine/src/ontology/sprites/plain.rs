@@ -21,7 +21,8 @@ pub(super) fn flicker(step: &mut Step<'_>, slot: Slot) {
     if sprite.count > step.rules.types[sprite.stype.index()].traits.limit {
         step.kill(slot);
     }
-    step.state.edit(slot).count += 1;
+    let sprite = step.state.edit(slot);
+    sprite.count = sprite.count.wrapping_add(1);
 }
 
 /// A flicker that spreads in its second update: four draws, always.

@@ -55,11 +55,12 @@ pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
 
 /// Draws what it would make, in every update.
 pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
-    let stypes = &step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
-    if stypes.is_empty() {
+    let count = step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes.len();
+    if count == 0 {
         return step.stop(Limit::NoType);
     }
-    let drawn = stypes[step.state.chance.below(stypes.len() as i32) as usize];
-    step.state.edit(slot).spawns = drawn;
+    let drawn = step.state.chance.below(count as i32) as usize;
+    let stype = step.state.missile(step.rules, slot, drawn);
+    step.state.edit(slot).spawns = stype;
     spawn_point(step, slot);
 }

@@ -1,13 +1,12 @@
 //! Walkers: they follow the ground and turn at walls (`spec/02` §7.6).
 
-use super::passive;
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::state::{Slot, flag};
 use crate::step::Step;
 
 pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
-    passive(step, slot);
+    physics::passive(step, slot);
     let sprite = *step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.air_steering || sprite.rect.x == sprite.last.x {
@@ -30,7 +29,7 @@ pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
 
 /// Jumps now and then; the reference decides it with a generator apart from the game's.
 pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
-    passive(step, slot);
+    physics::passive(step, slot);
     let sprite = *step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if sprite.is(flag::ON_GROUND) && traits.probability > step.state.jumps.double() {

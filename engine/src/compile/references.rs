@@ -1,0 +1,143 @@
+//! The sprites that a type's parameters name: what it makes, follows, spends, is collected as or leads to.
+
+use super::Names;
+use super::params::{Expected, Value, convert, wrong_type};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::game::SpriteType;
+use crate::ontology::class::SpriteClass;
+use crate::syntax::{Param, Word};
+use smallvec::SmallVec;
+
+/// The sprites that a type's parameters name; [`SpriteType::NONE`] stands for an undeclared name.
+pub(super) struct References {
+    pub(super) stypes: SmallVec<[SpriteType; 2]>,
+    pub(super) ammo: SmallVec<[SpriteType; 2]>,
+    pub(super) behind: Option<SpriteType>,
+    pub(super) resource: Option<SpriteType>,
+    /// A parameter is missing without which the reference cannot make such a sprite.
+    pub(super) incomplete: bool,
+}
+
+/// A type with its parameters, those that it inherits among them.
+#[derive(Clone, Copy)]
+pub(super) struct Subject<'a> {
+    pub(super) name: &'a str,
+    pub(super) span: Span,
+    pub(super) class: SpriteClass,
+    pub(super) params: &'a [&'a Param],
+    pub(super) leaf: bool,
+}
+
+pub(super) fn references(
+    sprite: Subject<'_>,
+    names: Names<'_>,
+    problems: &mut Vec<Diagnostic>,
+) -> References {
+    use SpriteClass as C;
+    let class = sprite.class;
+    let shoots = class.is_a(C::ShootAvatar) || class == C::WizardAvatar;
+    // What a class makes or follows, under the name that the class has for it.
+    let (key, many) = match class {
+        C::SpawnPointMultiSprite => ("stypes", true),
+        C::BomberRandomMissile => ("stypeMissile", true),
+        class if class.is_a(C::AlternateChaser) => ("stype1", true),
+        _ => ("stype", shoots),
+    };
+    let stypes = sprite.named(key, many, names, problems);
+    if key == "stype1" {
+        sprite.named("stype2", true, names, problems);
+    }
+    let ammo = sprite.named("ammo", class.is_a(C::ShootAvatar), names, problems);
+    let behind = sprite.named("spawnBehind", false, names, problems).first().copied();
+    let resource = sprite.named("resource_name", false, names, problems).first().copied();
+
+    let produces = class.is_a(C::SpawnPoint) || class == C::SpawnPointMultiSprite;
+    let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
+    let needs = shoots || produces || follows || matches!(class, C::FlakAvatar | C::Portal);
+    let missing = needs && stypes.is_empty();
+    let nameless = class == C::ResourcePack && resource.is_none();
+    for (key, missing) in [(key, missing), ("resource_name", nameless)] {
+        if missing && sprite.leaf && sprite.given(key).is_none() {
+            let message = format!("{} `{}` needs `{key}=`, the name of a sprite", class.name(), sprite.name);
+            problems.push(Diagnostic::error("missing-parameter", sprite.span, message));
+        }
+    }
+    if shoots || produces || matches!(class, C::FlakAvatar | C::Spreader) {
+        sprite.makes(key, &stypes, names, problems);
+    }
+    // A spawn point without a type dies only of spawning.
+    let incomplete = nameless || missing && (many || !produces);
+    References { stypes, ammo, behind, resource, incomplete }
+}
+
+impl Subject<'_> {
+    fn given(&self, key: &str) -> Option<&Param> {
+        self.params.iter().copied().find(|param| param.key.text == key)
+    }
+
+    /// The types that a parameter names, one or `many`, with commas between them.
+    fn named(
+        &self,
+        key: &str,
+        many: bool,
+        names: Names<'_>,
+        problems: &mut Vec<Diagnostic>,
+    ) -> SmallVec<[SpriteType; 2]> {
+        let mut found = SmallVec::new();
+        let Some(param) = self.given(key).filter(|_| self.class.parameters().contains(&key)) else {
+            return found;
+        };
+        let text = param.value.text.as_str();
+        if !matches!(convert(key, text), Value::Text(_)) {
+            let problem = wrong_type(param, Expected::Text);
+            let help = format!("`{text}` reads as a constant or a number: give the sprite another name");
+            problems.push(if names.find(text).is_some() { problem.help(help) } else { problem });
+            return found;
+        }
+        if !many && text.contains(',') {
+            let message = format!("`{key}` of {} names one sprite", self.class.name());
+            problems.push(Diagnostic::error("wrong-type", param.value.span, message));
+            found.push(SpriteType::NONE);
+            return found;
+        }
+        // Nothing stands between trailing commas.
+        let list = text.trim_end_matches(',');
+        if list != text {
+            let message = format!("`{key}` ends with a comma");
+            problems.push(Diagnostic::error("wrong-type", param.value.span, message).help("remove it"));
+        }
+        let mut start = param.value.span.start;
+        for text in list.split(',').filter(|_| !list.is_empty()) {
+            let span = Span::new(start, start + text.len());
+            start += text.len() + 1;
+            let word = Word { text: text.to_owned(), span };
+            found.push(names.resolve_value(param, &word, problems).unwrap_or(SpriteType::NONE));
+        }
+        found
+    }
+
+    /// Checks the types that sprites of this type make.
+    fn makes(&self, key: &str, stypes: &[SpriteType], names: Names<'_>, problems: &mut Vec<Diagnostic>) {
+        use SpriteClass as C;
+        let dies = "the reference engine dies of that";
+        let Some(param) = self.given(key) else {
+            if self.class == C::Spreader && self.leaf {
+                let message = format!("without `stype=`, `{}` would spread into its own type", self.name);
+                let problem = Diagnostic::error("spawns-itself", self.span, message);
+                problems.push(problem.help(format!("{dies}; name another type with `stype=`")));
+            }
+            return;
+        };
+        for &stype in stypes.iter().filter(|stype| **stype != SpriteType::NONE) {
+            let word = Word { text: names.types[stype.index()].name.clone(), span: param.value.span };
+            names.instantiable(stype, &word, problems);
+            let iterates = self.class.is_a(C::SpawnPoint)
+                || matches!(self.class, C::Spreader | C::SpawnPointMultiSprite);
+            if word.text == self.name && iterates {
+                let message = format!("`{}` would make sprites of its own type", self.name);
+                let problem = Diagnostic::error("spawns-itself", param.value.span, message);
+                problems.push(problem.help(format!("{dies}; let it make another type")));
+            }
+        }
+    }
+}
