@@ -178,10 +178,12 @@ impl Step<'_> {
         self.state.moved = moved;
     }
 
-    /// Whether the sprite takes part in update phases: its type does, and it is the player's avatar or none.
+    /// Whether the sprite takes part in update phases: as the player's avatar, or, if its class is no avatar's, by its
+    /// type.
     fn is_updated(&self, slot: Slot) -> bool {
         let sprite = self.state.sprite(slot);
-        !sprite.is(flag::FROZEN) && self.rules.types[sprite.stype.index()].order.is_some()
+        let takes_turns = self.rules.types[sprite.stype.index()].order.is_some();
+        !sprite.is(flag::FROZEN) && (takes_turns || slot == self.state.avatar)
     }
 
     /// Whether the sprite's class is an avatar's; what the sprite passes for is [`flag::AVATAR`].

@@ -344,6 +344,79 @@ fn paths() {
     assert_eq!(sideways.all("free").len(), 1);
 }
 
+/// PathAltChaser keeps to one target, to where it was last if it is gone; only there it looks for another one.
+#[test]
+fn one_target_at_a_time() {
+    let header = "square_size=10 obs=rock";
+    let sprites = "rock > Immovable\nt > Immovable\nq > PathAltChaser stype1=t cons=3\navatar > MovingAvatar";
+    let placed = [("avatar", 140, 20), ("t", 150, 20), ("q", 100, 20)];
+    let mut vector = Vector::headed(header, sprites, "t avatar > killSprite", &placed, 1);
+    let mut chance = Chance::from_java(1);
+    let way = [110, 120, 130, 140, 150].map(|x| (x, 20));
+    assert_eq!(vector.places("q", "R..L."), way);
+    assert_eq!((vector.all("t").len(), vector.state.chance()), (0, chance));
+    let (dx, dy) = [(0, -10), (-10, 0), (0, 10), (10, 0)][chance.below(4) as usize];
+    assert_eq!(vector.places("q", "."), [(150 + dx, 20 + dy)]);
+    assert_eq!(vector.state.chance(), chance);
+
+    let sprites = sprites.replace("cons=3", "randomTarget=True");
+    let placed = [("avatar", 0, 70), ("t", 100, 0), ("t", 100, 70), ("q", 100, 30)];
+    let mut vector = Vector::headed(header, &sprites, "", &placed, 1);
+    let mut chance = Chance::from_java(1);
+    // Each target is listed twice, one after the other and both again.
+    let down = chance.below(4) % 2 == 1;
+    vector.play("..");
+    assert_eq!(vector.place("q"), (100, if down { 50 } else { 10 }));
+    assert_eq!(vector.state.chance(), chance);
+    let mut none = Vector::headed(header, &sprites, "", &[("avatar", 0, 70), ("q", 100, 30)], 1);
+    none.play(".");
+    assert_eq!(none.state.outcome(), Outcome::Stopped(Limit::NoSprite));
+}
+
+/// RandomPathAltChaser: a draw in any case; below epsilon a random step, otherwise along the path.
+#[test]
+fn now_and_then_at_random() {
+    for epsilon in ["0.0", "1"] {
+        let sprites = format!(
+            "rock > Immovable\nt > Immovable\nq > RandomPathAltChaser stype1=t epsilon={epsilon}\navatar > MovingAvatar"
+        );
+        let placed = [("avatar", 0, 70), ("t", 200, 20), ("q", 100, 20)];
+        let mut vector = Vector::headed("square_size=10 obs=rock", &sprites, "", &placed, 4);
+        let mut chance = Chance::from_java(4);
+        let (mut x, mut y) = (100, 20);
+        for tick in 0..5 {
+            chance.double();
+            let way = if epsilon == "1" { chance.below(4) } else { 3 };
+            let (dx, dy) = [(0, -10), (-10, 0), (0, 10), (10, 0)][way as usize];
+            (x, y) = (x + dx, y + dy);
+            vector.step(Action::Nil);
+            assert_eq!(vector.place("q"), (x, y), "epsilon {epsilon}, tick {tick}");
+            assert_eq!(vector.state.chance(), chance, "epsilon {epsilon}, tick {tick}");
+        }
+    }
+}
+
+/// A bomber makes sprites where it is, then moves on.
+#[test]
+fn bombers() {
+    let sprites = "avatar > MovingAvatar\ny > Immovable\nb > Bomber stype=y speed=1 spawnorientation=UP";
+    let mut vector = Vector::new(sprites, "", &[("avatar", 0, 70), ("b", 100, 20)], 1);
+    assert_eq!(vector.places("b", "....."), [100, 110, 120, 130, 140].map(|x| (x, 20)));
+    assert_eq!(vector.spots("y"), [100, 100, 110, 120, 130].map(|x| (x, 20)));
+    assert_eq!(vector.all("y")[4].orientation, (0.0, -1.0));
+}
+
+/// The player's avatar is updated whatever its type; a parent type is in no order of updates.
+#[test]
+fn an_avatar_of_a_parent_type() {
+    let sprites = "b > Immovable\nme > MovingAvatar\n  avatar >\n  other >";
+    let rules = "avatar b > transformTo stype=me\nme wall > stepBack";
+    let placed = [("avatar", 50, 20), ("b", 60, 20), ("wall", 80, 20)];
+    let mut vector = Vector::new(sprites, rules, &placed, 1);
+    vector.play("R");
+    assert_eq!(vector.places("me", "RRR"), [(70, 20); 3]);
+}
+
 /// Physics that does not exist is the grid's, but avatars glide, and do not face where they go.
 #[test]
 fn physics_of_another_kind() {
@@ -462,6 +535,21 @@ fn the_last_of_two_parameters() {
     let sprites = "avatar > MovingAvatar\np > Immovable singleton=True singleton=False";
     let vector = Vector::new(sprites, "", &[("avatar", 0, 70), ("p", 10, 10), ("p", 20, 10)], 1);
     assert_eq!(vector.all("p").len(), 2);
+}
+
+/// Where a spawner stands in its period is live behaviour, also before its first update.
+#[test]
+fn search_keys_tell_phases_apart() {
+    for spawner in ["SpawnPointMultiSprite stypes=y cooldown=50", "SpawnPoint stype=y cooldown=50"] {
+        let sprites = format!("avatar > MovingAvatar\ny > Immovable\ns > {spawner}");
+        let mut vector = Vector::new(&sprites, "", &[("avatar", 0, 70), ("s", 100, 20)], 1);
+        let key =
+            |vector: &Vector| vector.state.fork(engine::Seed::from_text("one")).search_key(&vector.game);
+        vector.play(".");
+        let first = key(&vector);
+        vector.play(".");
+        assert_ne!(key(&vector), first, "{spawner}");
+    }
 }
 
 /// Strictly, each of these is an error at its place, with help.
