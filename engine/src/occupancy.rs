@@ -80,15 +80,7 @@ impl State {
             return self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
         }
         let reach = if reached { rules.reach.saturating_mul(self.block) - 1 } else { 0 };
-        let columns = self.column(rect.x.saturating_sub(reach))
-            ..=self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
-        for row in
-            self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h.saturating_sub(1)))
-        {
-            for column in columns.clone() {
-                self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
-            }
-        }
+        self.overlapping_around(family, (slot, rect), reach, above, hits);
     }
 
     /// The sprites of `family`'s tree that overlap a rectangle around a sprite, itself left out.
@@ -101,12 +93,38 @@ impl State {
         hits: &mut Hits,
     ) {
         let reach = rules.reach.saturating_mul(self.block) - 1;
-        let columns = self.column(rect.x.saturating_sub(reach))
-            ..=self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
-        for row in
-            self.row(rect.y.saturating_sub(reach))..=self.row(rect.y.saturating_add(rect.h.saturating_sub(1)))
-        {
-            for column in columns.clone() {
+        self.overlapping_around(family, (slot, rect), reach, above, hits);
+    }
+
+    /// Looks into all cells from which sprites can reach into the rectangle, or, if these are more than there are
+    /// sprites, at all sprites.
+    fn overlapping_around(
+        &self,
+        family: &TypeInfo,
+        (slot, rect): (Slot, Rect),
+        reach: i32,
+        above: u32,
+        hits: &mut Hits,
+    ) {
+        let first_column = self.column(rect.x.saturating_sub(reach));
+        let last_column = self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
+        let first_row = self.row(rect.y.saturating_sub(reach));
+        let last_row = self.row(rect.y.saturating_add(rect.h.saturating_sub(1)));
+        let cells = (last_column - first_column + 1) * (last_row - first_row + 1);
+        let sprites = family.tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum::<i32>();
+        if cells > sprites {
+            let types = family.tree.iter().enumerate();
+            let types = types.filter(|(at, stype)| usize::from(family.rank[stype.index()]) == *at);
+            let all = types.flat_map(|(_, &stype)| self.slots(stype));
+            let overlaps = |at: &Slot| {
+                let sprite = self.sprite(*at);
+                *at != slot && sprite.id < above && sprite.rect.intersects(rect)
+            };
+            hits.extend(all.filter(overlaps));
+            return;
+        }
+        for row in first_row..=last_row {
+            for column in first_column..=last_column {
                 self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
             }
         }
