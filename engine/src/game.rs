@@ -92,7 +92,7 @@ pub enum Outcome {
 pub enum Limit {
     /// More sprites than a state can hold.
     Sprites,
-    /// More work of effects in one tick than [`MAX_EFFECTS`](crate::MAX_EFFECTS), or more timers than can be planned.
+    /// More work of effects and chasers in one tick than [`MAX_EFFECTS`](crate::MAX_EFFECTS), or more timers than can be planned.
     Effects,
     /// A sprite of the type whose sprites are being updated was spawned: the reference throws.
     SpawnIntoUpdatedType,

@@ -17,7 +17,8 @@ const MAX_MESSAGES: u32 = 25;
 /// Pixels of the longer side of a board whose game does not set `square_size`.
 const SCREEN: i32 = 800;
 
-/// Work of the effects of one tick at most: an execution counts one, those that go through many sprites one a sprite.
+/// Work of the effects of one tick at most: an execution counts one, those that go through many sprites one a sprite,
+/// and chasers one for every sixteen targets, or cells of a path, that they look at.
 /// The busiest tick of a real game does some thousands.
 pub const MAX_EFFECTS: usize = 1 << 20;
 /// Timers that can be planned at a time.

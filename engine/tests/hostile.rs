@@ -77,6 +77,21 @@ fn giant_numbers() {
     assert_eq!(outcome(sprites, rules, mapping, "Aabcde\n"), Outcome::Lost);
 }
 
+/// Everybody runs from everybody, along paths and without.
+#[test]
+fn a_crowd_of_chasers() {
+    let board = format!("A{}\n{}", "a".repeat(99), format!("{}\n", "a".repeat(100)).repeat(98));
+    for sprite in ["Fleeing stype=a", "AlternateChaser stype1=a", "PathChaser stype=avatar"] {
+        let source = format!(
+            "BasicGame obs=wall\n  SpriteSet\n    avatar > MovingAvatar\n    a > {sprite}\n  LevelMapping\n    a > a\n  InteractionSet\n    avatar a > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n"
+        );
+        let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}"));
+        let level = game.level(&board).unwrap_or_else(|problems| panic!("{problems}"));
+        let mut state = game.start(&level, Seed::from_text("crowd"));
+        assert_eq!(game.step(&mut state, Action::Nil), Outcome::Stopped(Limit::Effects), "{sprite}");
+    }
+}
+
 /// Any class with any parameters and values beyond all measure, loaded both ways: it ends in a typed outcome or goes on.
 #[test]
 fn any_parameters() {

@@ -8,6 +8,9 @@ use crate::state::{NONE, Slot, Target};
 use crate::step::Step;
 use smallvec::SmallVec;
 
+/// Targets, or cells of a path, that are looked at for the work of one execution of an effect.
+const LOOKS: usize = 16;
+
 /// Directions to choose among; a direction that several targets ask for is there several times.
 type Options = SmallVec<[Direction; 8]>;
 
@@ -105,7 +108,9 @@ fn own_or_related(step: &mut Step<'_>, stype: SpriteType) -> SmallVec<[Slot; 8]>
         NONE => &step.rules.types[stype.index()].tree,
         _ => &own,
     };
-    types.iter().flat_map(|&stype| step.state.slots(stype)).collect()
+    let targets: SmallVec<[Slot; 8]> = types.iter().flat_map(|&stype| step.state.slots(stype)).collect();
+    step.work(targets.len() / LOOKS);
+    targets
 }
 
 /// All at the least distance, in order.
@@ -149,6 +154,7 @@ fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Directi
         step.stop(Limit::NoPaths);
         return None;
     }
+    step.work(step.state.obstacles.len() / LOOKS);
     step.state.first_step((from.x, from.y), to)
 }
 
@@ -171,7 +177,10 @@ fn alternate_targets(step: &mut Step<'_>, slot: Slot) -> SmallVec<[Slot; 8]> {
         count => stypes[step.state.jumps.below(count as i32) as usize],
     };
     let related = rules.types[chosen.index()].tree.iter().copied();
-    std::iter::once(chosen).chain(related).flat_map(|stype| step.state.slots(stype)).collect()
+    let listed = std::iter::once(chosen).chain(related);
+    let targets: SmallVec<[Slot; 8]> = listed.flat_map(|stype| step.state.slots(stype)).collect();
+    step.work(targets.len() / LOOKS);
+    targets
 }
 
 /// AlternateChaser: a step nearer to one of the closest targets; it never flees, whatever its parameters say.
