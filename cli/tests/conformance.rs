@@ -173,3 +173,68 @@ fn the_sign_of_zero_counts() {
     let tick = trace.tick(3, zero);
     trace.check(&reference, tick, "orientation.x", |line| line["mod"][0][6] = json!(-0.0));
 }
+
+/// A game with counters of our own, one that the reference dies of, and one that it ends because of its messages.
+#[test]
+fn counters_notes_and_errors_of_the_reference_are_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |path: &str, text: &str| {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    };
+    let game = "BasicGame square_size=10 no_counters=2\n  SpriteSet\n    a > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    x > a avatar\n  InteractionSet\n    a avatar > halfSpeed counter=1,0\n  TerminationSet\n    Timeout limit=9\n";
+    let rng = 1u64 ^ 0x5_DEEC_E66D;
+    let header = |name: &str, width: usize, log: usize| {
+        json!({ "format": "vgdl-trace/1", "game": name, "level": 0, "seed": 1, "block_size": 10, "width": 10 * width,
+            "height": 10, "types": ["wall", "avatar", "a"], "sprite_order": [0, 2, 1], "avatar": 1,
+            "actions": ["ACTION_LEFT", "ACTION_RIGHT", "ACTION_DOWN", "ACTION_UP"], "log": vec!["?"; log] })
+    };
+    let sprites =
+        json!([[0, 2, 0, 0, 10, 10, 0.0, 0.0, 0.0, 0, 0], [1, 1, 0, 0, 10, 10, 0.0, 0.0, 1.0, 0, 2]]);
+    let tick = |counters: Value| {
+        json!({ "tick": 0, "action": "ACTION_NIL", "score": 0.0, "winner": "NO_WINNER", "ended": false, "rng": rng,
+            "avatar": 1, "resources": {}, "counters": counters, "add": [], "del": [], "mod": [] })
+    };
+    let trace = |name: &str, header: Value, tick: Value| {
+        let initial = json!({ "tick": -1, "sprites": sprites, "rng": rng });
+        write(&format!("traces/{name}/lvl0.nil4.jsonl"), &format!("{header}\n{initial}\n{tick}\n"));
+    };
+    write("games/tally/game.txt", game);
+    write("games/tally/lvl0.txt", "x\n");
+    trace("tally", header("tally", 1, 0), tick(json!([1, 0])));
+    write("games/noisy/game.txt", game);
+    write("games/noisy/lvl0.txt", &format!("x{}\n", "?".repeat(26)));
+    let mut noted = tick(json!([1, 0]));
+    (noted["ended"], noted["note"]) = (json!(true), json!("ended by MAX_ALLOWED_WARNINGS"));
+    trace("noisy", header("noisy", 27, 26), noted.clone());
+    for (name, text) in [
+        ("dead", "Game\n".to_owned()),
+        ("deadly", game.replace("a avatar\n", "ghost\n")),
+        ("deadlier", game.replace("a > Immovable", "a > Statue")),
+    ] {
+        write(&format!("games/{name}/game.txt"), &text);
+        write(&format!("games/{name}/lvl0.txt"), "x\n");
+        let header =
+            json!({ "format": "vgdl-trace/1", "game": name, "level": 0, "seed": 1, "engine_error": "?" });
+        write(&format!("traces/{name}/lvl0.nil4.jsonl"), &format!("{header}\n"));
+    }
+    let folders = folders(folder.path());
+    let mut args: Vec<&str> = vec!["conformance"];
+    args.extend(folders.iter().map(String::as_str));
+    let output = run(folder.path(), &args, 0);
+    assert_eq!(text(&output.stdout).lines().last(), Some("identical: 5 of 5 episodes"));
+
+    trace("tally", header("tally", 1, 0), tick(json!([1, 1])));
+    noted["note"] = Value::Null;
+    trace("noisy", header("noisy", 27, 26), noted);
+    args.push("--json");
+    let output = run(folder.path(), &args, 1);
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let fields = report["differing"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|episode| &episode["difference"]["fields"][0]["field"]);
+    assert_eq!(fields.collect::<Vec<_>>(), [&json!("note"), &json!("counters")]);
+}

@@ -1,6 +1,6 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
-use crate::game::{Limit, Pass, SpriteType, Timed, TypeInfo};
+use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed, TypeInfo};
 use crate::geometry::Rect;
 use crate::occupancy::Hits;
 use crate::ontology::effects;
@@ -39,13 +39,15 @@ impl Step<'_> {
             }
             self.state.timers.remove(0);
             let timed = &self.rules.timed[usize::from(number)];
+            // Also for those that find no sprite: one that repeats at once would never end.
+            self.work(1);
             match timed.target {
                 None => {
                     watch.interaction(timed.line);
-                    self.work(1);
                     let info = &self.rules.effects[usize::from(timed.effect)];
                     effects::execute_alone(self, timed.effect, &info.effect);
-                    self.score(timed.apply_score, timed.score_change);
+                    let wrapper = &self.rules.effects[usize::from(timed.wrapper)];
+                    self.score(wrapper, wrapper.initial_memory(), 1);
                 }
                 Some(stype) => self.timed_group(timed, stype, watch),
             }
@@ -71,7 +73,7 @@ impl Step<'_> {
                     watch.interaction(timed.line);
                     self.work(1);
                     effects::execute(self, timed.effect, &info.effect, slot, None);
-                    self.score(timed.apply_score, timed.score_change);
+                    self.credit(info, info.initial_memory(), 1);
                     if self.state.group(stype).tail != tail {
                         self.stop(Limit::SpawnIntoUpdatedType);
                     }
@@ -84,12 +86,40 @@ impl Step<'_> {
         }
     }
 
-    fn score(&mut self, applies: bool, change: i32) {
-        if applies {
-            if self.state.avatar == NONE {
-                return self.stop(Limit::NoAvatar);
+    /// What an execution adds to score and counters; `remembered` says what applies.
+    fn credit(&mut self, info: &EffectInfo, remembered: u8, times: i32) {
+        self.score(info, remembered, times);
+        if let Some(counting) = &info.counting {
+            if remembered & memory::NO_COUNT == 0 {
+                self.count(&counting.counter, times);
             }
-            self.state.score += i64::from(change);
+            if remembered & memory::NO_COUNT_ELSE == 0 {
+                self.count(&counting.counter_else, times);
+            }
+        }
+    }
+
+    fn score(&mut self, info: &EffectInfo, remembered: u8, times: i32) {
+        if remembered & memory::APPLY_SCORE == 0 {
+            return;
+        }
+        if self.state.avatar == NONE {
+            return self.stop(Limit::NoAvatar);
+        }
+        let (change, fault) = effects::score_change(info, remembered);
+        if fault {
+            self.message();
+        }
+        self.state.score += i64::from(change) * i64::from(times);
+    }
+
+    fn count(&mut self, amounts: &[Option<i32>], times: i32) {
+        for (at, amount) in amounts.iter().enumerate() {
+            if amount.is_none() {
+                self.message();
+            }
+            let change = amount.unwrap_or(0).wrapping_mul(times);
+            self.state.counters[at] = self.state.counters[at].wrapping_add(change);
         }
     }
 
@@ -97,8 +127,9 @@ impl Step<'_> {
     /// that visit, with a message.
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut impl Watch) {
         let rules = self.rules;
+        let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
         let screen = self.screen();
-        for &stype in &rules.types[stype.index()].tree {
+        for &stype in &family.tree {
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 let sprite = self.state.sprite(slot);
@@ -162,8 +193,18 @@ impl Step<'_> {
                 if hits.len() > 1 {
                     hits.sort_unstable_by_key(|&hit| self.rank(second, hit));
                 }
+                if pass.repeats {
+                    let once = std::mem::take(&mut hits);
+                    for &stype in &second.tree {
+                        let of_type = |hit: &&Slot| self.state.sprite(**hit).stype == stype;
+                        hits.extend(once.iter().filter(of_type).copied());
+                    }
+                }
                 if in_batch && !hits.is_empty() {
                     self.execute_batch(pass.effect, slot, &mut hits, watch);
+                    if self.stopped.is_some() {
+                        return;
+                    }
                     hits.clear();
                 }
                 for &hit in &hits {
@@ -234,7 +275,7 @@ impl Step<'_> {
         self.work(1);
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
-        self.score(remembered & memory::APPLY_SCORE != 0, effects::score_change(info, remembered));
+        self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
     /// All partners at once; the score counts as often as the effect says.
@@ -243,7 +284,7 @@ impl Step<'_> {
         watch.interaction(info.line);
         self.work(partners.len());
         let times = effects::execute_batch(self, &info.effect, one, partners);
-        self.score(info.apply_score, info.score_change.wrapping_mul(times));
+        self.credit(info, self.state.memory[usize::from(effect)], times);
     }
 
     /// The partners of a sprite that notices what it stands on: testing a solid one just below it is what it notices.

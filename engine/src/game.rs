@@ -6,7 +6,7 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use crate::ontology::terminations::Termination;
 use crate::ontology::traits::Traits;
-use crate::state::State;
+use crate::state::{State, memory};
 use crate::syntax::Description;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
@@ -173,6 +173,11 @@ impl TypeInfo {
         self.traits.stypes.first().copied().filter(|_| has)
     }
 
+    /// Whether the tree names a type twice: a type declared below itself does (`spec/01` §1.6.3).
+    pub(crate) fn repeats(&self) -> bool {
+        self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
+    }
+
     pub(crate) fn in_tree(&self, other: SpriteType) -> bool {
         self.rank[other.index()] != NOT_IN_TREE
     }
@@ -184,10 +189,39 @@ pub(crate) struct EffectInfo {
     pub(crate) effect: Effect,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
+    /// `scoreChange` and `scoreChangeIfKilled` that are no numbers: 0, and a message each time.
+    pub(crate) score_faults: [bool; 2],
+    /// What an execution adds to the game's counters, if anything.
+    pub(crate) counting: Option<Box<Counting>>,
     /// Runs once on all partners of a sprite together.
     pub(crate) in_batch: bool,
+    /// The line runs by the clock as well, and its score and counters apply whatever the effect says as it runs.
+    pub(crate) steady: bool,
     /// Index of the line in the description.
     pub(crate) line: usize,
+}
+
+/// `counter` and `counterElse` of a line (`spec/03` §3): an amount for each counter of the game; None for a text that is
+/// no number, which counts 0 and is a message each time.
+#[derive(Clone, Debug)]
+pub(crate) struct Counting {
+    pub(crate) count: bool,
+    pub(crate) count_else: bool,
+    pub(crate) counter: Box<[Option<i32>]>,
+    pub(crate) counter_else: Box<[Option<i32>]>,
+}
+
+impl EffectInfo {
+    /// What the effect remembers at the start; see [`memory`].
+    pub(crate) fn initial_memory(&self) -> u8 {
+        let off = |counts: fn(&Counting) -> bool| self.counting.as_deref().is_some_and(|c| !counts(c));
+        let bits = [
+            (memory::APPLY_SCORE, self.apply_score),
+            (memory::NO_COUNT, off(|counting| counting.count)),
+            (memory::NO_COUNT_ELSE, off(|counting| counting.count_else)),
+        ];
+        bits.into_iter().map(|(bit, on)| if on { bit } else { 0 }).sum()
+    }
 }
 
 /// An effect that runs by the clock: written with TIME, or planned by addTimer (`spec/03` §6).
@@ -202,6 +236,8 @@ pub(crate) struct Timed {
     pub(crate) repeating: bool,
     /// The tick of the first run; None if addTimer plans it.
     pub(crate) first_due: Option<i32>,
+    /// The effect whose line says what the score changes by: itself, or the addTimer.
+    pub(crate) wrapper: u16,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
     pub(crate) line: usize,
@@ -215,6 +251,8 @@ pub(crate) struct Pass {
     pub(crate) effect: u16,
     /// The effect's place among the keywords, for shields.
     pub(crate) keyword: u16,
+    /// The second tree names a type twice: its sprites are met twice.
+    pub(crate) repeats: bool,
     /// Hits can be found from the second side: executing the effect moves nothing that a later hit depends on.
     pub(crate) either_side: bool,
 }
@@ -234,6 +272,10 @@ pub(crate) struct Rules {
     pub(crate) messages: u32,
     /// Pixels of a cell, if the game says so.
     pub(crate) square_size: Option<i32>,
+    /// `no_counters=`.
+    pub(crate) counters: usize,
+    /// What terminations say of the flag that lets counters end the game: `canEnd=`.
+    pub(crate) can_end: bool,
     pub(crate) types: Vec<TypeInfo>,
     /// Drawing order; updates go through it backwards.
     pub(crate) order: Vec<SpriteType>,
@@ -241,8 +283,11 @@ pub(crate) struct Rules {
     pub(crate) movers: Vec<SpriteType>,
     /// By ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
+    /// Level characters that stand for an undeclared sprite: the reference dies of a level that uses one.
+    pub(crate) unusable: Vec<char>,
     pub(crate) effects: Vec<EffectInfo>,
-    /// Edge-of-screen passes, repeats expanded: the type and the effect.
+    /// Edge-of-screen passes, repeats expanded: the type and the effect. An undeclared type is what the reference dies
+    /// of in the first tick.
     pub(crate) edge: Vec<(SpriteType, u16)>,
     pub(crate) passes: Vec<Pass>,
     pub(crate) timed: Vec<Timed>,
@@ -255,6 +300,10 @@ pub(crate) struct Rules {
     pub(crate) draws: bool,
     /// Whether anything reads the tick, apart from the reference's own limit.
     pub(crate) reads_tick: bool,
+    /// Whether a termination reads the counters.
+    pub(crate) reads_counters: bool,
+    /// Whether a termination reads the score.
+    pub(crate) reads_score: bool,
     /// The largest sprite, in cells, rounded up.
     pub(crate) reach: i32,
     /// Whether the first sprite of a type can differ from later ones.
@@ -342,9 +391,9 @@ impl Game {
         (0..self.0.types.len() as u16).map(SpriteType)
     }
 
-    /// The name of a type.
+    /// The name of a type; that of an undeclared one, which games loaded as the reference does may count, is `#-1`.
     pub fn name(&self, stype: SpriteType) -> &str {
-        &self.0.types[stype.index()].name
+        self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)
     }
 
     /// The type of that name.

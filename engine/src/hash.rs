@@ -152,6 +152,9 @@ impl State {
         mixer.pair(self.jumps.state(), (self.timers.len() as u64) << 1 | u64::from(self.can_end));
         self.memory_words(&mut mixer);
         self.template_words(&mut mixer);
+        for (at, &counter) in self.counters.iter().enumerate() {
+            mixer.pair(at as u64, u64::from(counter as u32) | 1 << 32);
+        }
         StateHash(mixer.finish())
     }
 
@@ -191,7 +194,7 @@ impl State {
         }
     }
 
-    /// The hash of live behaviour only: no score, no tick unless a rule reads it, no chance unless something can draw,
+    /// The hash of live behaviour only: no score unless a rule reads it, no tick unless a rule reads it, no chance unless something can draw,
     /// ages saturated at the cooldown, the order of creation instead of ids. Cost: O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
         let rules: &Rules = &game.0;
@@ -199,6 +202,9 @@ impl State {
         mixer.pair(self.outcome_code(), u64::from(self.messages) << 1 | u64::from(self.can_end));
         if self.is_over() {
             return SearchKey(mixer.finish());
+        }
+        if rules.reads_score {
+            mixer.pair(3, self.score as u64);
         }
         // The reference ends every game at its tick limit; a search that deep is not what keys are for.
         mixer.pair(if rules.reads_tick { self.tick as u64 } else { 0 }, self.population as u64);
@@ -226,6 +232,9 @@ impl State {
                     list.for_each(|missile| mixer.pair(2, u64::from(missile.0)));
                 }
             }
+        }
+        for &counter in self.counters.iter().filter(|_| rules.reads_counters) {
+            mixer.pair(2, u64::from(counter as u32));
         }
         self.memory_words(&mut mixer);
         if rules.first_differs {

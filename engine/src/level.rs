@@ -11,6 +11,8 @@ pub const MAX_SIDE: usize = 512;
 pub const MAX_CELLS: usize = 1 << 16;
 /// Sprites at most: the reference refuses to make more.
 pub const MAX_SPRITES: usize = 10_000;
+/// Sprites at most that a level may try to place, where the surplus is refused one by one.
+const MAX_ATTEMPTS: usize = 1 << 20;
 /// Bytes of level text that are read.
 pub const MAX_LEVEL_TEXT: usize = 1 << 18;
 /// Problems of one kind that are reported one by one.
@@ -158,6 +160,13 @@ impl LevelReader<'_> {
                 self.avatars.push(span);
             }
         }
+        if rules.unusable.contains(&symbol) {
+            let message = format!("`{}` stands for a sprite that is not declared", symbol.escape_default());
+            self.problem(
+                Diagnostic::error("unknown-sprite", span, message).help("the reference engine dies of it"),
+            );
+            return UNMAPPED;
+        }
         let mapped = rules.description.mapping.iter().any(|line| line.symbol == symbol);
         if !mapped && places.is_empty() && symbol != ' ' && rules.as_reference {
             return UNMAPPED;
@@ -219,8 +228,10 @@ impl LevelReader<'_> {
         if !self.game.0.as_reference {
             self.tell_undefined(columns, &cells);
         }
-        if self.sprites > MAX_SPRITES {
-            let message = format!("the level places {} sprites; the limit is {MAX_SPRITES}", self.sprites);
+        // The reference refuses the surplus, with a message each.
+        let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
+        if self.sprites > most {
+            let message = format!("the level places {} sprites; the limit is {most}", self.sprites);
             self.problem(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
         }
         if let [_, extra, ..] = self.avatars[..] {
@@ -242,7 +253,7 @@ impl LevelReader<'_> {
         if self.game.0.as_reference {
             let undefined = |&&symbol: &&u8| symbol == UNMAPPED;
             messages = cells.iter().filter(undefined).count() as u32;
-            self.problems.retain(|problem| problem.code == "too-large");
+            self.problems.retain(|problem| ["unknown-sprite", "too-large"].contains(&problem.code));
         }
         if !self.game.0.as_reference && !Diagnostics::has_errors(&self.problems) {
             self.problems.extend(crate::lint::over_at_start(self.game, &cells));

@@ -40,7 +40,7 @@ pub struct SpriteRecord {
     pub health: i32,
     /// 1 disabled, 2 avatar, 4 from the avatar, 8 on the ground.
     pub flags: u16,
-    /// Resources held: type and amount, by type.
+    /// Resources held: type ([`u16::MAX`]: an undeclared one) and amount, by type.
     pub resources: Vec<(u16, i32)>,
     /// Rotation, radians.
     pub rotation: f64,

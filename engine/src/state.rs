@@ -163,6 +163,10 @@ pub(crate) mod memory {
     pub(crate) const APPLY_SCORE: u8 = 1;
     /// subtractHealthPoints: the last execution killed.
     pub(crate) const KILLED: u8 = 2;
+    /// `counter` does not count; some effects set this as they go.
+    pub(crate) const NO_COUNT: u8 = 4;
+    /// `counterElse` does not count.
+    pub(crate) const NO_COUNT_ELSE: u8 = 8;
 }
 
 /// The state of an episode.
@@ -213,6 +217,8 @@ pub struct State {
     pub(crate) sideways: bool,
     /// Entries of the lists of BomberRandomMissiles that updateSpawnType has replaced.
     pub(crate) replaced: Vec<Replaced>,
+    /// The game's counters.
+    pub(crate) counters: Vec<i32>,
     /// The second stream of chance, which only WalkerJumper draws from.
     pub(crate) jumps: Chance,
 }
@@ -236,7 +242,7 @@ macro_rules! clone_fields {
 
 clone_fields! { to, from;
     copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash jumps sideways;
-    buffers sprites groups cells moved stale killed held memory templates shields pulled extras timers obstacles replaced
+    buffers sprites groups cells moved stale killed held memory templates shields pulled extras timers obstacles replaced counters
 }
 
 impl State {
@@ -248,6 +254,11 @@ impl State {
     /// The score.
     pub fn score(&self) -> f64 {
         self.score as f64
+    }
+
+    /// The game's counters, as many as its `no_counters=` says.
+    pub fn counters(&self) -> &[i32] {
+        &self.counters
     }
 
     /// How the episode stands.
@@ -333,7 +344,7 @@ impl State {
     /// Adds to a resource, not below 0; the entry is made even for 0.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         match self.held.iter_mut().find(|held| held.holder == holder && held.resource == resource) {
-            Some(held) => held.amount = held.amount.saturating_add(change).max(0),
+            Some(held) => held.amount = held.amount.wrapping_add(change).max(0),
             None => self.held.push(Held { holder, resource, amount: change.max(0) }),
         }
     }

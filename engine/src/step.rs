@@ -2,13 +2,13 @@
 
 use crate::Seed;
 use crate::chance::Chance;
-use crate::game::{Action, Game, Limit, Outcome, Rules, SpriteType};
+use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::level::{Level, MAX_SPRITES};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::traits::Traits;
 use crate::ontology::{avatars, sprites};
-use crate::state::{Group, NONE, Slot, Sprite, State, Timer, flag, memory};
+use crate::state::{Group, NONE, Slot, Sprite, State, Timer, flag};
 
 /// The tick at which the reference ends every game.
 pub const MAX_TICKS: i32 = 2000;
@@ -58,7 +58,6 @@ impl Game {
         let rules = &*self.0;
         let (columns, rows) = (level.columns() as i32, level.rows() as i32);
         let block = rules.square_size.unwrap_or_else(|| 2.max(SCREEN / columns.max(rows)));
-        let initial = |on: bool| if on { memory::APPLY_SCORE } else { 0 };
         let mut state = State {
             tick: -1,
             score: 0,
@@ -73,7 +72,7 @@ impl Game {
             columns,
             rows,
             free: NONE,
-            can_end: true,
+            can_end: rules.can_end,
             sprite_hash: 0,
             sprites: Vec::new(),
             groups: vec![Group::EMPTY; rules.types.len()],
@@ -82,7 +81,7 @@ impl Game {
             stale: Vec::new(),
             killed: Vec::new(),
             held: Vec::new(),
-            memory: rules.effects.iter().map(|effect| initial(effect.apply_score)).collect(),
+            memory: rules.effects.iter().map(EffectInfo::initial_memory).collect(),
             templates: vec![false; rules.types.len()],
             shields: Vec::new(),
             pulled: Vec::new(),
@@ -90,6 +89,7 @@ impl Game {
             timers: Vec::new(),
             obstacles: Vec::new(),
             sideways: false,
+            counters: vec![0; rules.counters],
             replaced: Vec::new(),
             jumps: chance,
         };
@@ -159,7 +159,9 @@ impl Step<'_> {
             }
         }
         if self.state.tick >= MAX_TICKS && self.state.outcome != Outcome::Won {
-            self.state.outcome = Outcome::Lost;
+            // The loss is the avatar's: without one, the reference dies.
+            let gone = self.state.avatar == NONE;
+            self.state.outcome = if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost };
         }
     }
 
@@ -232,7 +234,8 @@ impl Step<'_> {
         match avatar {
             Some(slot) if !self.can_be_played(slot) => self.stop(Limit::UnfitSprite),
             Some(slot) => self.control(slot),
-            None => self.message(),
+            // The reference looks when it builds the level, and again when the run starts.
+            None => (0..2).for_each(|_| self.message()),
         }
     }
 
@@ -250,9 +253,15 @@ impl Step<'_> {
         }
     }
 
-    /// Makes a sprite the player's: from now on it is updated, and ages.
+    /// Makes a sprite the player's: from now on it is updated, and ages, and the one before is not.
     pub(crate) fn control(&mut self, slot: Slot) {
-        self.state.avatar = slot;
+        let before = std::mem::replace(&mut self.state.avatar, slot);
+        if before != NONE && before != slot && !self.state.sprite(before).is(flag::FROZEN) {
+            let age = self.age(before);
+            let sprite = self.state.edit(before);
+            sprite.set(flag::FROZEN, true);
+            sprite.moved_at = age;
+        }
         let tick = self.state.tick;
         let sprite = self.state.edit(slot);
         if sprite.is(flag::FROZEN) && !sprite.is(flag::DISABLED) {
@@ -293,7 +302,8 @@ impl Step<'_> {
                 self.state.can_end = can_end;
             }
             if termination.holds(self.rules, self.state) {
-                self.state.outcome = if termination.win { Outcome::Won } else { Outcome::Lost };
+                let won = termination.wins(self.state);
+                self.state.outcome = if won { Outcome::Won } else { Outcome::Lost };
                 return;
             }
         }
@@ -319,32 +329,35 @@ impl Step<'_> {
     /// Makes a sprite unless a singleton of its line exists or there are too many (`spec/01` §3.5).
     pub(crate) fn add(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         let rules = self.rules;
-        if stype == SpriteType::NONE {
-            self.stop(Limit::NoType);
+        if self.is_full() {
             return None;
         }
-        // A full board comes first: it is worth a message, a singleton is not.
-        let taken = |ancestor: &SpriteType| {
-            rules.types[ancestor.index()].singleton && self.state.count(rules, *ancestor) > 0
-        };
-        if !self.is_full() && rules.types[stype.index()].path.iter().any(taken) {
-            return None;
+        let path = rules.types.get(stype.index()).map_or(&[][..], |info| &info.path);
+        for &ancestor in path {
+            if rules.types[ancestor.index()].singleton && self.state.count(rules, ancestor) > 0 {
+                return None;
+            }
         }
-        self.add_forced(stype, x, y)
-    }
-
-    fn is_full(&self) -> bool {
-        self.state.population > MAX_SPRITES as i32
+        self.make(stype, x, y)
     }
 
     /// Makes a sprite whatever singletons there are.
     pub(crate) fn add_forced(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
-        let info = &self.rules.types[stype.index()];
-        if self.is_full() {
+        if self.is_full() { None } else { self.make(stype, x, y) }
+    }
+
+    /// Whether there are too many sprites for another one; a message if so.
+    fn is_full(&mut self) -> bool {
+        let full = self.state.population > MAX_SPRITES as i32;
+        if full {
             self.message();
-            return None;
         }
-        let Some(class) = info.class else {
+        full
+    }
+
+    fn make(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
+        let info = self.rules.types.get(stype.index());
+        let Some((info, class)) = info.and_then(|info| Some((info, info.class?))) else {
             self.stop(Limit::NoType);
             return None;
         };

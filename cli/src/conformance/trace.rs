@@ -58,11 +58,14 @@ struct Line {
     #[serde(default)]
     resources: BTreeMap<String, i32>,
     #[serde(default)]
+    counters: Vec<i32>,
+    #[serde(default)]
     add: Vec<Value>,
     #[serde(default)]
     del: Vec<u32>,
     #[serde(rename = "mod", default)]
     modified: Vec<Value>,
+    note: Option<String>,
     engine_error: Option<String>,
 }
 
@@ -75,9 +78,12 @@ pub(crate) struct Tick {
     pub(crate) rng: u64,
     pub(crate) avatar: Option<u32>,
     pub(crate) resources: BTreeMap<String, i32>,
+    pub(crate) counters: Vec<i32>,
     pub(crate) add: Vec<SpriteRecord>,
     pub(crate) del: Vec<u32>,
     pub(crate) modified: Vec<SpriteRecord>,
+    /// The reference ended the game because it had logged too many messages.
+    pub(crate) noted: bool,
     pub(crate) engine_error: Option<String>,
 }
 
@@ -123,9 +129,11 @@ impl Trace {
                 rng: line.rng,
                 avatar: line.avatar,
                 resources: line.resources,
+                counters: line.counters,
                 add: records(number, &line.add)?,
                 del: line.del,
                 modified: records(number, &line.modified)?,
+                noted: line.note.is_some(),
                 engine_error: line.engine_error,
             });
         }
@@ -195,7 +203,9 @@ fn record(value: &Value) -> Option<SpriteRecord> {
         record.rotation = extra.get("rot").map_or(Some(0.0), double)?;
         if let Some(resources) = extra.get("res") {
             for (stype, amount) in resources.as_object()? {
-                record.resources.push((stype.parse().ok()?, amount.as_i64()?.try_into().ok()?));
+                // A type that is not declared has the number −1.
+                let stype = if stype == "-1" { u16::MAX } else { stype.parse().ok()? };
+                record.resources.push((stype, amount.as_i64()?.try_into().ok()?));
             }
             record.resources.sort_unstable();
         }

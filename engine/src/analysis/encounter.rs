@@ -75,6 +75,16 @@ pub enum Deed {
     },
 }
 
+impl Deed {
+    fn names(&self, stype: SpriteType) -> bool {
+        match self {
+            Deed::Make(made) | Deed::Become(made) | Deed::Change { resource: made, .. } => *made == stype,
+            Deed::Health { of, .. } => *of == Some(stype),
+            _ => false,
+        }
+    }
+}
+
 /// When an interaction does its deeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Provided {
@@ -132,7 +142,8 @@ impl Encounter {
 /// All interactions, those with the edge first, in the order in which a tick goes through them, repeats left out.
 pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let mut seen: Vec<(SpriteType, Option<SpriteType>, u16)> = Vec::new();
-    let edge = rules.edge.iter().map(|&(stype, effect)| (stype, None, effect));
+    let edge = rules.edge.iter().filter(|(stype, _)| *stype != SpriteType::NONE);
+    let edge = edge.map(|&(stype, effect)| (stype, None, effect));
     let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect));
     for key in edge.chain(pairs) {
         // Repeats of a pass, and of an edge effect, stand close together.
@@ -142,7 +153,12 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
     }
     let encounter = |(first, second, effect): (SpriteType, Option<SpriteType>, u16)| {
         let info = &rules.effects[usize::from(effect)];
-        let (deeds, provided) = neutral(&info.effect);
+        let (mut deeds, mut provided) = neutral(&info.effect);
+        // What is done to or with undeclared types, in games loaded as the reference does, is never done.
+        deeds.retain(|deed| !deed.names(SpriteType::NONE));
+        if matches!(provided, Provided::Holds(_, SpriteType::NONE, _)) {
+            provided = Provided::Way;
+        }
         let score = match info.effect {
             Effect::SubtractHealthPoints { score_if_killed, .. } if score_if_killed != 0 => score_if_killed,
             _ if info.apply_score => info.score_change,
@@ -155,7 +171,11 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
 
 /// What happens by the clock: to which sprites (none: to no sprite in particular), and what.
 pub(super) fn clockwork(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[Deed; 2]>)> {
-    let deeds = |effect: u16| neutral(&rules.effects[usize::from(effect)].effect).0;
+    let deeds = |effect: u16| {
+        let (mut deeds, _) = neutral(&rules.effects[usize::from(effect)].effect);
+        deeds.retain(|deed| !deed.names(SpriteType::NONE));
+        deeds
+    };
     rules.timed.iter().map(|timed| (timed.target, deeds(timed.effect))).collect()
 }
 
@@ -263,7 +283,8 @@ fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
         // What happens, happens later, to whom it may concern.
         Effect::AddTimer { .. } => always(smallvec![]),
         Effect::ShieldFrom { stype, keyword } => {
-            let keyword = crate::ontology::effects::NAMES[usize::from(keyword)];
+            let keyword =
+                crate::ontology::effects::NAMES.get(usize::from(keyword)).copied().unwrap_or_default();
             always(smallvec![Deed::Shield { from: stype, keyword }])
         }
     }

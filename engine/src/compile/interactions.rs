@@ -1,10 +1,10 @@
 //! The InteractionSet as a flat program: effects, edge passes, pair passes in execution order (`spec/01` §1.8).
 
 use super::params::{Expected, Value, convert, wrong_type};
-use super::{MAX_PASSES, Names};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{EffectInfo, Pass, SpriteType, Timed};
-use crate::ontology::effects::{self, Arguments, Effect, Moves};
+use super::{MAX_PASSES, Names, Policy, Setting};
+use crate::diagnostic::Diagnostic;
+use crate::game::{Counting, EffectInfo, Pass, SpriteType, Timed};
+use crate::ontology::effects::{self, Arguments, Effect, Moves, Undeclared};
 use crate::syntax::{Description, InteractionLine, Param, Word};
 
 #[derive(Default)]
@@ -15,8 +15,11 @@ pub(super) struct Program {
     pub(super) timed: Vec<Timed>,
 }
 
+/// A keyword that no effect has: a shield of it is of no use.
+const NO_KEYWORD: u16 = u16::MAX;
+
 /// Parameters that every effect takes.
-const COMMON: &[&str] = &[
+pub(super) const COMMON: &[&str] = &[
     "scoreChange",
     "applyScore",
     "repeat",
@@ -35,6 +38,7 @@ const COMMON: &[&str] = &[
 pub(super) fn program(
     description: &Description,
     names: Names<'_>,
+    setting: Setting,
     problems: &mut Vec<Diagnostic>,
 ) -> Program {
     let mut program = Program::default();
@@ -43,9 +47,10 @@ pub(super) fn program(
     let mut edges: Vec<SpriteType> = Vec::new();
     let mut edge_effects: Vec<(SpriteType, u16)> = Vec::new();
     let mut keywords: Vec<u16> = Vec::new();
+    let mut passes = 0;
     for (at, line) in description.interactions.iter().enumerate() {
         let timed = program.timed.len() as u16;
-        let mut reader = Reader { line, names, used: Vec::new(), problems: Vec::new(), timed, planned: None };
+        let mut reader = Reader::new(line, names, setting, timed);
         let built = reader.line(at);
         let clock = reader.clock();
         let planned = reader.planned.take();
@@ -56,19 +61,24 @@ pub(super) fn program(
         }
         let first = partner(&line.first, names, problems);
         let seconds: Vec<_> = line.second.iter().map(|word| partner(word, names, problems)).collect();
-        let Some((Some(info), keyword, repeat)) = built else { continue };
+        let Some(Built { info, keyword, repeat, enabled }) = built else { continue };
         let index = program.effects.len() as u16;
         let (score_change, apply_score) = (info.score_change, info.apply_score);
-        program.effects.push(info);
-        keywords.push(keyword);
-        if let Some((inner, keyword, timed)) = planned {
+        let own = Timed { effect: index, wrapper: index, score_change, apply_score, line: at, ..clock };
+        let target = by_the_clock(line, first, &seconds, problems);
+        // What is not enabled never runs; but the line has its place in the order of the pairs.
+        let index = enabled.then_some(index);
+        if enabled {
+            program.effects.push(EffectInfo { steady: target.is_some(), ..info });
             keywords.push(keyword);
-            program.timed.push(Timed { effect: index + 1, score_change, apply_score, line: at, ..timed });
+        }
+        if let Some((inner, keyword)) = planned.filter(|_| enabled) {
+            keywords.push(keyword);
+            program.timed.push(Timed { effect: own.effect + 1, first_due: None, ..own });
             program.effects.push(inner);
         }
-        if let Some(target) = by_the_clock(line, first, &seconds, problems) {
-            program.timed.push(Timed { effect: index, target, score_change, apply_score, line: at, ..clock });
-            continue;
+        if let Some(target) = target.filter(|_| enabled) {
+            program.timed.push(Timed { target, ..own });
         }
         for (second, word) in seconds.into_iter().zip(&line.second) {
             match (first, second) {
@@ -78,11 +88,14 @@ pub(super) fn program(
                         pairs.push(((one, two), Vec::new()));
                         pairs.len() - 1
                     });
-                    pairs[at].1.extend(std::iter::repeat_n(index, repeat.min(MAX_PASSES)));
+                    let room = (MAX_PASSES + 1).saturating_sub(passes);
+                    let copies = index.map_or(0, |_| repeat.min(room));
+                    passes += copies;
+                    pairs[at].1.extend(std::iter::repeat_n(own.effect, copies));
                 }
                 (Partner::Sprite(stype), Partner::Edge) | (Partner::Edge, Partner::Sprite(stype)) => {
                     edges.push(stype);
-                    edge_effects.push((stype, index));
+                    edge_effects.extend(index.map(|index| (stype, index)));
                 }
                 (Partner::Unknown | Partner::Clock, _) | (_, Partner::Unknown | Partner::Clock) => {}
                 (Partner::Edge, Partner::Edge) => {
@@ -94,57 +107,33 @@ pub(super) fn program(
     }
     // A type with n lines has all its effects executed n times, in order each time (`spec/03` §4.4).
     for stype in edges {
-        program.edge.extend(edge_effects.iter().filter(|(other, _)| *other == stype));
+        let effects = edge_effects.iter().filter(|(other, _)| *other == stype);
+        program.edge.extend(effects.take((MAX_PASSES + 1).saturating_sub(program.edge.len())));
     }
     for ((first, second), effects) in pairs {
-        let disjoint =
-            names.types[first.index()].tree.iter().all(|&t| !names.types[second.index()].in_tree(t));
-        let ground_aware =
-            names.types[first.index()].tree.iter().any(|&t| names.types[t.index()].ground_aware);
+        let (one, two) = (&names.types[first.index()], &names.types[second.index()]);
+        let disjoint = one.tree.iter().all(|&t| !two.in_tree(t));
+        let ground_aware = one.tree.iter().any(|&t| names.types[t.index()].ground_aware);
+        let repeats = two.repeats();
+        let one_by_one = ground_aware || one.repeats() || repeats;
         for effect in effects {
             let info = &program.effects[usize::from(effect)];
             let either_side = match info.effect.moves() {
-                _ if ground_aware || info.in_batch => false,
+                _ if one_by_one || info.in_batch => false,
                 Moves::Nothing => true,
                 Moves::First => disjoint,
                 Moves::Anything => false,
             };
             let keyword = keywords[usize::from(effect)];
-            program.passes.push(Pass { first, second, effect, keyword, either_side });
+            program.passes.push(Pass { first, second, effect, keyword, repeats, either_side });
         }
     }
     program
 }
 
-/// What the reference makes of a line: all of it, the partners before the first unknown one, or nothing; and how many
-/// messages it logs about parameters.
-pub(super) fn usable(line: &InteractionLine, names: Names<'_>) -> (Option<InteractionLine>, u32) {
-    let mut reader = Reader { line, names, used: Vec::new(), problems: Vec::new(), timed: 0, planned: None };
-    let built = reader.line(0);
-    reader.clock();
-    let fatal = |problem: &Diagnostic| super::FATAL.contains(&problem.code);
-    if built.is_none() || reader.problems.iter().any(fatal) {
-        return (None, 0);
-    }
-    let silent = reader.has_clock() || line.effect.text == "addTimer";
-    let unknown = reader.problems.iter().filter(|problem| problem.code == "unknown-parameter").count() as u32;
-    let passes = if line.effect.text == "transformIfCount" { 2 } else { 1 };
-    let logged = if silent { 0 } else { passes * unknown };
-    let known = |word: &&Word| !matches!(partner(word, names, &mut Vec::new()), Partner::Unknown);
-    let by_the_clock = reader.has_clock();
-    if !by_the_clock && !known(&&line.first) {
-        return (None, logged);
-    }
-    let second: Vec<Word> =
-        line.second.iter().take_while(|word| by_the_clock || known(word)).cloned().collect();
-    if second.is_empty() {
-        return (None, logged);
-    }
-    (Some(InteractionLine { second, ..line.clone() }), logged)
-}
-
+/// What a name in front of the arrow stands for.
 #[derive(Clone, Copy)]
-enum Partner {
+pub(super) enum Partner {
     Sprite(SpriteType),
     Edge,
     Clock,
@@ -181,7 +170,7 @@ fn by_the_clock(
     }
 }
 
-fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Partner {
+pub(super) fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Partner {
     if let Some(stype) = names.find(&word.text) {
         return Partner::Sprite(stype);
     }
@@ -195,21 +184,47 @@ fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Par
     Partner::Unknown
 }
 
-struct Reader<'a> {
+/// Reads a line.
+pub(super) struct Reader<'a> {
     line: &'a InteractionLine,
     names: Names<'a>,
+    setting: Setting,
     used: Vec<&'a str>,
-    problems: Vec<Diagnostic>,
+    pub(super) problems: Vec<Diagnostic>,
+    /// The reference makes no effect of the line, and reads no further.
+    pub(super) failed: bool,
+    /// `scoreChange` and `scoreChangeIfKilled` are no numbers.
+    score_faults: [bool; 2],
     /// The place that a planned effect of this line will have.
     timed: u16,
-    /// What addTimer plans: the effect, its keyword's place, when it runs.
-    planned: Option<(EffectInfo, u16, Timed)>,
+    /// What addTimer plans: the effect, and its keyword's place.
+    planned: Option<(EffectInfo, u16)>,
+}
+
+/// A line made into an effect.
+pub(super) struct Built {
+    info: EffectInfo,
+    /// The keyword's place.
+    keyword: u16,
+    /// How often a tick goes through it.
+    repeat: usize,
+    enabled: bool,
 }
 
 impl<'a> Reader<'a> {
-    /// The effect (None if it never runs), its keyword's place, and how often it is repeated; None if there is no such
-    /// effect.
-    fn line(&mut self, at: usize) -> Option<(Option<EffectInfo>, u16, usize)> {
+    pub(super) fn new(
+        line: &'a InteractionLine,
+        names: Names<'a>,
+        setting: Setting,
+        timed: u16,
+    ) -> Reader<'a> {
+        let (used, problems) = (Vec::new(), Vec::new());
+        let (failed, score_faults, planned) = (false, [false; 2], None);
+        Reader { line, names, setting, used, problems, failed, score_faults, timed, planned }
+    }
+
+    /// None if there is no such effect.
+    pub(super) fn line(&mut self, at: usize) -> Option<Built> {
         let name = self.line.effect.text.as_str();
         let effect: Option<Effect> = effects::build(name, self);
         let Some(effect) = effect else {
@@ -222,8 +237,9 @@ impl<'a> Reader<'a> {
             effects::NAMES.iter().position(|known| *known == name).expect("built effects are named");
         let score_change = self.score("scoreChange");
         let apply_score = self.flag("applyScore", true);
-        let repeat = self.int("repeat", 1);
+        let repeat = self.int("repeat", 1).max(0) as usize;
         let enabled = self.flag("enabled", true);
+        let counting = self.counting();
         let batches = matches!(effect, Effect::WallBounce | Effect::WallReverse);
         let in_batch = self.flag("inBatch", batches);
         if in_batch && !batches {
@@ -235,13 +251,75 @@ impl<'a> Reader<'a> {
             self.used.extend(["timer", "nextExecution", "repeating"]);
         }
         self.leftovers(name);
-        let info = EffectInfo { effect, score_change, apply_score, in_batch, line: at };
-        Some((enabled.then_some(info), keyword as u16, repeat.max(0) as usize))
+        let score_faults = self.score_faults;
+        let info = EffectInfo {
+            effect,
+            score_change,
+            apply_score,
+            score_faults,
+            counting,
+            in_batch,
+            steady: false,
+            line: at,
+        };
+        Some(Built { info, keyword: keyword as u16, repeat, enabled })
     }
 
+    /// Whether the line is written with TIME: on the left, or first on the right.
     fn has_clock(&self) -> bool {
-        let mut words = std::iter::once(&self.line.first).chain(&self.line.second);
+        let mut words = std::iter::once(&self.line.first).chain(self.line.second.first());
         words.any(|word| word.text.eq_ignore_ascii_case("TIME"))
+    }
+
+    /// Whether the reference overlooks unknown parameters: of lines with TIME, and with addTimer anywhere in them.
+    pub(super) fn is_silent(&self) -> bool {
+        let line = self.line;
+        let words = line.second.iter().chain([&line.first, &line.effect]);
+        let mut words = words.chain(line.params.iter().flat_map(|param| [&param.key, &param.value]));
+        self.has_clock() || words.any(|word| word.text.contains("addTimer"))
+    }
+
+    /// `counter` and `counterElse`, if the game counts and the line does.
+    fn counting(&mut self) -> Option<Box<Counting>> {
+        if self.setting.counters == 0 {
+            return None;
+        }
+        let counting = Counting {
+            count: self.flag("count", true),
+            count_else: self.flag("countElse", true),
+            counter: self.amounts("counter"),
+            counter_else: self.amounts("counterElse"),
+        };
+        let mut amounts = counting.counter.iter().chain(&counting.counter_else);
+        amounts.any(|amount| *amount != Some(0)).then(|| Box::new(counting))
+    }
+
+    /// A list with an entry a counter; counters beyond its end have the first entry.
+    fn amounts(&mut self, key: &'static str) -> Box<[Option<i32>]> {
+        let nothing = std::iter::repeat_n(Some(0), self.setting.counters);
+        let Some((param, value)) = self.value(key) else { return nothing.collect() };
+        let Value::Text(text) = value else {
+            let message = format!("`{key}` takes a list of whole numbers, an entry for each counter");
+            let problem = Diagnostic::error("wrong-type", param.value.span, message);
+            let list = format!(
+                "write `{key}={0},{0}`: the reference engine ignores a single number",
+                param.value.text
+            );
+            self.problems.push(problem.label("not a list").help(list));
+            return nothing.collect();
+        };
+        let entries: Vec<Option<i32>> =
+            text.trim_end_matches(',').split(',').map(|entry| entry.parse().ok()).collect();
+        if entries.iter().any(Option::is_none) {
+            self.problems.push(wrong_type(param, Expected::Int));
+        }
+        (0..self.setting.counters).map(|at| *entries.get(at).unwrap_or(&entries[0])).collect()
+    }
+
+    /// A problem that makes the reference give up.
+    fn fail(&mut self, problem: Diagnostic) {
+        self.failed = true;
+        self.problems.push(problem);
     }
 
     /// When a line with TIME runs; its effect, target and score are filled in by the caller.
@@ -256,9 +334,9 @@ impl<'a> Reader<'a> {
             let problem = Diagnostic::error("endless-timer", self.line.effect.span, message);
             self.problems.push(problem.help("the reference engine would never return"));
         }
-        let (effect, target, score_change, apply_score, line) = (0, None, 0, true, 0);
+        let (effect, wrapper, target, score_change, apply_score, line) = (0, 0, None, 0, true, 0);
         let first_due = Some(first_due);
-        Timed { effect, target, timer, repeating, first_due, score_change, apply_score, line }
+        Timed { effect, target, timer, repeating, first_due, wrapper, score_change, apply_score, line }
     }
 
     /// Parameters that nothing has asked for.
@@ -268,10 +346,16 @@ impl<'a> Reader<'a> {
             if self.used.contains(&key) {
                 continue;
             }
+            if self.setting.policy == Policy::Reference && self.is_internal(key) {
+                continue;
+            }
             if COMMON.contains(&key) {
                 let message = format!("`{name}` ignores `{key}`");
-                self.problems
-                    .push(Diagnostic::warning("ignored-parameter", param.span(), message).help("remove it"));
+                let problem = Diagnostic::warning("ignored-parameter", param.span(), message);
+                self.problems.push(match key.starts_with("count") {
+                    true => problem.help("give the game counters: `no_counters=1` on its first line"),
+                    false => problem.help("remove it"),
+                });
                 continue;
             }
             let message = format!("`{name}` has no parameter `{key}`");
@@ -279,6 +363,18 @@ impl<'a> Reader<'a> {
             let known = self.used.clone();
             self.problems.push(problem.suggest(key, known));
         }
+    }
+
+    /// A field that the reference's effects have besides their parameters, and compute themselves.
+    fn is_internal(&self, key: &str) -> bool {
+        let computed_from = match key {
+            "hashCode" => return true,
+            "itype" => "stype",
+            "resourceId" => "resource",
+            "iftype" => "ftype",
+            _ => return false,
+        };
+        self.used.contains(&computed_from)
     }
 
     /// The last parameter of that name counts.
@@ -292,9 +388,30 @@ impl<'a> Reader<'a> {
         Some((param, convert(key, &param.value.text)))
     }
 
-    /// A sprite that the effect makes, kills or counts.
-    fn named(&mut self, text: &str, span: Span) -> Option<SpriteType> {
-        self.names.resolve(&Word { text: text.to_owned(), span }, &mut self.problems)
+    /// A sprite that the effect makes, kills or counts, and cannot do without.
+    fn required(&mut self, key: &'static str, undeclared: Undeclared) -> SpriteType {
+        let found = self.optional_sprite(key, undeclared);
+        if found.is_none() && self.param(key).is_none() {
+            let effect = &self.line.effect;
+            let message = format!("`{}` needs `{key}=`, the name of a sprite", effect.text);
+            let problem = Diagnostic::error("missing-parameter", effect.span, message);
+            self.problems.push(problem.help(format!("add `{key}=` and the name")));
+        }
+        let makes = matches!(
+            (self.line.effect.text.as_str(), key),
+            ("transformTo" | "spawn" | "spawnIfHasMore" | "spawnIfHasLess" | "spawnBehind", "stype")
+                | ("spawnAbove" | "spawnBelow" | "spawnLeft" | "spawnRight", "stype")
+                | ("transformToSingleton" | "transformIfCount" | "spawnIfCounterSubTypes", "stype")
+                | ("transformToSingleton", "stype_other")
+                | ("spawnIfCounterSubTypes", "estype")
+                | ("transformToAll", "stypeTo")
+        );
+        let made = found.filter(|&stype| makes && stype != SpriteType::NONE);
+        if let (Some(stype), Some(param)) = (made, self.param(key)) {
+            self.names.instantiable(stype, &param.value, &mut self.problems);
+        }
+        self.failed |= found.is_none();
+        found.unwrap_or(SpriteType(0))
     }
 }
 
@@ -314,7 +431,12 @@ impl Arguments for Reader<'_> {
         match self.value(key) {
             None => default,
             Some((_, Value::Int(int))) => f64::from(int),
-            Some((_, Value::Double(double))) => double,
+            Some((param, Value::Double(double))) => {
+                if !double.is_finite() {
+                    self.problems.push(wrong_type(param, Expected::Number));
+                }
+                double
+            }
             Some((param, _)) => {
                 self.problems.push(wrong_type(param, Expected::Number));
                 default
@@ -334,42 +456,52 @@ impl Arguments for Reader<'_> {
     }
 
     fn score(&mut self, key: &'static str) -> i32 {
-        let Some((param, _)) = self.value(key) else { return 0 };
-        let first = param.value.text.split(',').next().unwrap_or_default();
+        let Some((param, value)) = self.value(key) else { return 0 };
+        let Value::Text(text) = value else {
+            // The name of a constant: the reference drops it.
+            self.problems.push(wrong_type(param, Expected::Int));
+            return 0;
+        };
+        let first = text.split(',').next().unwrap_or_default();
         first.parse().unwrap_or_else(|_| {
             self.problems.push(wrong_type(param, Expected::Int));
+            self.score_faults[usize::from(key != "scoreChange")] = true;
             0
         })
     }
 
     fn sprite(&mut self, key: &'static str) -> SpriteType {
-        let found = self.optional_sprite(key);
-        if found.is_none() && self.param(key).is_none() {
-            let effect = &self.line.effect;
-            let message = format!("`{}` needs `{key}=`, the name of a sprite", effect.text);
-            let problem = Diagnostic::error("missing-parameter", effect.span, message);
-            self.problems.push(problem.help(format!("add `{key}=` and the name")));
-        }
-        let makes = matches!(
-            (self.line.effect.text.as_str(), key),
-            ("transformTo" | "spawn" | "spawnIfHasMore" | "spawnIfHasLess" | "spawnBehind", "stype")
-                | ("spawnAbove" | "spawnBelow" | "spawnLeft" | "spawnRight", "stype")
-                | ("transformToAll", "stypeTo")
-        );
-        if let (Some(stype), Some(param), true) = (found, self.param(key), makes) {
-            self.names.instantiable(stype, &param.value, &mut self.problems);
-        }
-        found.unwrap_or(SpriteType(0))
+        self.required(key, Undeclared::Fails)
     }
 
-    fn optional_sprite(&mut self, key: &'static str) -> Option<SpriteType> {
-        match self.value(key)? {
-            (param, Value::Text(text)) => self.named(text, param.value.span),
-            (param, _) => {
-                self.problems.push(wrong_type(param, Expected::Text));
-                None
+    fn sprite_or_none(&mut self, key: &'static str) -> SpriteType {
+        self.required(key, Undeclared::Void)
+    }
+
+    fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType> {
+        let (param, value) = self.value(key)?;
+        let Value::Text(text) = value else {
+            self.problems.push(wrong_type(param, Expected::Text));
+            return None;
+        };
+        let word = Word { text: text.to_owned(), span: param.value.span };
+        let found = self.names.resolve(&word, &mut self.problems);
+        match undeclared {
+            Undeclared::Void => Some(found.unwrap_or(SpriteType::NONE)),
+            Undeclared::Fails | Undeclared::Absent => {
+                self.failed |= found.is_none() && undeclared == Undeclared::Fails;
+                found
             }
         }
+    }
+
+    fn numbered(&mut self, key: &'static str) -> Option<SpriteType> {
+        if self.setting.policy != Policy::Reference {
+            return None;
+        }
+        let number = self.int(key, -1);
+        let known = usize::try_from(number).is_ok_and(|number| number < self.names.types.len());
+        (number != -1).then_some(if known { SpriteType(number as u16) } else { SpriteType::NONE })
     }
 
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType> {
@@ -378,39 +510,58 @@ impl Arguments for Reader<'_> {
             self.problems.push(wrong_type(param, Expected::Text));
             return Vec::new();
         };
-        text.split(',').filter_map(|name| self.named(name, param.value.span)).collect()
+        let word = |name: &str| Word { text: name.to_owned(), span: param.value.span };
+        text.split(',').filter_map(|name| self.names.resolve(&word(name), &mut self.problems)).collect()
     }
 
     fn keyword(&mut self, key: &'static str) -> u16 {
-        let Some((param, _)) = self.value(key) else {
+        let value = self.value(key);
+        let Some((param, Value::Text(name))) = value else {
             let effect = &self.line.effect;
             let message = format!("`{}` needs `{key}=`, the name of an effect", effect.text);
             let problem = Diagnostic::error("missing-parameter", effect.span, message);
-            self.problems.push(problem.help(format!("add `{key}=` and the name")));
-            return 0;
+            self.fail(problem.help(format!("add `{key}=` and the name")));
+            return NO_KEYWORD;
         };
-        let name = param.value.text.as_str();
         let found = effects::NAMES.iter().position(|known| *known == name);
-        found.unwrap_or_else(|| {
-            let message = format!("no effect named `{name}`");
-            let problem = Diagnostic::error("unknown-effect", param.value.span, message);
-            self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
-            0
-        }) as u16
+        found.map_or_else(
+            || {
+                let message = format!("no effect named `{name}`");
+                let problem = Diagnostic::error("unknown-effect", param.value.span, message);
+                self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
+                NO_KEYWORD
+            },
+            |at| at as u16,
+        )
     }
 
     fn timed(&mut self) -> u16 {
         let keyword = self.keyword("ftype");
-        let name = effects::NAMES[usize::from(keyword)];
+        let Some(&name) = effects::NAMES.get(usize::from(keyword)) else {
+            self.failed = true;
+            return 0;
+        };
         if name == "addTimer" {
             let span = self.param("ftype").map(Param::span).unwrap_or_default();
-            self.problems.push(Diagnostic::error("bad-parameter", span, "addTimer cannot plan itself"));
+            self.fail(Diagnostic::error("bad-parameter", span, "addTimer cannot plan itself"));
             return 0;
         }
+        // The line as it would be for the planned effect.
+        self.used.extend(["timer", "repeating"]);
         if let Some(effect) = effects::build(name, self) {
-            let timed = Timed { first_due: None, ..self.clock() };
-            let info = EffectInfo { effect, score_change: 0, apply_score: true, in_batch: false, line: 0 };
-            self.planned = Some((info, keyword, timed));
+            let (score_change, apply_score, score_faults) = (0, true, [false; 2]);
+            let (counting, in_batch, steady, line) = (None, false, false, 0);
+            let info = EffectInfo {
+                effect,
+                score_change,
+                apply_score,
+                score_faults,
+                counting,
+                in_batch,
+                steady,
+                line,
+            };
+            self.planned = Some((info, keyword));
         }
         self.timed
     }

@@ -1,8 +1,11 @@
 //! From a syntax tree to rules: names resolved, parameters typed, interactions laid out as a flat program.
 
+mod as_reference;
+mod header;
 mod interactions;
 mod params;
 mod references;
+mod space;
 mod sprites;
 mod terminations;
 
@@ -11,12 +14,14 @@ use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites as behaviour;
-use crate::ontology::terminations::Condition;
-use crate::syntax::{Description, Literal, Param, Section, Word, literal, print_bare};
+use crate::ontology::terminations::{Condition, Decision};
+use crate::syntax::{Description, Param, Word, print_bare};
+pub(crate) use as_reference::compile_as_reference;
+use header::Header;
 use smallvec::SmallVec;
 use std::sync::OnceLock;
 
-/// Sprite types at most.
+/// Lines of the SpriteSet at most.
 const MAX_TYPES: usize = 512;
 /// Interaction lines at most, and passes that they make.
 const MAX_PASSES: usize = 20_000;
@@ -32,99 +37,61 @@ enum Policy {
     Reference,
 }
 
+/// What the lines below the first are read in the light of.
+#[derive(Clone, Copy, Debug)]
+struct Setting {
+    policy: Policy,
+    /// How many counters the game has.
+    counters: usize,
+}
+
+/// What the reference has met while it read a file.
+#[derive(Clone, Copy, Debug, Default)]
+struct Fate {
+    /// Messages that it has logged.
+    messages: u32,
+    /// It will die of an undeclared sprite at the edge of the screen.
+    dies_at_edge: bool,
+}
+
 pub(crate) fn compile(description: &Description) -> Result<Rules, Diagnostics> {
-    compile_with(description, Policy::Strict, 0)
-}
-
-/// Faults that end the reference's reading of the file: the rest is missing.
-const FATAL: [&str; 6] = [
-    "unknown-effect",
-    "unknown-sprite",
-    "missing-parameter",
-    "bad-interaction",
-    "unknown-termination",
-    "no-class",
-];
-
-/// What is read of the file is what comes before the first fault that ends the reading.
-pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, Diagnostics> {
-    let mut read = Description {
-        mapping: Vec::new(),
-        interactions: Vec::new(),
-        terminations: Vec::new(),
-        ..description.clone()
-    };
-    let mut messages = description.messages;
-    let (types, _) = sprites::types(description, Policy::Reference, &mut Vec::new());
-    let names = Names { types: &types };
-    let is_fatal = |problems: &[Diagnostic]| problems.iter().any(|problem| FATAL.contains(&problem.code));
-    for section in &description.order {
-        let mut aborted = false;
-        match section {
-            Section::SpriteSet => {}
-            Section::LevelMapping => read.mapping.clone_from(&description.mapping),
-            Section::InteractionSet => {
-                for line in &description.interactions {
-                    let (usable, logged) = interactions::usable(line, names);
-                    messages += logged;
-                    aborted = usable.as_ref() != Some(line);
-                    read.interactions.extend(usable);
-                    if aborted {
-                        break;
-                    }
-                }
-            }
-            Section::TerminationSet => {
-                for line in &description.terminations {
-                    let mut problems = Vec::new();
-                    let alone = Description { terminations: vec![line.clone()], ..Description::default() };
-                    terminations::terminations(&alone, names, &mut problems);
-                    aborted = is_fatal(&problems);
-                    messages +=
-                        problems.iter().filter(|problem| problem.code == "unknown-parameter").count() as u32;
-                    if aborted {
-                        break;
-                    }
-                    read.terminations.push(line.clone());
-                }
-            }
-        }
-        if aborted {
-            messages += 1;
-            break;
-        }
-    }
-    compile_with(&read, Policy::Reference, messages)
-}
-
-fn compile_with(description: &Description, policy: Policy, messages: u32) -> Result<Rules, Diagnostics> {
+    too_large(description)?;
     let mut problems = Vec::new();
-    let square_size = header(description, &mut problems);
+    let description = space::settled(description, Policy::Strict, &mut problems);
+    compile_with(&description, Policy::Strict, Fate::default(), problems)
+}
+
+fn compile_with(
+    description: &Description,
+    policy: Policy,
+    fate: Fate,
+    mut problems: Vec<Diagnostic>,
+) -> Result<Rules, Diagnostics> {
+    let header = Header::of(description, &mut problems);
+    let setting = Setting { policy, counters: header.counters };
     let (types, order) = sprites::types(description, policy, &mut problems);
-    if types.len() > MAX_TYPES {
-        let message = format!("the game has {} sprite types; the limit is {MAX_TYPES}", types.len());
-        problems.push(Diagnostic::error("too-large", description.header.class.span, message));
-        return Err(Diagnostics::sorted(problems));
-    }
     let names = Names { types: &types };
-    let mapping = mapping(description, names, &mut problems);
-    let program = interactions::program(description, names, &mut problems);
-    let terminations = terminations::terminations(description, names, &mut problems);
-    let obstacles = obstacles(description, names, &mut problems);
-    if program.passes.len() > MAX_PASSES {
-        let message =
-            format!("the game has {} interactions; the limit is {MAX_PASSES}", program.passes.len());
+    let (mapping, unusable) = mapping(description, names, &mut problems);
+    let mut program = interactions::program(description, names, setting, &mut problems);
+    let (terminations, can_end) = terminations::terminations(description, names, setting, &mut problems);
+    let obstacles = header.obstacles.iter().flatten();
+    let obstacles = obstacles.filter_map(|name| names.resolve(name, &mut problems)).collect();
+    if program.passes.len().max(program.edge.len()) > MAX_PASSES {
+        let message = format!("the game has more than {MAX_PASSES} interactions, repeats counted");
         problems.push(Diagnostic::error("too-large", description.header.class.span, message));
     }
     if policy == Policy::Strict {
         misspelt_declarations(description, &mut problems);
     }
+    if fate.dies_at_edge {
+        program.edge.push((SpriteType::NONE, 0));
+    }
     if !Diagnostics::has_errors(&problems) {
         never_there(description, &types, &mapping, &program, &mut problems);
     }
     if policy == Policy::Reference {
-        // What is left is what the reference overlooks.
-        problems.retain(|problem| problem.code == "too-large");
+        // The rest is what the reference overlooks.
+        problems.retain(|problem| ["too-large", "unsupported"].contains(&problem.code));
     }
     let problems = Diagnostics::sorted(problems);
     if Diagnostics::has_errors(&problems.0) {
@@ -140,7 +107,7 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
     let classes = || types.iter().filter_map(|info| info.class);
     // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
-    let messages = messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
+    let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
     Ok(Rules {
         digest: Digest::of(print_bare(description).as_bytes()),
         description: description.clone(),
@@ -148,18 +115,25 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
         all_warnings: OnceLock::new(),
         as_reference: policy == Policy::Reference,
         messages,
-        square_size,
+        square_size: header.square_size,
+        counters: header.counters,
+        can_end,
         movers: order.iter().rev().copied().filter(moves).collect(),
         order,
         mapping,
+        unusable,
         draws: classes().any(behaviour::draws) || program.effects.iter().any(|info| info.effect.draws()),
         effects: program.effects,
         edge: program.edge,
         passes: program.passes,
         timed: program.timed,
-        finds_paths: path_obstacles(description).is_some(),
+        finds_paths: header.obstacles.is_some(),
         obstacles,
         reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. })),
+        reads_counters: terminations
+            .iter()
+            .any(|end| matches!(end.decided_by, Decision::Difference | Decision::Value(_))),
+        reads_score: terminations.iter().any(|end| end.decided_by == Decision::Score),
         terminations,
         reach: factors.clone().fold(1, |reach, factor| reach.max(factor.ceil() as i32)),
         first_differs: types.iter().any(first_differs),
@@ -167,32 +141,35 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
     })
 }
 
-fn header(description: &Description, problems: &mut Vec<Diagnostic>) -> Option<i32> {
-    let mut square_size = None;
-    for param in &description.header.params {
-        let value = literal(&param.value.text);
-        match (param.key.text.as_str(), value) {
-            ("square_size", Literal::Int(-1)) => square_size = None,
-            ("square_size", Literal::Int(size @ 1..=10_000)) => square_size = Some(size),
-            ("square_size", _) => {
-                let message = "`square_size` takes a number of pixels between 1 and 10000";
-                problems.push(Diagnostic::error("wrong-type", param.value.span, message));
-            }
-            ("no_players", Literal::Int(1)) | ("no_counters", Literal::Int(0)) | ("key_handler", _) => {}
-            ("obs", _) => {}
-            ("no_players" | "no_counters", _) => {
-                let message = format!("`{}` is not supported yet", param.key.text);
-                problems.push(Diagnostic::error("unsupported", param.span(), message).help("remove it"));
-            }
-            (key, _) => {
-                let known = ["square_size", "key_handler", "no_players", "no_counters", "obs"];
-                let message = format!("a game has no parameter `{key}`");
-                let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
-                problems.push(problem.suggest(key, known));
-            }
-        }
-    }
-    square_size
+/// How many parameters a line has that its class does not know; one that is given twice counts once.
+fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
+    let mut unknown: Vec<&str> = problems
+        .iter()
+        .filter(|problem| problem.code == "unknown-parameter")
+        .map(|problem| problem.message.as_str())
+        .collect();
+    unknown.sort_unstable();
+    unknown.dedup();
+    unknown.len() as u32
+}
+
+/// Refuses games that would take long to look at.
+fn too_large(description: &Description) -> Result<(), Diagnostics> {
+    let counts = [
+        ("sprites", description.sprite_lines().len(), MAX_TYPES),
+        ("parameters", description.parameters.len(), MAX_TYPES),
+        ("mappings of characters", description.mapping.len(), MAX_TYPES),
+        ("interactions", description.interactions.len(), MAX_PASSES),
+        ("terminations", description.terminations.len(), MAX_PASSES),
+    ];
+    let problem = |(what, count, most): (&str, usize, usize)| {
+        let message = format!("the game has {count} {what}; the limit is {most}");
+        let problem = Diagnostic::error("too-large", description.header.class.span, message);
+        problem.help("split it into several games")
+    };
+    let problems: Vec<Diagnostic> =
+        counts.into_iter().filter(|(_, count, most)| count > most).map(problem).collect();
+    if problems.is_empty() { Ok(()) } else { Err(Diagnostics(problems)) }
 }
 
 /// Names that nothing declares, next to a declared one that nothing uses: the declaration is what is misspelt, if the name is
@@ -272,24 +249,14 @@ fn first_differs(info: &TypeInfo) -> bool {
     scales || info.unknown_parameters > 0 || info.class == Some(SpriteClass::OngoingTurningAvatar)
 }
 
-/// `obs=`, if its value reads as a text.
-fn path_obstacles(description: &Description) -> Option<&Param> {
-    let given = description.header.params.iter().rev().find(|param| param.key.text == "obs");
-    given.filter(|param| matches!(params::convert("obs", &param.value.text), params::Value::Text(_)))
-}
-
-/// The types that path finding goes around.
-fn obstacles(description: &Description, names: Names<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SpriteType> {
-    let Some(param) = path_obstacles(description) else { return Vec::new() };
-    let word = |text: &str| Word { text: text.to_owned(), span: param.value.span };
-    param.value.text.split(',').filter_map(|name| names.resolve(&word(name), problems)).collect()
-}
-
+/// What each level character places, and the characters that name an undeclared sprite: a level that uses one does not
+/// load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
     problems: &mut Vec<Diagnostic>,
-) -> Vec<SmallVec<[SpriteType; 4]>> {
+) -> (Vec<SmallVec<[SpriteType; 4]>>, Vec<char>) {
+    let mut unusable = Vec::new();
     let mut mapping = vec![SmallVec::new(); 128];
     // Present in every game unless it maps these characters itself (`spec/01` §1.7).
     mapping[usize::from(b'w')] = SmallVec::from_slice(&[SpriteType(0)]);
@@ -302,6 +269,10 @@ fn mapping(
             problems.push(problem.help("remove one of the two lines"));
         }
         seen.push(line.symbol);
+        unusable.retain(|&symbol| symbol != line.symbol);
+        if line.names.iter().any(|name| names.find(&name.text).is_none()) {
+            unusable.push(line.symbol);
+        }
         let types = line.names.iter().filter_map(|name| {
             let stype = names.resolve(name, problems)?;
             // The reference dies of a type without a class when it makes the sprite.
@@ -315,7 +286,7 @@ fn mapping(
             *entry = types;
         }
     }
-    mapping
+    (mapping, unusable)
 }
 
 /// Looks names up, with a problem for those that do not exist.

@@ -281,7 +281,11 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         | "resource_name" => {}
         _ => unreachable!("every parameter of the tables is matched: {key}"),
     }
-    Ok(())
+    match value {
+        // The reference goes on with it.
+        Value::Double(double) if !double.is_finite() => Err(fail(Expected::Number)),
+        _ => Ok(()),
+    }
 }
 
 #[cfg(test)]

@@ -1,25 +1,31 @@
 //! The TerminationSet.
 
-use super::Names;
 use super::params::{Expected, Value, convert, wrong_type};
-use crate::diagnostic::{Diagnostic, Span};
+use super::{Names, Setting};
+use crate::diagnostic::Diagnostic;
 use crate::game::SpriteType;
-use crate::ontology::terminations::{Condition, NAMES, Termination};
+use crate::ontology::terminations::{Condition, Decision, NAMES, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
+use smallvec::SmallVec;
 
+/// The terminations, and what they say of the flag that lets counters end the game.
 pub(super) fn terminations(
     description: &Description,
     names: Names<'_>,
+    setting: Setting,
     problems: &mut Vec<Diagnostic>,
-) -> Vec<Termination> {
+) -> (Vec<Termination>, bool) {
     let mut terminations = Vec::new();
     let mut winnable = false;
+    let mut can_end = true;
     for line in &description.terminations {
-        let mut reader = Reader { line, names, problems };
+        let mut reader = Reader { line, names, setting, problems };
+        can_end = reader.flag("canEnd", can_end);
         winnable |=
             reader.param("win").is_some_and(|param| param.value.text.to_lowercase().starts_with("true"));
-        if let Some((condition, win)) = reader.termination() {
-            terminations.push(Termination { condition, win });
+        if let Some(termination) = reader.termination() {
+            winnable |= termination.win;
+            terminations.push(termination);
         }
     }
     if description.terminations.is_empty() && description.has[3] {
@@ -32,23 +38,33 @@ pub(super) fn terminations(
             Diagnostic::warning("no-win", span, "no termination has `win=True`: the game cannot be won");
         problems.push(problem.help("add `win=True` to one of them"));
     }
-    terminations
+    (terminations, can_end)
+}
+
+/// Whether the reference makes a termination of the line, and how many messages it logs about its parameters.
+pub(super) fn usable(line: &TerminationLine, names: Names<'_>, setting: Setting) -> (bool, u32) {
+    let mut problems = Vec::new();
+    let built = Reader { line, names, setting, problems: &mut problems }.termination();
+    let built = built.is_some();
+    (built, super::unknown_parameters(&problems))
 }
 
 struct Reader<'a> {
     line: &'a TerminationLine,
     names: Names<'a>,
+    setting: Setting,
     problems: &'a mut Vec<Diagnostic>,
 }
 
 impl<'a> Reader<'a> {
-    fn termination(&mut self) -> Option<(Condition, bool)> {
+    /// None where the reference reads no further.
+    fn termination(&mut self) -> Option<Termination> {
         let name = self.line.class.text.as_str();
         let own: &[&str] = match name {
             "SpriteCounter" | "SpriteCounterMore" => &["stype"],
             "MultiSpriteCounter" | "StopCounter" => &["stype1", "stype2", "stype3", "min"],
             "MultiSpriteCounterSubTypes" => &["stype1", "subTypesNum"],
-            "Timeout" => &[],
+            "Timeout" => &["use_counter", "compare", "limits"],
             _ => {
                 let span = self.line.class.span;
                 let message = format!("no termination named `{name}`");
@@ -57,7 +73,7 @@ impl<'a> Reader<'a> {
                 return None;
             }
         };
-        let common = ["limit", "win", "count_score"];
+        let common = ["limit", "win", "count_score", "canEnd"];
         for param in &self.line.params {
             let key = param.key.text.as_str();
             if !common.contains(&key) && !own.contains(&key) {
@@ -66,12 +82,11 @@ impl<'a> Reader<'a> {
                 self.problems.push(problem.suggest(key, common.iter().chain(own).copied()));
             }
         }
-        if let Some(param) = self.param("count_score") {
-            let message = "`count_score` is for games of several players";
-            self.problems.push(Diagnostic::error("unsupported", param.span(), message).help("remove it"));
-        }
         let limit = self.limit(name);
-        let win = self.win();
+        let (mut win, mut decided_by) = (self.win(), Decision::Line);
+        if self.flag("count_score", false) {
+            (win, decided_by) = (true, Decision::Score);
+        }
         let condition = match name {
             "SpriteCounter" => Condition::SpriteCounter { stype: self.sprite("stype")?, limit },
             "SpriteCounterMore" => Condition::SpriteCounterMore { stype: self.sprite("stype")?, limit },
@@ -80,21 +95,49 @@ impl<'a> Reader<'a> {
                 Condition::MultiSpriteCounterSubTypes { stype: self.sprite("stype1")?, limit, kinds }
             }
             "MultiSpriteCounter" | "StopCounter" => {
-                let first = self.sprite("stype1")?;
-                let rest = ["stype2", "stype3"].into_iter().filter(|key| self.param(key).is_some());
-                let rest: Vec<&'static str> = rest.collect();
-                let rest: Vec<SpriteType> = rest.into_iter().filter_map(|key| self.sprite(key)).collect();
-                let stypes = std::iter::once(first).chain(rest).collect();
-                let min = self.flag("min");
+                let stypes = self.sprites(["stype1", "stype2", "stype3"])?;
+                let min = self.flag("min", false);
                 if name == "StopCounter" {
                     Condition::StopCounter { stypes, limit, min }
                 } else {
                     Condition::MultiSpriteCounter { stypes, limit, min }
                 }
             }
-            _ => Condition::Timeout { limit },
+            _ => {
+                if let Some(decision) = self.by_counters() {
+                    (win, decided_by) = decision;
+                }
+                Condition::Timeout { limit }
+            }
         };
-        Some((condition, win))
+        Some(Termination { condition, win, decided_by })
+    }
+
+    /// What counters decide, in a game of one player, and whether the player can win by it.
+    fn by_counters(&mut self) -> Option<(bool, Decision)> {
+        let (used, compared) = (self.flag("use_counter", false), self.flag("compare", false));
+        let limits = self.param("limits").and_then(|param| match convert("limits", &param.value.text) {
+            Value::Text(list) => Some((param, list)),
+            _ => {
+                self.problems.push(wrong_type(param, Expected::Text));
+                None
+            }
+        });
+        // A single number is no list: the reference drops it, and the list stays at 0.
+        let value = limits.map_or(Ok(0), |(param, list)| {
+            list.split(',').next().unwrap_or_default().parse::<i32>().map_err(|_| param)
+        });
+        let value = value.unwrap_or_else(|param| {
+            self.problems.push(wrong_type(param, Expected::Int));
+            0
+        });
+        match (used, compared, self.setting.counters) {
+            (false, ..) => None,
+            (true, true, counters) => Some((counters > 1, Decision::Difference)),
+            (true, false, 1) => Some((true, Decision::Value(value))),
+            // As many counters as players, or nobody wins.
+            (true, false, _) => Some((false, Decision::Line)),
+        }
     }
 
     fn param(&self, key: &str) -> Option<&'a Param> {
@@ -132,23 +175,48 @@ impl<'a> Reader<'a> {
         first.eq_ignore_ascii_case("true")
     }
 
-    fn flag(&mut self, key: &str) -> bool {
-        let Some(param) = self.param(key) else { return false };
+    fn flag(&mut self, key: &str, default: bool) -> bool {
+        let Some(param) = self.param(key) else { return default };
         let Value::Bool(flag) = convert(key, &param.value.text) else {
             self.problems.push(wrong_type(param, Expected::Bool));
-            return false;
+            return default;
         };
         flag
     }
 
     fn sprite(&mut self, key: &str) -> Option<SpriteType> {
         let Some(param) = self.param(key) else {
-            let span: Span = self.line.class.span;
-            let message = format!("{} needs `{key}=`, the name of a sprite", self.line.class.text);
-            let problem = Diagnostic::error("missing-parameter", span, message);
-            self.problems.push(problem.help(format!("add `{key}=` and the name")));
+            self.needs(key);
             return None;
         };
+        let param = self.named(param)?;
         self.names.resolve_value(param, &param.value, self.problems)
+    }
+
+    /// Those of several that are given; strictly, the first one is.
+    fn sprites(&mut self, keys: [&str; 3]) -> Option<SmallVec<[SpriteType; 3]>> {
+        if self.param(keys[0]).is_none() {
+            self.needs(keys[0]);
+        }
+        let given = keys.into_iter().filter_map(|key| self.param(key)).collect::<Vec<&Param>>();
+        let given: Vec<&Param> = given.into_iter().filter_map(|param| self.named(param)).collect();
+        let resolve = |param: &&Param| self.names.resolve_value(param, &param.value, self.problems);
+        let found: SmallVec<_> = given.iter().filter_map(resolve).collect();
+        (found.len() == given.len()).then_some(found)
+    }
+
+    /// A parameter, unless its value reads as something else than a name.
+    fn named<'b>(&mut self, param: &'b Param) -> Option<&'b Param> {
+        if let Value::Text(_) = convert(&param.key.text, &param.value.text) {
+            return Some(param);
+        }
+        self.problems.push(wrong_type(param, Expected::Text));
+        None
+    }
+
+    fn needs(&mut self, key: &str) {
+        let message = format!("{} needs `{key}=`, the name of a sprite", self.line.class.text);
+        let problem = Diagnostic::error("missing-parameter", self.line.class.span, message);
+        self.problems.push(problem.help(format!("add `{key}=` and the name")));
     }
 }

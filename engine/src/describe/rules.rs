@@ -2,8 +2,9 @@
 
 use super::words::{Party, a, count, list, members, percent, sentence};
 use crate::analysis::{Analysis, Condition, Encounter};
-use crate::game::{SpriteType, Timed};
+use crate::game::{Counting, SpriteType, Timed};
 use crate::ontology::effects::{Effect, SpeedChange};
+use crate::ontology::terminations::Decision;
 
 /// One sentence for each interaction line, in order of execution; partners of one line together.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
@@ -47,7 +48,21 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     if if_killed != 0 {
         text += &format!(" If that kills, {}.", points(if_killed).to_lowercase());
     }
+    if let Some(counting) = &info.counting {
+        text += &counters(counting);
+    }
     Some(text)
+}
+
+/// What an execution adds to the game's counters, where the effect itself does not decide it.
+fn counters(counting: &Counting) -> String {
+    let amount = |on: bool, amount: Option<i32>| if on { amount.unwrap_or(0) } else { 0 };
+    let both = counting.counter.iter().zip(&counting.counter_else);
+    let changes = both.map(|(&count, &other)| {
+        amount(counting.count, count).saturating_add(amount(counting.count_else, other))
+    });
+    let changes = (1..).zip(changes).filter(|(_, change)| *change != 0);
+    changes.map(|(number, change)| format!(" Counter {number} changes by {change:+}.")).collect()
 }
 
 fn points(change: i32) -> String {
@@ -340,7 +355,15 @@ pub(super) fn endings(analysis: &Analysis, win: bool) -> Vec<String> {
     let goals = analysis.goals().iter().filter(|goal| goal.win == win);
     goals
         .map(|goal| {
-            format!("You {} {}.", if win { "win" } else { "lose" }, ending(analysis, &goal.condition, win))
+            let decided_by = analysis.game().0.terminations[goal.line].decided_by;
+            let provided = match decided_by {
+                Decision::Line => String::new(),
+                Decision::Score => ", if your score is not 0".to_owned(),
+                Decision::Difference => ", if the counters are not all the same".to_owned(),
+                Decision::Value(value) => format!(", if the counter is at {value}"),
+            };
+            let verb = if win { "win" } else { "lose" };
+            format!("You {verb} {}{provided}.", ending(analysis, &goal.condition, win))
         })
         .collect()
 }

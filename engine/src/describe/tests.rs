@@ -118,3 +118,14 @@ fn several_avatars_are_told_apart() {
     );
     assert_eq!(guide.losing, Vec::<String>::new());
 }
+
+#[test]
+fn counters_and_what_they_decide() {
+    let source = "BasicGame no_counters=2\n  SpriteSet\n    key > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    k > key\n  InteractionSet\n    avatar key > stepBack counter=1,-2 counterElse=0,-1\n  TerminationSet\n    Timeout limit=9 use_counter=True compare=True\n";
+    let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
+    assert_eq!(
+        guide.meetings,
+        ["You cannot enter the key. Counter 1 changes by +1. Counter 2 changes by -3."]
+    );
+    assert_eq!(guide.winning, ["You win if you last until tick 9, if the counters are not all the same."]);
+}

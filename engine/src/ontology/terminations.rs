@@ -8,8 +8,23 @@ use smallvec::SmallVec;
 #[derive(Debug)]
 pub(crate) struct Termination {
     pub(crate) condition: Condition,
-    /// Whether the player wins by it.
+    /// Whether the player wins by it, or may.
     pub(crate) win: bool,
+    /// What else decides.
+    pub(crate) decided_by: Decision,
+}
+
+/// What decides whether the player wins by a termination (`spec/01` §4.8, with one player).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Decision {
+    /// `win`.
+    Line,
+    /// `count_score`: any score but 0 is the highest one.
+    Score,
+    /// `use_counter` and `compare`: counters that are not all equal.
+    Difference,
+    /// `use_counter`: the one counter has this value.
+    Value(i32),
 }
 
 #[derive(Debug)]
@@ -62,6 +77,16 @@ impl Termination {
             Condition::Timeout { limit } => return state.tick >= *limit,
         };
         counted && state.can_end
+    }
+
+    /// Whether the player wins by it, now that it holds.
+    pub(crate) fn wins(&self, state: &State) -> bool {
+        match self.decided_by {
+            Decision::Line => self.win,
+            Decision::Score => state.score != 0,
+            Decision::Difference => state.counters.windows(2).any(|pair| pair[0] != pair[1]),
+            Decision::Value(value) => state.counters.first() == Some(&value),
+        }
     }
 
     /// Whether counters may end the game from here on, if this termination is one that says so.

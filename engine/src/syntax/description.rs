@@ -56,7 +56,7 @@ pub struct Trivia {
 /// The first line: `BasicGame key=value …`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Header {
-    /// `BasicGame`.
+    /// `BasicGame`, or `GameSpace`.
     pub class: Word,
     /// Its parameters.
     pub params: Vec<Param>,
@@ -118,6 +118,17 @@ pub struct TerminationLine {
     pub trivia: Trivia,
 }
 
+/// `NAME > values=min:step:max value=x`, of a `GameSpace`.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct ParameterLine {
+    /// The parameter: other lines have it for a value.
+    pub name: Word,
+    /// `values`, `value` and `string`.
+    pub params: Vec<Param>,
+    /// Its comments.
+    pub trivia: Trivia,
+}
+
 /// A whole game file.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Description {
@@ -135,8 +146,11 @@ pub struct Description {
     pub has: [bool; 4],
     /// Comments below the last line.
     pub tail: Vec<String>,
-    /// The sections in the order of the file; what the reference reads after a fault is missing.
-    pub order: Vec<Section>,
+    /// ParameterSet, of a `GameSpace`.
+    pub parameters: Vec<ParameterLine>,
+    /// The sections in the order of the file, each with how many lines of it the reference reads; what comes after a fault
+    /// is missing for it.
+    pub order: Vec<(Section, usize)>,
     /// Messages that the reference would have logged while reading the lines.
     pub messages: u32,
 }
@@ -167,10 +181,12 @@ pub enum Section {
     InteractionSet,
     /// When the game ends.
     TerminationSet,
+    /// What may vary, in a `GameSpace`.
+    ParameterSet,
 }
 
 impl Section {
-    /// All, in canonical order.
+    /// Those of every game, in canonical order.
     pub const ALL: [Section; 4] =
         [Section::SpriteSet, Section::LevelMapping, Section::InteractionSet, Section::TerminationSet];
 
@@ -181,6 +197,7 @@ impl Section {
             Section::LevelMapping => "LevelMapping",
             Section::InteractionSet => "InteractionSet",
             Section::TerminationSet => "TerminationSet",
+            Section::ParameterSet => "ParameterSet",
         }
     }
 }

@@ -41,6 +41,16 @@ pub(super) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     (lines, above)
 }
 
+/// A line of nothing but `#` that starts in the first column: the reference dies of it (`spec/01` §1.1).
+pub(super) fn bare_hashes(source: &str) -> Option<Span> {
+    let mut start = 0;
+    source.split(['\n', '\r']).find_map(|raw| {
+        let span = Span::new(start, start + raw.len());
+        start = span.end + 1;
+        (!raw.is_empty() && raw.bytes().all(|byte| byte == b'#')).then_some(span)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

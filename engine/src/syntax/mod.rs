@@ -4,12 +4,13 @@ mod description;
 mod layout;
 mod parse;
 mod print;
+mod reference;
 mod repair;
 mod sections;
 
 pub use description::{
-    Description, Header, InteractionLine, MappingLine, Param, Section, SpriteLine, TerminationLine, Trivia,
-    Word,
+    Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
+    TerminationLine, Trivia, Word,
 };
 pub(crate) use parse::{Literal, literal};
 pub use parse::{MAX_SOURCE, parse, parse_as_reference};

@@ -1,10 +1,11 @@
 //! Lines to a syntax tree. Never fails: a bad line costs one diagnostic, not the file.
 
 use super::description::{
-    Description, Header, InteractionLine, MappingLine, Param, Section, SpriteLine, TerminationLine, Trivia,
-    Word,
+    Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
+    TerminationLine, Trivia, Word,
 };
 use super::layout::{self, Line};
+use super::reference;
 use super::repair;
 use super::sections::{self, Part};
 use crate::diagnostic::{Diagnostic, Span};
@@ -17,7 +18,7 @@ use std::iter::Peekable;
 /// Bytes of game text that are read; a game is a few kilobytes.
 pub const MAX_SOURCE: usize = 1 << 20;
 /// Levels of indentation in a SpriteSet; the games of the reference have four at most.
-const MAX_DEPTH: usize = 32;
+pub(super) const MAX_DEPTH: usize = 32;
 /// Problems reported before the rest is summed up in one line.
 const MAX_DIAGNOSTICS: usize = 100;
 
@@ -26,37 +27,37 @@ const MAX_DIAGNOSTICS: usize = 100;
 struct Grammar;
 
 /// Reads a game file as the reference does: faulty lines are dropped, with a message each; lines indented deeper than
-/// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostics are those that the reference dies of.
+/// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostic is what the reference dies of, or what is
+/// beyond us.
 pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
-    read(source, true)
+    let read = unreadable(source).map_or_else(|| reference::read(source), Err);
+    match read {
+        Ok(description) => (description, Vec::new()),
+        Err(problem) => (Description::default(), vec![problem]),
+    }
+}
+
+/// What keeps a text from being looked at as a game.
+fn unreadable(source: &str) -> Option<Diagnostic> {
+    let problem = if source.len() > MAX_SOURCE {
+        let message = format!("the game is {} bytes long; at most {MAX_SOURCE} are read", source.len());
+        Diagnostic::error("too-large", Span::new(0, 0), message)
+    } else {
+        let at = source.find(|c: char| c.is_control() && !"\t\n\r\u{b}\u{c}".contains(c))?;
+        let message = "the file holds a control character; VGDL is plain text";
+        Diagnostic::error("not-text", Span::new(at, at + 1), message)
+    };
+    Some(problem.help("is this a VGDL file?"))
 }
 
 /// Reads a game file. The tree holds every line that could be read; the diagnostics, sorted by place, name the rest.
 ///
 /// Cost: linear in the text. Texts above [`MAX_SOURCE`] bytes give one diagnostic and an empty tree.
 pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
-    read(source, false)
-}
-
-fn read(source: &str, as_reference: bool) -> (Description, Vec<Diagnostic>) {
-    let mut reader = Reader { as_reference, ..Reader::default() };
-    if source.len() > MAX_SOURCE {
-        let message = format!("the game is {} bytes long; at most {MAX_SOURCE} are read", source.len());
-        reader
-            .problems
-            .push(Diagnostic::error("too-large", Span::new(0, 0), message).help("is this a VGDL file?"));
-    } else if let Some(at) = source.find(|c: char| c.is_control() && !"\t\n\r\u{b}\u{c}".contains(c)) {
-        let message = "the file holds a control character; VGDL is plain text";
-        reader
-            .problems
-            .push(Diagnostic::error("not-text", Span::new(at, at + 1), message).help("is this a VGDL file?"));
-    } else {
-        reader.read(source);
-    }
-    if as_reference {
-        let fatal =
-            ["too-large", "not-text", "empty-game", "unknown-game-class", "missing-section", "too-deep"];
-        reader.problems.retain(|problem| fatal.contains(&problem.code));
+    let mut reader = Reader::default();
+    match unreadable(source) {
+        Some(problem) => reader.problems.push(problem),
+        None => reader.read(source),
     }
     let mut problems = crate::diagnostic::Diagnostics::sorted(reader.problems).0;
     if problems.len() > MAX_DIAGNOSTICS {
@@ -72,9 +73,6 @@ fn read(source: &str, as_reference: bool) -> (Description, Vec<Diagnostic>) {
 struct Reader {
     description: Description,
     problems: Vec<Diagnostic>,
-    as_reference: bool,
-    /// The line being read has a token that the reference drops the whole line for.
-    broken: bool,
 }
 
 enum Token {
@@ -93,7 +91,7 @@ impl Reader {
             self.problems.push(problem);
             return;
         };
-        let headless = !self.as_reference && sections::named(header.text).is_some();
+        let headless = sections::named(header.text).is_some();
         if headless {
             let message = "the game has no first line `BasicGame`";
             let problem = Diagnostic::error("unknown-game-class", header.span, message);
@@ -102,18 +100,17 @@ impl Reader {
             self.header(header);
         }
         let rest = if headless { &lines[..] } else { rest };
-        let parts = if self.as_reference { self.parts(rest) } else { self.mended_parts(header, rest) };
-        for part in parts {
-            self.description.has[part.section as usize] = true;
-            self.description.order.push(part.section);
+        for part in self.mended_parts(header, rest) {
+            if let Some(has) = self.description.has.get_mut(part.section as usize) {
+                *has = true;
+            }
             self.body(&part);
         }
         for (has, section) in self.description.has.into_iter().zip(Section::ALL) {
             let told = |problem: &Diagnostic| {
                 problem.code == "missing-section" && problem.message.contains(section.name())
             };
-            let wanted = !self.as_reference || section == Section::SpriteSet;
-            if !has && wanted && !self.problems.iter().any(told) {
+            if !has && !self.problems.iter().any(told) {
                 let message = format!("the game has no {}", section.name());
                 let help = format!("add a line `{}`, indented below the first line", section.name());
                 self.problems.push(Diagnostic::error("missing-section", header.span, message).help(help));
@@ -134,42 +131,13 @@ impl Reader {
                 }
             }
         }
-        if header.class.text != "BasicGame" {
+        if !["BasicGame", "GameSpace"].contains(&header.class.text.as_str()) {
             let span = if header.class.text.is_empty() { line.span } else { header.class.span };
             let problem = Diagnostic::error("unknown-game-class", span, "a game starts with `BasicGame`");
-            let help = match header.class.text.as_str() {
-                "GameSpace" => "GameSpace, the reference's parameter spaces, is not supported".to_owned(),
-                _ => "the first line that is not a comment must be `BasicGame key=value …`".to_owned(),
-            };
+            let help = "the first line that is not a comment must be `BasicGame key=value …`";
             self.problems.push(problem.help(help));
         }
         self.description.header = header;
-    }
-
-    /// The sections as the reference finds them: what is not spelt exactly only ends the section before it.
-    fn parts<'a, 'b>(&mut self, lines: &'b [Line<'a>]) -> Vec<Part<'a, 'b>> {
-        let mut parts: Vec<Part<'a, 'b>> = Vec::new();
-        let mut open = false;
-        for line in lines {
-            match sections::named(line.text) {
-                Some(section) => {
-                    open = line.text == section.name();
-                    if open {
-                        parts.push(Part { section, head: line, body: Vec::new() });
-                    }
-                }
-                None => {
-                    let Some(part) = parts.last_mut().filter(|_| open) else { continue };
-                    if line.indent > part.head.indent {
-                        part.body.push(line);
-                    } else {
-                        // A section of no known name: what is indented below it goes with it.
-                        open = false;
-                    }
-                }
-            }
-        }
-        parts
     }
 
     /// The sections as they were meant, with a problem for each that is not as it should be.
@@ -181,6 +149,12 @@ impl Reader {
                 let problem = Diagnostic::error("duplicate-section", part.head.span, message);
                 self.problems.push(problem.help("merge the two sections"));
             }
+        }
+        let in_space = self.description.header.class.text == "GameSpace";
+        for part in parts.iter().filter(|part| part.section == Section::ParameterSet && !in_space) {
+            let message = "only a GameSpace has a ParameterSet";
+            let problem = Diagnostic::error("stray-line", part.head.span, message);
+            self.problems.push(problem.help("begin the file with `GameSpace`, or write the values out"));
         }
         let place = |section| parts.iter().position(|part| part.section == section);
         for section in [Section::InteractionSet, Section::TerminationSet] {
@@ -200,27 +174,16 @@ impl Reader {
         let (section, head) = (part.section, part.head);
         if section == Section::SpriteSet {
             let mut forest = Vec::new();
-            let lines = if self.as_reference { &part.body[..] } else { &self.indented(part) };
-            if !self.as_reference {
-                sections::off_grid(head.indent, lines, &mut self.problems);
-            }
-            self.sprites(lines, &mut forest, 0);
+            let lines = self.indented(part);
+            sections::off_grid(head.indent, &lines, &mut self.problems);
+            self.sprites(&lines, &mut forest, 0);
             self.description.sprites.append(&mut forest);
             return;
         }
-        let indent = match self.as_reference {
-            true => part.body.first().map_or(0, |line| line.indent),
-            false => sections::usual_indent(
-                part.body.iter().map(|line| line.indent).filter(|&indent| indent > head.indent),
-            ),
-        };
+        let indents = part.body.iter().map(|line| line.indent);
+        let indent = sections::usual_indent(indents.filter(|&indent| indent > head.indent));
         for &line in &part.body {
-            if self.as_reference && line.indent != indent {
-                if line.indent > indent {
-                    continue;
-                }
-                self.description.messages += 1;
-            } else if line.indent <= head.indent {
+            if line.indent <= head.indent {
                 self.outside(line, section);
             } else if line.indent != indent {
                 let problem =
@@ -237,6 +200,7 @@ impl Reader {
                 Section::LevelMapping => self.mapping(line),
                 Section::InteractionSet => self.interaction(line),
                 Section::TerminationSet => self.termination(line),
+                Section::ParameterSet => self.parameter(line),
             }
         }
     }
@@ -272,7 +236,7 @@ impl Reader {
     /// Siblings are the lines at one depth; deeper lines are children of the line above (`spec/01` §1.3).
     fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
-        let indent = if self.as_reference { first.indent } else { sections::siblings_indent(lines) };
+        let indent = sections::siblings_indent(lines);
         if depth == MAX_DEPTH {
             let message = format!("sprites are nested more than {MAX_DEPTH} deep");
             self.problems.push(Diagnostic::error("too-deep", first.span, message));
@@ -293,10 +257,6 @@ impl Reader {
                 self.problems.push(problem);
             }
             let mut sprite = self.sprite(line);
-            if self.as_reference && sprite.is_none() {
-                // A line without `>` ends its list of siblings.
-                return;
-            }
             let children = &lines[at + 1..at + 1 + deeper];
             match &mut sprite {
                 Some(sprite) => self.sprites(children, &mut sprite.children, depth + 1),
@@ -312,12 +272,8 @@ impl Reader {
         let mut arrow = false;
         for token in self.tokens(line) {
             match token {
-                Token::Word(word) if sprite.name.text.is_empty() && (!arrow || self.as_reference) => {
-                    sprite.name = word;
-                }
-                Token::Word(word) if sprite.class.is_none() && (self.as_reference || !glued(&word)) => {
-                    sprite.class = Some(word);
-                }
+                Token::Word(word) if sprite.name.text.is_empty() && !arrow => sprite.name = word,
+                Token::Word(word) if sprite.class.is_none() && !glued(&word) => sprite.class = Some(word),
                 Token::Word(word) => {
                     self.stray_word(&word, format!("`{}`: a sprite has one class", word.text));
                 }
@@ -331,9 +287,6 @@ impl Reader {
                 sprite.name.text = name.trim_end_matches('>').to_owned();
                 sprite.class = None;
             }
-        }
-        if self.as_reference && !arrow {
-            return None;
         }
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
@@ -405,17 +358,6 @@ impl Reader {
                 Token::Param(param) => interaction.params.push(param),
             }
         }
-        if self.as_reference {
-            if self.broken || !arrow || after.is_empty() || names.is_empty() {
-                self.description.messages += 1;
-                return;
-            }
-            interaction.first = names.remove(0);
-            interaction.second = names;
-            interaction.effect = after.pop().expect("there is one");
-            self.description.interactions.push(interaction);
-            return;
-        }
         let shape = "an interaction is `sprite partner … > effect key=value …`";
         if !arrow {
             self.mend_arrow(line, false, shape);
@@ -455,10 +397,6 @@ impl Reader {
                 Token::Param(param) => termination.params.push(param),
             }
         }
-        if self.as_reference && self.broken {
-            self.description.messages += 1;
-            return;
-        }
         if termination.class.text.is_empty() {
             let has = |key: &str| termination.params.iter().any(|param| param.key.text == key);
             let class = match () {
@@ -475,6 +413,25 @@ impl Reader {
         }
     }
 
+    fn parameter(&mut self, line: &Line<'_>) {
+        let mut parameter = ParameterLine { trivia: trivia(line), ..ParameterLine::default() };
+        let shape = "a parameter is `NAME > values=min:step:max`";
+        let mut arrow = false;
+        for token in self.tokens(line) {
+            match token {
+                Token::Word(word) if parameter.name.text.is_empty() && !arrow => parameter.name = word,
+                Token::Word(word) => self.stray_word(&word, shape),
+                Token::Arrow(_) => arrow = true,
+                Token::Param(param) => parameter.params.push(param),
+            }
+        }
+        if !arrow || parameter.name.text.is_empty() {
+            self.mend_arrow(line, arrow, shape);
+        } else {
+            self.description.parameters.push(parameter);
+        }
+    }
+
     fn tokens(&mut self, line: &Line<'_>) -> Vec<Token> {
         let mut pairs = match Grammar::parse(Rule::tokens, line.text) {
             Ok(pairs) => pairs,
@@ -484,7 +441,6 @@ impl Reader {
             }
         };
         let mut tokens = Vec::new();
-        self.broken = false;
         let mut pairs = pairs.next().expect("the rule matched").into_inner().peekable();
         while let Some(pair) = pairs.next() {
             match pair.as_rule() {
@@ -495,18 +451,13 @@ impl Reader {
                     let mut parts = pair.into_inner();
                     let mut part = || word(line, &parts.next().expect("a parameter has a key and a value"));
                     let param = Param { key: part(), value: part() };
-                    if param.key.text.is_empty() && !self.as_reference {
+                    if param.key.text.is_empty() {
                         self.broken_param(line, whole, &mut tokens, &mut pairs);
                     } else {
                         tokens.push(Token::Param(param));
                     }
                 }
-                Rule::broken => {
-                    self.broken = true;
-                    if !self.as_reference {
-                        self.broken_param(line, word(line, &pair), &mut tokens, &mut pairs);
-                    }
-                }
+                Rule::broken => self.broken_param(line, word(line, &pair), &mut tokens, &mut pairs),
                 _ => {}
             }
         }
@@ -600,8 +551,36 @@ pub(crate) fn literal(text: &str) -> Literal {
     match pair.as_rule() {
         Rule::integer => text.parse().map_or_else(|_| number(), Literal::Int),
         Rule::double => number(),
+        Rule::hex => Literal::Double(hexadecimal(text)),
+        Rule::special if text.ends_with("NaN") => Literal::Double(f64::NAN),
+        Rule::special if text.starts_with('-') => Literal::Double(f64::NEG_INFINITY),
+        Rule::special => Literal::Double(f64::INFINITY),
         _ => Literal::Bool(text.eq_ignore_ascii_case("true")),
     }
+}
+
+/// The value of `0x1.8p3`: digits to the base of 16, times a power of two.
+fn hexadecimal(text: &str) -> f64 {
+    let negative = text.starts_with('-');
+    let text = text.trim_start_matches(['+', '-']).trim_end_matches(['f', 'F', 'd', 'D']);
+    let (digits, exponent) = text[2..].split_once(['p', 'P']).expect("the grammar asks for it");
+    let mut exponent = exponent.parse().unwrap_or(if exponent.starts_with('-') { -5000 } else { 5000 });
+    let point = digits.find('.').unwrap_or(digits.len());
+    exponent = i32::clamp(exponent, -5000, 5000);
+    let (mut mantissa, mut places) = (0u64, 0i64);
+    for (at, digit) in digits.chars().filter_map(|digit| digit.to_digit(16)).enumerate() {
+        // Digits beyond those that a double holds only say that there is more.
+        if mantissa < 1 << 59 {
+            mantissa = mantissa << 4 | u64::from(digit);
+            places += i64::from(at >= point);
+        } else {
+            mantissa |= u64::from(digit != 0);
+            places -= i64::from(at < point);
+        }
+    }
+    let scaled = i64::from(exponent) - 4 * places;
+    let value = libm::scalbn(mantissa as f64, scaled.clamp(-10_000, 10_000) as i32);
+    if negative { -value } else { value }
 }
 
 #[cfg(test)]
@@ -655,6 +634,14 @@ mod tests {
         assert_eq!(literal("1e3"), Literal::Double(1000.0));
         assert_eq!(literal("2f"), Literal::Double(2.0));
         assert_eq!(literal("TRUE"), Literal::Bool(true));
+        assert_eq!(literal("0x1.8p3"), Literal::Double(12.0));
+        assert_eq!(literal("-0X.8P0f"), Literal::Double(-0.5));
+        assert_eq!(literal("0x10000000000000001p-4"), Literal::Double((1u64 << 60) as f64));
+        assert_eq!(literal("0x0.00001p0"), Literal::Double(1.0 / 1_048_576.0));
+        assert_eq!(literal("0x10"), Literal::Text);
+        assert_eq!(literal("-Infinity"), Literal::Double(f64::NEG_INFINITY));
+        assert!(matches!(literal("NaN"), Literal::Double(number) if number.is_nan()));
+        assert_eq!(literal("nan"), Literal::Text);
         assert_eq!(literal("1/3"), Literal::Text);
         assert_eq!(literal(""), Literal::Text);
     }

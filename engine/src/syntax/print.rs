@@ -21,12 +21,21 @@ struct Printer {
 impl Printer {
     fn game(mut self, game: &Description) -> String {
         self.line(0, &game.header.trivia, &with_params(&game.header.class.text, &game.header.params));
-        for (section, has) in Section::ALL.into_iter().zip(game.has) {
+        let sections = Section::ALL.into_iter().zip(game.has);
+        for (section, has) in
+            [(Section::ParameterSet, !game.parameters.is_empty())].into_iter().chain(sections)
+        {
             if !has {
                 continue;
             }
             self.line(1, &Trivia::default(), section.name());
             match section {
+                Section::ParameterSet => {
+                    for line in &game.parameters {
+                        let head = format!("{} >", line.name.text);
+                        self.line(2, &line.trivia, &with_params(&head, &line.params));
+                    }
+                }
                 Section::SpriteSet => self.sprites(2, &game.sprites),
                 Section::LevelMapping => {
                     for line in &game.mapping {
@@ -57,7 +66,7 @@ impl Printer {
         }
         if self.comments {
             for comment in &game.tail {
-                let _ = writeln!(self.out, "{}", format!("# {comment}").trim_end());
+                self.comment("", comment);
             }
         }
         self.out
@@ -75,11 +84,17 @@ impl Printer {
         }
     }
 
+    /// The reference dies of a line of nothing but `#` in the first column.
+    fn comment(&mut self, indent: &str, comment: &str) {
+        let indent = if indent.is_empty() && comment.bytes().all(|byte| byte == b'#') { " " } else { indent };
+        let _ = writeln!(self.out, "{}", format!("{indent}# {comment}").trim_end());
+    }
+
     fn line(&mut self, depth: usize, trivia: &Trivia, text: &str) {
         let indent = "    ".repeat(depth);
         if self.comments {
             for comment in &trivia.above {
-                let _ = writeln!(self.out, "{}", format!("{indent}# {comment}").trim_end());
+                self.comment(&indent, comment);
             }
         }
         let _ = match trivia.beside.as_ref().filter(|_| self.comments) {
@@ -110,5 +125,13 @@ mod tests {
         assert!(once.contains("        a > Missile  # fast\n"), "{once}");
         assert!(once.ends_with("# end\n"), "{once}");
         assert!(!print_bare(&parse(source).0).contains('#'));
+    }
+
+    #[test]
+    fn an_empty_comment_does_not_stand_in_the_first_column() {
+        let source = "##\nBasicGame\n  SpriteSet\n#\n";
+        let once = print(&parse(source).0);
+        assert!(once.starts_with(" # #\nBasicGame\n") && once.ends_with("\n #\n"), "{once}");
+        assert_eq!(print(&parse(&once).0), once);
     }
 }

@@ -17,7 +17,8 @@ pub(super) struct Part<'a, 'b> {
 
 /// The section that a line names, letter case aside.
 pub(super) fn named(text: &str) -> Option<Section> {
-    Section::ALL.into_iter().find(|section| section.name().eq_ignore_ascii_case(text))
+    let mut all = Section::ALL.into_iter().chain([Section::ParameterSet]);
+    all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
 /// The most frequent indent; of several, the one that comes first.
@@ -235,6 +236,7 @@ fn lines_of(section: Section) -> &'static str {
         Section::LevelMapping => "mappings of characters",
         Section::InteractionSet => "interactions",
         Section::TerminationSet => "terminations",
+        Section::ParameterSet => "parameters",
     }
 }
 
@@ -244,6 +246,7 @@ fn line_of(section: Section) -> &'static str {
         Section::LevelMapping => "a mapping of a character",
         Section::InteractionSet => "an interaction",
         Section::TerminationSet => "a termination",
+        Section::ParameterSet => "a parameter",
     }
 }
 
@@ -272,6 +275,9 @@ impl<'a> Guess<'a> {
             return terminations::NAMES.contains(first).then_some(Section::TerminationSet);
         };
         let (left, right) = (&words[..arrow], &words[arrow + 1..]);
+        if line.text.split_whitespace().any(|word| word.starts_with("values=")) {
+            return Some(Section::ParameterSet);
+        }
         let is_class = |word: &str| SpriteClass::from_name(word).is_some();
         let is_sprite = |word: &str| self.sprites.binary_search(&word).is_ok();
         match (left, right) {

@@ -11,9 +11,14 @@ pub(crate) trait Arguments {
     fn flag(&mut self, key: &'static str, default: bool) -> bool;
     /// A list of scores, the first of which is ours.
     fn score(&mut self, key: &'static str) -> i32;
-    /// A sprite that must be named.
+    /// A sprite that must be named, and exist.
     fn sprite(&mut self, key: &'static str) -> SpriteType;
-    fn optional_sprite(&mut self, key: &'static str) -> Option<SpriteType>;
+    /// A sprite that must be named; what is not declared is [`SpriteType::NONE`], and dies when it is used if at all.
+    fn sprite_or_none(&mut self, key: &'static str) -> SpriteType;
+    /// A sprite that may be named.
+    fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType>;
+    /// A type by its number in the registry, which the reference takes for some that may be named.
+    fn numbered(&mut self, key: &'static str) -> Option<SpriteType>;
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
     /// The keyword of another effect.
     fn keyword(&mut self, key: &'static str) -> u16;
@@ -21,6 +26,17 @@ pub(crate) trait Arguments {
     fn timed(&mut self) -> u16;
     /// A type and all that relates to it, itself left out.
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
+}
+
+/// What the reference makes of an undeclared name (`spec/03` §2.2). Strictly it is an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Undeclared {
+    /// There is no such effect, and the file is not read further.
+    Fails,
+    /// The name is as good as absent.
+    Absent,
+    /// [`SpriteType::NONE`].
+    Void,
 }
 
 /// The keywords that the engine plays, sorted.
@@ -101,7 +117,7 @@ pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> 
             Effect::KillIfHasMore { resource: args.sprite("resource"), limit: args.int("limit", 0) }
         }
         "killIfOtherHasMore" => Effect::KillIfOtherHasMore {
-            resource: args.sprite("resource"),
+            resource: args.sprite_or_none("resource"),
             limit: args.int("limit", 0),
             subtract: args.flag("subtract", false),
         },
@@ -113,7 +129,7 @@ pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> 
         "subtractHealthPoints" => Effect::SubtractHealthPoints {
             value: args.int("value", 1),
             limit: args.int("limit", 0),
-            stype: args.optional_sprite("stype"),
+            stype: subject(args, Undeclared::Fails),
             score_if_killed: args.score("scoreChangeIfKilled"),
         },
         "stepBack" => Effect::StepBack { pixel_perfect: args.flag("pixelPerfect", false) },
@@ -172,12 +188,12 @@ pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> 
         }
         "collectResource" => Effect::CollectResource { kill_resource: args.flag("killResource", true) },
         "collectResourceIfHeld" => Effect::CollectResourceIfHeld {
-            held: args.sprite("heldResource"),
+            held: args.sprite_or_none("heldResource"),
             value: args.int("value", 1),
             kill_resource: args.flag("killResource", true),
         },
         "changeResource" => Effect::ChangeResource {
-            resource: args.sprite("resource"),
+            resource: args.sprite_or_none("resource"),
             value: args.int("value", 1),
             kill_resource: args.flag("killResource", false),
         },
@@ -187,7 +203,7 @@ pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> 
         }
         "killIfNotUpright" => Effect::KillIfNotUpright,
         "removeScore" => Effect::RemoveScore {
-            stype: args.optional_sprite("stype"),
+            stype: subject(args, Undeclared::Absent),
             kill_second: args.flag("killSecond", false),
         },
         "updateSpawnType" => {
@@ -202,10 +218,10 @@ pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> 
         },
         "transformIfCount" => Effect::TransformIfCount(Box::new(TransformIfCount {
             stype: args.sprite("stype"),
-            counted: args.sprite("stypeCount"),
+            counted: args.sprite_or_none("stypeCount"),
             at_least: args.int("geq", 0),
             at_most: args.int("leq", 10_000),
-            otherwise: args.optional_sprite("estype"),
+            otherwise: args.optional_sprite("estype", Undeclared::Void),
             kill_second: args.flag("killSecond", false),
             force_orientation: args.flag("forceOrientation", false),
         })),
@@ -231,9 +247,15 @@ fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
     Effect::ChangeSpeed { stype: args.sprite("stype"), value: args.number("value", default), how }
 }
 
+/// Whom subtractHealthPoints and removeScore mean, if not their first sprite.
+fn subject(args: &mut impl Arguments, undeclared: Undeclared) -> Option<SpriteType> {
+    let numbered = args.numbered("itype");
+    args.optional_sprite("stype", undeclared).or(numbered)
+}
+
 fn beside(args: &mut impl Arguments, shift: (i32, i32)) -> Effect {
     Effect::SpawnBeside {
-        stype: args.sprite("stype"),
+        stype: args.sprite_or_none("stype"),
         shift,
         step_back: args.flag("stepBack", false),
         prob: args.number("prob", 1.0),

@@ -1,6 +1,6 @@
 //! Effects on health points (`spec/03` §7.2).
 
-use crate::game::SpriteType;
+use crate::game::{Limit, SpriteType};
 use crate::state::{NONE, Slot, memory};
 use crate::step::Step;
 
@@ -15,7 +15,7 @@ pub(super) fn add(
 ) {
     let sprite = step.state.sprite(one);
     let limit = step.rules.types[sprite.stype.index()].traits.limit_health;
-    let health = sprite.health.saturating_add(value);
+    let health = sprite.health.wrapping_add(value);
     if !to_max && health >= limit {
         return step.apply_score(index, false);
     }
@@ -37,9 +37,12 @@ pub(super) fn subtract(
     limit: i32,
     stype: Option<SpriteType>,
 ) {
+    if stype == Some(SpriteType::NONE) {
+        return step.stop(Limit::NoType);
+    }
     let target = stype.and_then(|stype| last_of(step, stype)).unwrap_or(one);
     let sprite = step.state.edit(target);
-    sprite.health = sprite.health.saturating_sub(value);
+    sprite.health = sprite.health.wrapping_sub(value);
     let killed = sprite.health <= limit;
     step.remember(index, memory::KILLED, killed);
     if killed {
@@ -49,6 +52,7 @@ pub(super) fn subtract(
 
 /// The first sprite of the last of a tree's groups that has any.
 pub(super) fn last_of(step: &Step<'_>, stype: SpriteType) -> Option<Slot> {
-    let groups = step.rules.types[stype.index()].tree.iter().map(|&stype| step.state.group(stype).head);
+    let tree = step.rules.types.get(stype.index()).map_or(&[][..], |info| &info.tree);
+    let groups = tree.iter().map(|&stype| step.state.group(stype).head);
     groups.rev().find(|&head| head != NONE)
 }

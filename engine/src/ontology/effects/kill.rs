@@ -1,8 +1,8 @@
 //! Effects that kill (`spec/03` §7.1, §8.1).
 
-use crate::game::SpriteType;
+use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
-use crate::state::{Slot, flag};
+use crate::state::{NONE, Slot, flag};
 use crate::step::Step;
 
 /// Kills if `hit`; the score applies only then.
@@ -17,7 +17,7 @@ pub(super) fn when(step: &mut Step<'_>, index: u16, one: Slot, hit: bool) {
 pub(super) fn all(step: &mut Step<'_>, stype: SpriteType) {
     step.work(usize::from(step.state.group(stype).count));
     let mut slot = step.state.group(stype).head;
-    while slot != crate::state::NONE {
+    while slot != NONE {
         step.kill(slot);
         slot = step.state.sprite(slot).next;
     }
@@ -67,16 +67,21 @@ pub(super) fn if_not_upright(step: &mut Step<'_>, one: Slot) {
 
 /// The score goes to 0: of the sprite if it is the avatar, or of all avatars of a type.
 pub(super) fn remove_score(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: Option<SpriteType>) {
-    let avatars = match stype {
-        None => usize::from(step.state.sprite(one).is(flag::AVATAR)),
-        Some(stype) => {
-            step.state.slots(stype).filter(|&slot| step.state.sprite(slot).is(flag::AVATAR)).count()
+    if stype == Some(SpriteType::NONE) {
+        return step.stop(Limit::NoType);
+    }
+    let mut slot = stype.map_or(one, |stype| step.state.group(stype).head);
+    while slot != NONE {
+        step.work(1);
+        if step.state.sprite(slot).is(flag::AVATAR) {
+            // Every avatar has a score of its own; the player's is the game's.
+            if slot == step.state.avatar {
+                step.state.score = 0;
+            }
+            if let Some(victim) = victim {
+                step.remove(victim);
+            }
         }
-    };
-    for _ in 0..avatars {
-        step.state.score = 0;
-        if let Some(victim) = victim {
-            step.remove(victim);
-        }
+        slot = if stype.is_some() { step.state.sprite(slot).next } else { NONE };
     }
 }

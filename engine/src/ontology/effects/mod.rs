@@ -14,7 +14,7 @@ use crate::occupancy::Hits;
 use crate::state::{Slot, Timer, flag, memory};
 use crate::step::{MAX_TIMERS, Step};
 pub use build::NAMES;
-pub(crate) use build::{Arguments, build};
+pub(crate) use build::{Arguments, Undeclared, build};
 
 /// An effect with its parameters, named as in VGDL.
 #[derive(Clone, Debug)]
@@ -225,6 +225,12 @@ impl Effect {
 
     /// The types that it makes sprites of.
     pub(crate) fn makes(&self) -> Vec<SpriteType> {
+        let mut types = self.named_types();
+        types.retain(|&stype| stype != SpriteType::NONE);
+        types
+    }
+
+    fn named_types(&self) -> Vec<SpriteType> {
         match self {
             Effect::Spawn { stype, .. }
             | Effect::SpawnIf { stype, .. }
@@ -243,7 +249,7 @@ impl Effect {
 
     /// The resource that it changes or asks for: such a type need not exist as a sprite.
     pub(crate) fn resource(&self) -> Option<SpriteType> {
-        match self {
+        let resource = match self {
             Effect::KillIfHasLess { resource, .. }
             | Effect::KillIfHasMore { resource, .. }
             | Effect::KillIfOtherHasMore { resource, .. }
@@ -251,7 +257,8 @@ impl Effect {
             | Effect::ChangeResource { resource, .. } => Some(*resource),
             Effect::CollectResourceIfHeld { held, .. } => Some(*held),
             _ => None,
-        }
+        };
+        resource.filter(|&resource| resource != SpriteType::NONE)
     }
 
     /// Whether it can give speed to a sprite of grid physics that has none.
@@ -424,13 +431,13 @@ fn add_timer(step: &mut Step<'_>, timed: u16) {
     step.state.plan(Timer { due, timed });
 }
 
-/// What an execution adds to the score.
-pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> i32 {
+/// What an execution adds to the score, and whether the text of it is no number.
+pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     match info.effect {
         Effect::SubtractHealthPoints { score_if_killed, .. } if remembered & memory::KILLED != 0 => {
-            score_if_killed
+            (score_if_killed, info.score_faults[1])
         }
-        _ => info.score_change,
+        _ => (info.score_change, info.score_faults[0]),
     }
 }
 
@@ -443,6 +450,24 @@ impl Step<'_> {
     /// Remembers whether the effect's score applies: some effects say so as they run.
     fn apply_score(&mut self, index: u16, on: bool) {
         self.remember(index, memory::APPLY_SCORE, on);
+    }
+
+    /// Remembers whether `counter` counts.
+    fn apply_count(&mut self, index: u16, on: bool) {
+        if self.counts(index) {
+            self.remember(index, memory::NO_COUNT, !on);
+        }
+    }
+
+    /// Remembers whether `counterElse` counts.
+    fn apply_count_else(&mut self, index: u16, on: bool) {
+        if self.counts(index) {
+            self.remember(index, memory::NO_COUNT_ELSE, !on);
+        }
+    }
+
+    fn counts(&self, index: u16) -> bool {
+        self.rules.effects[usize::from(index)].counting.is_some()
     }
 
     fn remember(&mut self, index: u16, bit: u8, on: bool) {

@@ -3,6 +3,7 @@
 use super::SpeedChange;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
+use crate::ontology::class::SpriteClass;
 use crate::ontology::physics;
 use crate::state::{NONE, Slot, flag};
 use crate::step::Step;
@@ -32,13 +33,22 @@ pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
 
 /// Every sprite of every updated type goes back to its last rectangle.
 pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
+    let rules = step.rules;
+    // Every one is put back, and those of height 0 cannot be put anywhere.
+    let is_back = |stype: SpriteType| rules.types[stype.index()].order.is_some() && !spare.contains(&stype);
+    if rules.first_differs {
+        let mut types = (0..rules.types.len() as u16).map(SpriteType).filter(|&stype| is_back(stype));
+        if types.any(|stype| step.state.slots(stype).any(|slot| step.state.sprite(slot).last.h == 0)) {
+            return step.stop(Limit::FlatSprite);
+        }
+    }
     // Only sprites that moved in this tick have another last rectangle.
     step.work(step.state.moved.len());
     for at in 0..step.state.moved.len() {
         let slot = step.state.moved[at];
         let sprite = step.state.sprite(slot);
         let (stype, last) = (sprite.stype, sprite.last);
-        if step.rules.types[stype.index()].order.is_some() && !spare.contains(&stype) {
+        if is_back(stype) {
             step.place(slot, last);
         }
     }
@@ -47,11 +57,13 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
 /// Back, two steps down, and the other way.
 pub(super) fn turn_around(step: &mut Step<'_>, one: Slot) {
     let sprite = step.state.sprite(one);
-    let (last, speed) = (sprite.last, sprite.speed);
+    let last = sprite.last;
     let cooldown = step.rules.types[sprite.stype.index()].traits.cooldown;
     step.place(one, last);
     for _ in 0..2 {
         step.set_age(one, cooldown);
+        // In continuous physics the first of the two changes the speed of the second.
+        let speed = step.state.sprite(one).speed;
         physics::active(step, one, Direction::DOWN, speed);
     }
     reverse(step, one);
@@ -153,11 +165,12 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
 
 /// To a drawn sprite of the type that the partner leads to; to its death if there is none.
 pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
-    let info = &step.rules.types[step.state.sprite(two).stype.index()];
-    let Some(exit_type) = info.leads_to() else { return step.message() };
-    if exit_type == SpriteType::NONE {
-        return step.stop(Limit::NoType);
-    }
+    let sprite = step.state.sprite(two);
+    let info = &step.rules.types[sprite.stype.index()];
+    let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
+    // What a spawner makes is where it leads to, and may change.
+    let leads_to = if spawns { Some(sprite.spawns) } else { info.leads_to() };
+    let Some(exit_type) = leads_to.filter(|&stype| stype != SpriteType::NONE) else { return step.message() };
     let count = step.state.group(exit_type).count;
     if count == 0 {
         return step.kill(one);

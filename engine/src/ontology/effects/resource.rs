@@ -65,8 +65,8 @@ pub(super) fn change(
     (resource, value): (SpriteType, i32),
     kill: bool,
 ) {
-    let limit = step.rules.types[resource.index()].resource_limit;
-    let fits = step.state.amount(one, resource).saturating_add(value) <= limit;
+    let Some(info) = step.rules.types.get(resource.index()) else { return step.stop(Limit::NoType) };
+    let fits = step.state.amount(one, resource).wrapping_add(value) <= info.resource_limit;
     step.apply_score(index, fits);
     if fits {
         step.state.add_amount(one, resource, value);

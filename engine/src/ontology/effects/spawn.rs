@@ -7,10 +7,12 @@ use crate::state::{NONE, Slot};
 use crate::step::Step;
 
 pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64) {
-    if step.state.chance.double() < prob {
-        let rect = step.state.sprite(one).rect;
-        step.add(stype, rect.x, rect.y);
+    // A `prob` that is no number forbids nothing.
+    if step.state.chance.double() >= prob {
+        return;
     }
+    let rect = step.state.sprite(one).rect;
+    step.add(stype, rect.x, rect.y);
 }
 
 /// spawnIfHasMore and spawnIfHasLess; only the former spends.
@@ -81,6 +83,7 @@ pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, ef
         met = (alive / 2) as i32 == kinds;
     }
     step.apply_score(index, met);
+    step.apply_count(index, met);
     step.add(if met { stype } else { otherwise }, rect.x, rect.y);
 }
 

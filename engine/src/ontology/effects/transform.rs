@@ -55,9 +55,14 @@ pub(super) fn random_child(
 
 /// By how many there are of a type: killed and disabled ones count.
 pub(super) fn if_count(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, rule: &TransformIfCount) {
+    if rule.counted == SpriteType::NONE {
+        return step.stop(Limit::NoType);
+    }
     let count = step.state.count(step.rules, rule.counted);
     let met = (rule.at_least..=rule.at_most).contains(&count);
     step.apply_score(index, met);
+    step.apply_count(index, met);
+    step.apply_count_else(index, !met && rule.otherwise.is_some());
     let Some(stype) = (if met { Some(rule.stype) } else { rule.otherwise }) else { return };
     let rect = step.state.sprite(one).rect;
     if let Some(new) = step.add_forced(stype, rect.x, rect.y) {
@@ -135,6 +140,10 @@ fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
     // The player moves on with the avatar, if the new sprite can be one; else the old one stays, disabled.
     let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
+        if step.state.avatar == NONE {
+            // The reference takes score and player over from an avatar that is not there.
+            return step.stop(Limit::NoAvatar);
+        }
         step.control(new);
     }
     if player_lost {

@@ -1,0 +1,83 @@
+//! The first line: what it sets for the whole game (`spec/01` §1.5).
+
+use super::params::{Expected, Value, convert, wrong_type};
+use crate::diagnostic::Diagnostic;
+use crate::syntax::{Description, Param, Word};
+
+/// Counters at most.
+const MAX_COUNTERS: i32 = 64;
+/// Pixels of a cell at most.
+const MAX_SQUARE: i32 = 10_000;
+
+const KEYS: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counters", "obs"];
+
+/// What the first line says.
+#[derive(Debug, Default)]
+pub(super) struct Header {
+    /// Pixels of a cell.
+    pub(super) square_size: Option<i32>,
+    /// How many counters there are.
+    pub(super) counters: usize,
+    /// What path finding goes around; None: there is no path finding.
+    pub(super) obstacles: Option<Vec<Word>>,
+}
+
+impl Header {
+    pub(super) fn of(description: &Description, problems: &mut Vec<Diagnostic>) -> Header {
+        let mut header = Header::default();
+        for param in &description.header.params {
+            let key = param.key.text.as_str();
+            let value = convert(key, &param.value.text);
+            match (key, value) {
+                ("square_size", Value::Int(-1)) => header.square_size = None,
+                ("square_size", Value::Int(size @ 1..=MAX_SQUARE)) => header.square_size = Some(size),
+                ("square_size", Value::Int(_)) => {
+                    let message = format!("`square_size` is a number of pixels between 1 and {MAX_SQUARE}");
+                    problems.push(unsupported(param, message));
+                }
+                ("no_counters", Value::Int(count @ 0..=MAX_COUNTERS)) => header.counters = count as usize,
+                ("no_counters", Value::Int(_)) => {
+                    let message = format!("a game has between 0 and {MAX_COUNTERS} counters");
+                    problems.push(unsupported(param, message));
+                }
+                ("no_players", Value::Int(1)) => {}
+                ("no_players", Value::Int(_)) => {
+                    let message = "a game has one player here: `no_players` can only be 1";
+                    problems.push(unsupported(param, message.to_owned()));
+                }
+                ("square_size" | "no_counters" | "no_players", _) => {
+                    problems.push(wrong_type(param, Expected::Int));
+                }
+                ("obs", Value::Text(names)) => header.obstacles = Some(listed(param, names)),
+                ("key_handler", Value::Text(_)) => {}
+                ("obs" | "key_handler", _) => problems.push(wrong_type(param, Expected::Text)),
+                (key, _) => {
+                    let message = format!("a game has no parameter `{key}`");
+                    let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
+                    problems.push(problem.suggest(key, KEYS));
+                }
+            }
+        }
+        header
+    }
+
+    /// Messages that the reference logs about parameters that a game does not have: two each.
+    pub(super) fn messages(description: &Description) -> u32 {
+        let mut unknown: Vec<&str> =
+            description.header.params.iter().map(|param| param.key.text.as_str()).collect();
+        unknown.sort_unstable();
+        unknown.dedup();
+        unknown.retain(|key| !KEYS.contains(key));
+        2 * unknown.len() as u32
+    }
+}
+
+/// What neither policy plays.
+fn unsupported(param: &Param, message: String) -> Diagnostic {
+    Diagnostic::error("unsupported", param.span(), message).help(format!("remove `{}`", param.key.text))
+}
+
+fn listed(param: &Param, names: &str) -> Vec<Word> {
+    let names = names.trim_end_matches(',').split(',');
+    names.map(|name| Word { text: name.to_owned(), span: param.value.span }).collect()
+}

@@ -1,0 +1,273 @@
+//! GameSpace: a game whose parameters have names, which stand for values of a ParameterSet (`spec/01` §1.11).
+
+use super::Policy;
+use super::interactions::COMMON;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::sampler::Sampler;
+use crate::syntax::{Description, Param, ParameterLine, SpriteLine, print_bare};
+use crate::{Digest, Seed};
+use std::borrow::Cow;
+
+const KEYS: [&str; 3] = ["values", "value", "string"];
+
+/// The game with the values put in. Strictly, each parameter says which one: `value=`. The reference draws the others
+/// without a seed, a value for each place; here they are drawn from the text of the game.
+pub(super) fn settled<'a>(
+    description: &'a Description,
+    policy: Policy,
+    problems: &mut Vec<Diagnostic>,
+) -> Cow<'a, Description> {
+    if description.header.class.text != "GameSpace" {
+        return Cow::Borrowed(description);
+    }
+    let mut space = Space::default();
+    for line in &description.parameters {
+        let values = space.read(line, policy, problems);
+        // The last line of that name counts.
+        space.parameters.retain(|(name, ..)| *name != line.name.text);
+        space.parameters.push((&line.name.text, line.name.span, values));
+    }
+    space.sampler =
+        Some(Seed::from_text(&Digest::of(print_bare(description).as_bytes()).to_string()).sampler());
+    let mut game = description.clone();
+    space.sprites(&mut game.sprites);
+    for line in &mut game.interactions {
+        // addTimer hands what it does not need itself on, as it is written.
+        let own = |key: &str| COMMON.contains(&key) || ["timer", "repeating", "nextExecution"].contains(&key);
+        let timer = line.effect.text == "addTimer";
+        space.put_in(line.params.iter_mut().filter(|param| !timer || own(&param.key.text)));
+    }
+    for line in &mut game.terminations {
+        space.put_in(line.params.iter_mut());
+    }
+    for (name, span, _) in space.parameters.iter().filter(|(name, ..)| !space.used.contains(name)) {
+        let message = format!("nothing has `{name}` for a value");
+        problems.push(Diagnostic::warning("unused-parameter", *span, message).help("remove it"));
+    }
+    Cow::Owned(game)
+}
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Values {
+    /// This.
+    Int(i32),
+    Double(f64),
+    Bool(bool),
+    /// One of so many, from the first in steps.
+    Ints {
+        first: i32,
+        step: i32,
+        count: i32,
+    },
+    Doubles {
+        first: f64,
+        step: f64,
+        count: i32,
+    },
+    Bools {
+        first: bool,
+        count: i32,
+    },
+}
+
+#[derive(Default)]
+struct Space<'a> {
+    parameters: Vec<(&'a str, Span, Values)>,
+    used: Vec<&'a str>,
+    sampler: Option<Sampler>,
+}
+
+impl<'a> Space<'a> {
+    fn read(&mut self, line: &ParameterLine, policy: Policy, problems: &mut Vec<Diagnostic>) -> Values {
+        let given = |key: &str| line.params.iter().rfind(|param| param.key.text == key);
+        for param in line.params.iter().filter(|param| !KEYS.contains(&param.key.text.as_str())) {
+            let message = format!("a parameter has no `{}`", param.key.text);
+            let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
+            problems.push(problem.suggest(&param.key.text, KEYS));
+        }
+        let range = given("values").and_then(|param| range(&param.value.text));
+        let Some(range) = range else {
+            let span = given("values").map_or(line.name.span, Param::span);
+            let message = format!("`{}` needs `values=min:step:max`, or `values=True:False`", line.name.text);
+            let problem = Diagnostic::error("bad-parameter-values", span, message);
+            problems.push(problem.help("numbers, the step leading from the first to the last"));
+            return Values::Int(1);
+        };
+        let Some(value) = given("value") else {
+            if policy == Policy::Strict {
+                let message = format!("`{}` has no `value=`, so the game is not settled", line.name.text);
+                let problem = Diagnostic::error("missing-parameter", line.name.span, message);
+                problems.push(problem.help(format!("add `value={}`, or another one", range.text(0))));
+            }
+            return range;
+        };
+        let text = value.value.text.as_str();
+        let found = match range {
+            Values::Ints { .. } => text.parse().ok().map(Values::Int),
+            Values::Doubles { .. } => text.parse().ok().map(Values::Double),
+            _ => boolean(text).map(Values::Bool),
+        };
+        found.unwrap_or_else(|| {
+            let message = format!("`{text}` is no value of this kind");
+            let problem = Diagnostic::error("bad-parameter-values", value.value.span, message);
+            problems.push(problem.help(format!("write `value={}`, for example", range.text(0))));
+            range
+        })
+    }
+
+    fn sprites(&mut self, lines: &mut [SpriteLine]) {
+        for line in lines {
+            // Whether a type is a singleton is read from the text as it is written.
+            self.put_in(line.params.iter_mut().filter(|param| param.key.text != "singleton"));
+            self.sprites(&mut line.children);
+        }
+    }
+
+    fn put_in<'b>(&mut self, params: impl Iterator<Item = &'b mut Param>) {
+        for param in params {
+            let entries = param.value.text.split(',').map(|entry| self.text_of(entry));
+            let text = entries.collect::<Vec<String>>().join(",");
+            param.value.text = text;
+        }
+    }
+
+    fn text_of(&mut self, entry: &str) -> String {
+        let Some(&(name, _, values)) = self.parameters.iter().find(|(name, ..)| *name == entry) else {
+            return entry.to_owned();
+        };
+        self.used.push(name);
+        let count = values.count();
+        let drawn =
+            self.sampler.as_mut().filter(|_| count > 1).map_or(0, |sampler| sampler.below(count as usize));
+        values.text(drawn as i32)
+    }
+}
+
+impl Values {
+    fn count(self) -> i32 {
+        match self {
+            Values::Ints { count, .. } | Values::Doubles { count, .. } | Values::Bools { count, .. } => count,
+            _ => 1,
+        }
+    }
+
+    /// The text of a value, the first one being 0.
+    fn text(self, at: i32) -> String {
+        match self {
+            Values::Int(value) => value.to_string(),
+            Values::Double(value) => format!("{value:?}"),
+            Values::Bool(value) => value.to_string(),
+            Values::Ints { first, step, .. } => first.wrapping_add(step.wrapping_mul(at)).to_string(),
+            Values::Doubles { first, step, .. } => format!("{:?}", first + f64::from(at) * step),
+            Values::Bools { first, .. } => (first ^ (at == 1)).to_string(),
+        }
+    }
+}
+
+/// `min:step:max` of whole numbers, of numbers if one has a point, or two truth values.
+fn range(text: &str) -> Option<Values> {
+    let parts: Vec<&str> = text.split(':').collect();
+    let range = match parts[..] {
+        [first, last] => {
+            let (first, last) = (boolean(first)?, boolean(last)?);
+            Values::Bools { first, count: if first == last { 1 } else { 2 } }
+        }
+        [first, step, last] if text.contains('.') => {
+            let (first, step, last): (f64, f64, f64) =
+                (first.parse().ok()?, step.parse().ok()?, last.parse().ok()?);
+            Values::Doubles { first, step, count: (((last - first) / step) as i32).saturating_add(1) }
+        }
+        [first, step, last] => {
+            let (first, step, last): (i32, i32, i32) =
+                (first.parse().ok()?, step.parse().ok()?, last.parse().ok()?);
+            let steps = last.wrapping_sub(first).checked_div(step)?;
+            Values::Ints { first, step, count: steps.saturating_add(1) }
+        }
+        _ => return None,
+    };
+    (range.count() > 0).then_some(range)
+}
+
+fn boolean(text: &str) -> Option<bool> {
+    let is = |word: &str| text.eq_ignore_ascii_case(word);
+    (is("true") || is("false")).then_some(is("true"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Game;
+    use crate::syntax::parse;
+
+    const GAME: &str = "GameSpace\n  ParameterSet\n    SPEED > values=0.1:0.3:1.0 value=0.4\n    LIMIT > values=2:3:9 value=5\n    WIN > values=True:False value=TRUE\n  SpriteSet\n    gold > Resource limit=LIMIT singleton=WIN\n    avatar > MovingAvatar speed=SPEED\n  LevelMapping\n    g > gold\n  InteractionSet\n    gold avatar > collectResource scoreChange=LIMIT,1\n    avatar wall > addTimer timer=LIMIT ftype=killAll stype=gold scoreChange=LIMIT\n  TerminationSet\n    SpriteCounter stype=gold win=WIN\n    Timeout limit=LIMIT win=False\n";
+
+    fn settle(source: &str, policy: Policy) -> (Description, Vec<&'static str>) {
+        let (description, problems) = parse(source);
+        assert_eq!(problems, []);
+        let mut problems = Vec::new();
+        let game = settled(&description, policy, &mut problems).into_owned();
+        (game, problems.iter().map(|problem| problem.code).collect())
+    }
+
+    fn values(params: &[Param]) -> Vec<&str> {
+        params.iter().map(|param| param.value.text.as_str()).collect()
+    }
+
+    #[test]
+    fn names_stand_for_values() {
+        let (game, problems) = settle(GAME, Policy::Strict);
+        assert_eq!(problems, [] as [&str; 0]);
+        assert_eq!(values(&game.sprites[0].params), ["5", "WIN"], "singleton is read as written");
+        assert_eq!(values(&game.sprites[1].params), ["0.4"]);
+        assert_eq!(values(&game.interactions[0].params), ["5,1"]);
+        assert_eq!(values(&game.interactions[1].params), ["5", "killAll", "gold", "5"]);
+        assert_eq!(values(&game.terminations[0].params), ["gold", "true"]);
+        let planned = GAME.replace("stype=gold scoreChange", "stype=LIMIT scoreChange");
+        assert_eq!(values(&settle(&planned, Policy::Strict).0.interactions[1].params)[2], "LIMIT");
+    }
+
+    #[test]
+    fn a_game_space_plays_and_prints() {
+        let source = GAME.replace(" singleton=WIN", "");
+        let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}"));
+        let text = crate::syntax::print(&parse(&source).0);
+        assert!(text.contains("    ParameterSet\n        SPEED > values=0.1:0.3:1.0 value=0.4\n"), "{text}");
+        assert_eq!(Game::from_source(&text).unwrap().digest(), game.digest());
+        let again = crate::syntax::print(game.description());
+        assert_eq!(Game::from_source(&again).unwrap().digest(), game.digest());
+    }
+
+    #[test]
+    fn a_value_that_is_not_given_is_drawn_or_asked_for() {
+        let source = GAME.replace("values=2:3:9 value=5", "values=2:3:9");
+        assert_eq!(settle(&source, Policy::Strict).1, ["missing-parameter"]);
+        let (game, problems) = settle(&source, Policy::Reference);
+        assert_eq!(problems, [] as [&str; 0]);
+        let drawn = &game.sprites[0].params[0].value.text;
+        assert!(["2", "5", "8"].contains(&drawn.as_str()), "{drawn}");
+        assert_eq!(settle(&source, Policy::Reference).0, game, "and always the same");
+    }
+
+    #[test]
+    fn ranges() {
+        assert_eq!(range("1:2:6"), Some(Values::Ints { first: 1, step: 2, count: 3 }));
+        assert_eq!(range("0.5:0.25:1").map(Values::count), Some(3));
+        assert_eq!(range("true:False"), Some(Values::Bools { first: true, count: 2 }));
+        for bad in ["", "1", "1:2", "1:0:5", "5:1:1", "a:b:c", "1:2:3:4", "1.0:0:5"] {
+            let codes = settle(&GAME.replace("values=2:3:9", &format!("values={bad}x")), Policy::Strict).1;
+            assert_eq!(codes, ["bad-parameter-values"], "{bad}");
+        }
+        assert_eq!(range("1:0:5"), None);
+        assert_eq!(range("5:1:1"), None);
+    }
+
+    #[test]
+    fn mistakes() {
+        let codes = |from: &str, to: &str| settle(&GAME.replace(from, to), Policy::Strict).1;
+        assert_eq!(codes("value=5", "value=five"), ["bad-parameter-values"]);
+        assert_eq!(codes("value=5", "value=5 vlaue=3"), ["unknown-parameter"]);
+        assert_eq!(codes("speed=SPEED", "speed=1"), ["unused-parameter"]);
+        assert!(Game::from_source(&GAME.replace("GameSpace", "BasicGame")).is_err());
+    }
+}
