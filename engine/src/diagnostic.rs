@@ -3,6 +3,9 @@
 use serde::Serialize;
 use std::fmt;
 
+/// Problems of a file that are reported before the rest is summed up in one.
+pub(crate) const MAX_PROBLEMS: usize = 100;
+
 /// A range of bytes in a source text. The default span is "nowhere": made, not read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize)]
 pub struct Span {
@@ -77,15 +80,32 @@ impl Diagnostic {
     }
 }
 
-/// The candidate that `wrong` most likely stands for.
+/// The candidate that `wrong` most likely stands for: with the same words in another order, or few letters off.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let key = wrong.to_lowercase();
+    let (key, parts) = (wrong.to_lowercase(), words(wrong));
+    let distance = |name: &str| match parts.len() > 1 && parts == words(name) {
+        true => 0,
+        false => strsim::damerau_levenshtein(&key, &name.to_lowercase()),
+    };
     candidates
         .into_iter()
-        .map(|name| (strsim::damerau_levenshtein(&key, &name.to_lowercase()), name))
+        .map(|name| (distance(name), name))
         .filter(|&(distance, name)| distance <= 1.max(name.chars().count().min(key.chars().count()) / 3))
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, name)| name)
+}
+
+/// The words of a name like `scoreChange`, sorted.
+fn words(name: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for c in name.chars() {
+        match words.last_mut() {
+            Some(word) if !c.is_uppercase() => word.push(c),
+            _ => words.push(c.to_lowercase().collect()),
+        }
+    }
+    words.sort_unstable();
+    words
 }
 
 /// All problems of a file; at least one is an error.
@@ -98,6 +118,18 @@ impl Diagnostics {
         list.sort_by(|a, b| (a.span, a.code).cmp(&(b.span, b.code)));
         list.dedup();
         Diagnostics(list)
+    }
+
+    /// The first [`MAX_PROBLEMS`], and how many more there are; `end` is the end of the text.
+    pub(crate) fn shortened(mut self, end: usize) -> Diagnostics {
+        let Some(rest) = self.0.len().checked_sub(MAX_PROBLEMS).filter(|&rest| rest > 0) else { return self };
+        let severity = self.0.iter().map(|problem| problem.severity).min().unwrap_or(Severity::Error);
+        self.0.truncate(MAX_PROBLEMS);
+        let are = if rest == 1 { "problem is" } else { "problems are" };
+        let message = format!("{rest} more {are} not shown");
+        let more = Diagnostic::error("too-many-problems", Span::new(end, end), message);
+        self.0.push(Diagnostic { severity, ..more.help("repair those above first") });
+        self
     }
 
     /// Whether `list` holds an error.
@@ -129,6 +161,12 @@ pub fn line_and_column(source: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
+/// Where the line of byte `offset` starts.
+pub(crate) fn line_start(source: &str, offset: usize) -> usize {
+    let before = &source.as_bytes()[..offset.min(source.len())];
+    before.iter().rposition(|byte| b"\n\r".contains(byte)).map_or(0, |newline| newline + 1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -139,6 +177,7 @@ mod tests {
         assert_eq!(nearest("alein", names), Some("alien"));
         assert_eq!(nearest("Avatar", names), Some("avatar"));
         assert_eq!(nearest("spaceship", names), None);
+        assert_eq!(nearest("changeScore", ["cooldown", "scoreChange"]), Some("scoreChange"));
     }
 
     #[test]

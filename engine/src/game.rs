@@ -1,6 +1,5 @@
 //! A compiled game: immutable, valid, cheap to clone.
 
-use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
@@ -8,6 +7,7 @@ use crate::ontology::terminations::Termination;
 use crate::ontology::traits::Traits;
 use crate::state::{State, memory};
 use crate::syntax::Description;
+use crate::{Digest, causes};
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 use std::fmt;
@@ -328,21 +328,18 @@ impl Game {
     /// # Errors
     /// All problems of the text, sorted by place.
     pub fn from_source(source: &str) -> Result<Game, Diagnostics> {
-        let (description, problems) = crate::syntax::parse(source);
-        if Diagnostics::has_errors(&problems) {
+        let (description, Diagnostics(read)) = crate::syntax::parse_all(source);
+        match crate::compile::compile(&description) {
+            Ok(mut rules) if !Diagnostics::has_errors(&read) => {
+                rules.warnings = causes::told(read, rules.warnings, source).0;
+                Ok(Game(Arc::new(rules)))
+            }
             // What does compile may have problems too; one run should show them all.
-            let more = Game::compile(&description).err().map_or(Vec::new(), |more| more.0);
-            // What could not be read may have declared what is missing then.
-            let unread = ["missing-section", "missing-arrow", "stray-line", "bad-line", "too-deep"];
-            let unread = problems.iter().any(|problem| unread.contains(&problem.code));
-            let hidden =
-                |problem: &Diagnostic| problem.code == "no-win" || unread && problem.code == "unknown-sprite";
-            let more = more.into_iter().filter(|problem| !hidden(problem));
-            return Err(Diagnostics::sorted(problems.into_iter().chain(more).collect()));
+            compiled => {
+                let compiled = compiled.err().map_or(Vec::new(), |problems| problems.0);
+                Err(causes::told(read, compiled, source))
+            }
         }
-        let mut rules = crate::compile::compile(&description)?;
-        rules.warnings = Diagnostics::sorted(problems.into_iter().chain(rules.warnings).collect()).0;
-        Ok(Game(Arc::new(rules)))
     }
 
     /// BLAKE3 of the canonical print without comments.

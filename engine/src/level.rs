@@ -3,6 +3,7 @@
 use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::game::{Game, SpriteType};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Columns or rows at most.
@@ -15,9 +16,6 @@ pub const MAX_SPRITES: usize = 10_000;
 const MAX_ATTEMPTS: usize = 1 << 20;
 /// Bytes of level text that are read.
 pub const MAX_LEVEL_TEXT: usize = 1 << 18;
-/// Problems of one kind that are reported one by one.
-const MAX_REPEATS: usize = 10;
-
 /// In levels that are loaded as the reference does: a character without a mapping.
 const UNMAPPED: u8 = 0;
 
@@ -119,6 +117,7 @@ impl Game {
         for (start, line) in &lines {
             reader.row(*start, line, columns, &mut cells);
         }
+        reader.tell_ragged(&lines, columns);
         reader.finish(text, columns, rows, cells)
     }
 }
@@ -134,13 +133,6 @@ struct LevelReader<'a> {
 
 impl LevelReader<'_> {
     fn row(&mut self, start: usize, line: &str, columns: usize, cells: &mut Vec<u8>) {
-        let length = line.chars().count();
-        if length != columns {
-            let message = format!("this row has {length} characters, the first one has {columns}");
-            let help = if length < columns { "the rest is taken as blank" } else { "the rest is cut off" };
-            let span = Span::new(start, start + line.len());
-            self.problem(Diagnostic::warning("ragged-level", span, message).help(help));
-        }
         let mut width = 0;
         for (at, symbol) in line.char_indices().take(columns) {
             width += 1;
@@ -162,7 +154,7 @@ impl LevelReader<'_> {
         }
         if rules.unusable.contains(&symbol) {
             let message = format!("`{}` stands for a sprite that is not declared", symbol.escape_default());
-            self.problem(
+            self.problems.push(
                 Diagnostic::error("unknown-sprite", span, message).help("the reference engine dies of it"),
             );
             return UNMAPPED;
@@ -177,28 +169,73 @@ impl LevelReader<'_> {
         code
     }
 
-    /// Characters without a mapping, each with the one that was most likely meant.
-    fn tell_undefined(&mut self, columns: usize, cells: &[u8]) {
+    /// Rows of another length than the first one; or that one, if all others are as long as each other.
+    fn tell_ragged(&mut self, lines: &[(usize, &str)], columns: usize) {
+        let length = |line: &str| line.chars().count();
+        let mut others = lines[1..].iter().map(|(_, line)| length(line));
+        let second = others.next().filter(|&second| second != columns && lines.len() > 2);
+        if let Some(second) = second.filter(|&second| others.all(|other| other == second)) {
+            let span = Span::new(lines[0].0, lines[0].0 + lines[0].1.len());
+            let message = format!("the first row has {columns} characters, all others have {second}");
+            let others = if columns < second { "cut off" } else { "filled up with blanks" };
+            let help = format!(
+                "the level is as wide as its first row, so the others are {others}: make it as long as they are"
+            );
+            self.problems.push(Diagnostic::warning("ragged-level", span, message).help(help));
+            return;
+        }
+        for &(start, line) in lines.iter().filter(|(_, line)| length(line) != columns) {
+            let message = format!("this row has {} characters, the first one has {columns}", length(line));
+            // What is cut off, or the row that is too short.
+            let (from, help) = match line.char_indices().nth(columns) {
+                Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first one"),
+                None => (0, "the rest is taken as blank: fill the row up, with blanks if they are meant"),
+            };
+            let span = Span::new(start + from, start + line.len());
+            self.problems.push(Diagnostic::warning("ragged-level", span, message).help(help));
+        }
+    }
+
+    /// Characters without a mapping, each with the one that was most likely meant. Whether that is the missing avatar.
+    fn tell_undefined(&mut self, columns: usize, cells: &[u8]) -> bool {
         let mapping = &self.game.0.description.mapping;
         let unused: Vec<char> =
             mapping.iter().map(|line| line.symbol).filter(|&c| !cells.contains(&(c as u8))).collect();
         let undefined = std::mem::take(&mut self.undefined);
-        let same = undefined.iter().all(|&(_, symbol, _)| symbol == undefined[0].1);
-        for &(at, symbol, span) in &undefined {
+        let mut counts: BTreeMap<char, usize> = BTreeMap::new();
+        undefined.iter().for_each(|(_, symbol, _)| *counts.entry(*symbol).or_default() += 1);
+        let kinds = counts.len();
+        let mut avatar_told = false;
+        let avatar = self.avatar_symbol().filter(|_| self.avatars.is_empty() && undefined.len() == 1);
+        for (at, symbol, span) in undefined {
+            // Each is told of where it stands first.
+            let Some(count) = counts.remove(&symbol) else { continue };
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
             let other_case = mapping.iter().map(|line| line.symbol).find(|&c| swapped.contains(c));
-            let avatar = self.avatar_symbol().filter(|_| self.avatars.is_empty() && undefined.len() == 1);
-            let help = match (other_case.or(avatar), &unused[..], around(at, columns, cells)) {
+            let near = around(at, columns, cells).filter(|_| count == 1);
+            avatar_told |= other_case.is_none() && avatar.is_some();
+            let shown = symbol.escape_default();
+            let help = match (other_case.or(avatar), &unused[..], near) {
                 (Some(meant), ..) => format!("did you mean `{meant}`?"),
-                (None, [unused], _) if same && undefined.len() > 1 => format!(
-                    "did you mean `{unused}`, which this level never uses? or is `{symbol}` meant in the LevelMapping?"
+                (None, [unused], _) if kinds == 1 && count > 1 => format!(
+                    "did you mean `{unused}`, which this level never uses? or is `{shown}` meant in the LevelMapping?"
                 ),
                 (None, _, Some(near)) => format!("did you mean `{near}`, as around it?"),
-                _ => "add a line for it to the LevelMapping, or use a character that is there".to_owned(),
+                _ if symbol.is_ascii_graphic() && symbol != '#' => {
+                    format!("add a line `{shown} > …` to the LevelMapping, or use a character that is there")
+                }
+                _ => "use a character that is in the LevelMapping".to_owned(),
             };
-            let message = format!("`{}` is not in the LevelMapping", symbol.escape_default());
-            self.problem(Diagnostic::error("undefined-character", span, message).help(help));
+            let message = match count {
+                _ if symbol == '#' => {
+                    "`#` is not in the LevelMapping, and cannot be: it starts a comment".to_owned()
+                }
+                1 => format!("`{shown}` is not in the LevelMapping"),
+                _ => format!("`{shown}` is not in the LevelMapping, and stands {count} times in the level"),
+            };
+            self.problems.push(Diagnostic::error("undefined-character", span, message).help(help));
         }
+        avatar_told
     }
 
     /// The first character of the LevelMapping that places an avatar.
@@ -211,13 +248,6 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
-    fn problem(&mut self, problem: Diagnostic) {
-        let same = self.problems.iter().filter(|other| other.code == problem.code).count();
-        if same < MAX_REPEATS {
-            self.problems.push(problem);
-        }
-    }
-
     fn finish(
         mut self,
         text: &str,
@@ -225,21 +255,20 @@ impl LevelReader<'_> {
         rows: usize,
         cells: Vec<u8>,
     ) -> Result<Level, Diagnostics> {
-        if !self.game.0.as_reference {
-            self.tell_undefined(columns, &cells);
-        }
+        let avatar_told = !self.game.0.as_reference && self.tell_undefined(columns, &cells);
         // The reference refuses the surplus, with a message each.
         let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
         if self.sprites > most {
             let message = format!("the level places {} sprites; the limit is {most}", self.sprites);
-            self.problem(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
+            self.problems
+                .push(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
         }
         if let [_, extra, ..] = self.avatars[..] {
             let message = format!("the level places {} avatars", self.avatars.len());
             let problem = Diagnostic::error("extra-avatars", extra, message).label("not the first one");
-            self.problem(problem.help("keep one; the reference engine would remove all but the first"));
+            self.problems.push(problem.help("keep one; the reference engine would remove all but the first"));
         }
-        if self.avatars.is_empty() {
+        if self.avatars.is_empty() && !avatar_told {
             let end = text.trim_end().len();
             let help = match self.avatar_symbol() {
                 Some(symbol) => format!("put `{symbol}` where it starts"),
@@ -247,7 +276,7 @@ impl LevelReader<'_> {
             };
             let problem =
                 Diagnostic::error("no-avatar", Span::new(0, end.min(1)), "the level places no avatar");
-            self.problem(problem.help(help));
+            self.problems.push(problem.help(help));
         }
         let mut messages = 0;
         if self.game.0.as_reference {
@@ -258,7 +287,7 @@ impl LevelReader<'_> {
         if !self.game.0.as_reference && !Diagnostics::has_errors(&self.problems) {
             self.problems.extend(crate::lint::over_at_start(self.game, &cells));
         }
-        let problems = Diagnostics::sorted(self.problems);
+        let problems = Diagnostics::sorted(self.problems).shortened(text.len());
         if Diagnostics::has_errors(&problems.0) {
             return Err(problems);
         }
@@ -320,6 +349,7 @@ mod tests {
         check("wAg\r\nwww\r\n", Ok((3, 2)));
         check("wAg\nw\n", Ok((3, 2)));
         check("wAg\n\n", Ok((3, 2)));
+        check("w@g\n", Err(&["undefined-character"]));
         check("wAG\n", Err(&["undefined-character"]));
         check("wgw\n", Err(&["no-avatar"]));
         check("AgA\n", Err(&["extra-avatars"]));
@@ -327,6 +357,20 @@ mod tests {
         check(&"w".repeat(600), Err(&["too-large"]));
         check(&"x".repeat(MAX_LEVEL_TEXT + 1), Err(&["too-large"]));
         check("Aé\u{0}\n", Err(&["undefined-character", "undefined-character"]));
+        check("Axxx\nxxxx\n", Err(&["undefined-character"]));
+    }
+
+    #[test]
+    fn rows_of_another_length() {
+        let game = Game::from_source(GAME).unwrap();
+        let places = |text: &str| -> Vec<(usize, usize)> {
+            let level = game.level(text).unwrap();
+            let ragged = level.warnings().iter().filter(|warning| warning.code == "ragged-level");
+            ragged.map(|warning| (warning.span.start, warning.span.end)).collect()
+        };
+        assert_eq!(places("wAg\nwwww\nw\n"), [(7, 8), (9, 10)]);
+        // The first row is the odd one.
+        assert_eq!(places("wAg\nwwww\nwwww\n"), [(0, 3)]);
     }
 
     #[test]

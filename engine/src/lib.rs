@@ -27,6 +27,7 @@
 //! ```
 
 pub mod analysis;
+mod causes;
 mod chance;
 mod compile;
 pub mod describe;

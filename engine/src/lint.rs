@@ -7,7 +7,7 @@ use crate::game::{Game, SpriteType};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::terminations::Condition;
 use crate::step::MAX_TICKS;
-use crate::syntax::Param;
+use crate::syntax::{Param, TerminationLine};
 
 /// All warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].
 pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
@@ -66,6 +66,12 @@ pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
         }
     }
     problems
+}
+
+/// Where a termination says how many, or else its class.
+fn limit_of(line: &TerminationLine) -> Span {
+    let limit = line.params.iter().rfind(|param| param.key.text == "limit");
+    limit.map_or(line.class.span, Param::span)
 }
 
 struct Linter<'a> {
@@ -188,7 +194,7 @@ impl Linter<'_> {
                 Condition::Timeout { limit } => {
                     if *limit > MAX_TICKS {
                         let message = format!("an episode has {MAX_TICKS} ticks at most: this never happens");
-                        let problem = Diagnostic::warning("never-ends", line.class.span, message);
+                        let problem = Diagnostic::warning("never-ends", limit_of(line), message);
                         problems.push(problem.help(format!("write a limit below {MAX_TICKS}")));
                     }
                     *limit <= 0
@@ -197,8 +203,12 @@ impl Linter<'_> {
             };
             if at_once && (!stoppable || matches!(end.condition, Condition::Timeout { .. })) {
                 let message = "this holds at the start of every level: the game is over in its first tick";
-                let problem = Diagnostic::warning("ends-at-once", line.class.span, message);
-                problems.push(problem.help("let levels place what it counts, or set another `limit=`"));
+                let problem = Diagnostic::warning("ends-at-once", limit_of(line), message);
+                problems.push(problem.help(match (&end.condition, limit_of(line) == line.class.span) {
+                    (Condition::Timeout { .. }, true) => "add `limit=` and a number of ticks",
+                    (Condition::Timeout { .. }, false) => "set a `limit=` of some ticks",
+                    _ => "let levels place what it counts, or set another `limit=`",
+                }));
             }
         }
         if !lines.is_empty() && all.iter().all(|end| end.win) {
@@ -261,7 +271,7 @@ impl Linter<'_> {
             let lines = self.game.description().sprite_lines();
             let Some((_, line)) = lines.iter().find(|(_, line)| line.name.text == name) else { return };
             let message =
-                format!("`{name}` stands before every other sprite, `wall` included: players do not find it");
+                format!("`{name}` stands before every other sprite, `wall` included: no player controls it");
             let problem = Diagnostic::warning("lost-avatar", line.name.span, message);
             problems.push(problem.help(format!("declare another sprite, such as `wall`, before `{name}`")));
         }

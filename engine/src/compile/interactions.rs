@@ -2,7 +2,7 @@
 
 use super::params::{Expected, Value, convert, wrong_type};
 use super::{MAX_PASSES, Names, Policy, Setting};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Counting, EffectInfo, Pass, SpriteType, Timed};
 use crate::ontology::effects::{self, Arguments, Effect, Moves, Undeclared};
 use crate::syntax::{Description, InteractionLine, Param, Word};
@@ -56,7 +56,7 @@ pub(super) fn program(
         let planned = reader.planned.take();
         problems.append(&mut reader.problems);
         if line.second.is_empty() {
-            let message = "an interaction needs a partner before the `>`";
+            let message = format!("`{}` has no partner", line.first.text);
             problems.push(Diagnostic::error("bad-interaction", line.first.span, message));
         }
         let first = partner(&line.first, names, problems);
@@ -99,8 +99,9 @@ pub(super) fn program(
                 }
                 (Partner::Unknown | Partner::Clock, _) | (_, Partner::Unknown | Partner::Clock) => {}
                 (Partner::Edge, Partner::Edge) => {
-                    let message = "the edge of the screen has no edge: one of the two is a sprite";
-                    problems.push(Diagnostic::error("bad-interaction", word.span, message));
+                    let message = "the edge of the screen does not meet itself";
+                    let problem = Diagnostic::error("bad-interaction", word.span, message);
+                    problems.push(problem.help("name a sprite before it: `sprite EOS > …`"));
                 }
             }
         }
@@ -180,7 +181,13 @@ pub(super) fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnost
     if word.text.eq_ignore_ascii_case("TIME") {
         return Partner::Clock;
     }
-    problems.push(names.unknown(word, &["EOS", "TIME"]));
+    let problem = names.unknown(word, &["EOS", "TIME"]);
+    problems.push(match word.text.split_once(',') {
+        Some((one, _)) if names.find(one).is_some() => {
+            problem.help("names stand apart with a blank between them: one before, partners after")
+        }
+        _ => problem,
+    });
     Partner::Unknown
 }
 
@@ -230,6 +237,7 @@ impl<'a> Reader<'a> {
         let Some(effect) = effect else {
             let message = format!("no effect named `{name}`");
             let problem = Diagnostic::error("unknown-effect", self.line.effect.span, message);
+            let problem = problem.help("docs/ontology/effects has a page for each effect");
             self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
             return None;
         };
@@ -330,9 +338,11 @@ impl<'a> Reader<'a> {
         let first_due = if self.int("nextExecution", -1) == -1 { -1 } else { timer };
         let endless = repeating && timer <= 0;
         if endless && (self.has_clock() || self.line.effect.text == "addTimer") {
-            let message = "a repeating effect needs `timer=`, a number of ticks above 0";
-            let problem = Diagnostic::error("endless-timer", self.line.effect.span, message);
-            self.problems.push(problem.help("the reference engine would never return"));
+            let span = self.param("timer").map_or(self.line.effect.span, Param::span);
+            let message = "an effect that repeats needs a `timer=` above 0, or its tick never ends";
+            let problem = Diagnostic::error("endless-timer", span, message);
+            self.problems
+                .push(problem.help("write `timer=` and the number of ticks between two of its runs"));
         }
         let (effect, wrapper, target, score_change, apply_score, line) = (0, 0, None, 0, true, 0);
         let first_due = Some(first_due);
@@ -361,6 +371,11 @@ impl<'a> Reader<'a> {
             let message = format!("`{name}` has no parameter `{key}`");
             let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
             let known = self.used.clone();
+            let own: Vec<&str> = known.iter().filter(|known| !COMMON.contains(known)).copied().collect();
+            let problem = problem.help(match own[..] {
+                [] => format!("remove it: `{name}` has no parameters of its own"),
+                _ => format!("remove it, or write one of its own: {}", own.join(", ")),
+            });
             self.problems.push(problem.suggest(key, known));
         }
     }
@@ -510,8 +525,13 @@ impl Arguments for Reader<'_> {
             self.problems.push(wrong_type(param, Expected::Text));
             return Vec::new();
         };
-        let word = |name: &str| Word { text: name.to_owned(), span: param.value.span };
-        text.split(',').filter_map(|name| self.names.resolve(&word(name), &mut self.problems)).collect()
+        let mut start = param.value.span.start;
+        let entries = text.split(',').map(|name| {
+            let span = Span::new(start, start + name.len());
+            start = span.end + 1;
+            Word { text: name.to_owned(), span }
+        });
+        entries.filter_map(|word| self.names.resolve(&word, &mut self.problems)).collect()
     }
 
     fn keyword(&mut self, key: &'static str) -> u16 {
@@ -528,6 +548,7 @@ impl Arguments for Reader<'_> {
             || {
                 let message = format!("no effect named `{name}`");
                 let problem = Diagnostic::error("unknown-effect", param.value.span, message);
+                let problem = problem.help("docs/ontology/effects has a page for each effect");
                 self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
                 NO_KEYWORD
             },
@@ -543,7 +564,8 @@ impl Arguments for Reader<'_> {
         };
         if name == "addTimer" {
             let span = self.param("ftype").map(Param::span).unwrap_or_default();
-            self.fail(Diagnostic::error("bad-parameter", span, "addTimer cannot plan itself"));
+            let problem = Diagnostic::error("bad-parameter", span, "addTimer cannot plan itself");
+            self.fail(problem.help("name another effect"));
             return 0;
         }
         // The line as it would be for the planned effect.

@@ -234,10 +234,16 @@ fn never_there(
         };
         if types[stype.index()].class.is_some() {
             let message =
-                format!("there is never a `{name}`: no level character places it and nothing makes it");
+                format!("`{name}` is never there: no level character places it and nothing makes it");
             let problem = Diagnostic::warning("never-there", line.name.span, message);
-            problems
-                .push(problem.help(format!("add it to the LevelMapping, or remove `{name}` and its rules")));
+            // `wall` and `avatar` are there even if nothing declares them.
+            let undeclared = types[..2]
+                .iter()
+                .map(|info| info.name.as_str())
+                .filter(|known| !description.sprite_lines().iter().any(|(_, line)| line.name.text == *known));
+            let problem =
+                problem.help(format!("add it to the LevelMapping, or remove `{name}` and its rules"));
+            problems.push(problem.suggest(name, undeclared));
         }
     }
 }
@@ -264,9 +270,9 @@ fn mapping(
     let mut seen = Vec::new();
     for line in &description.mapping {
         if seen.contains(&line.symbol) {
-            let message = format!("`{}` is mapped twice; the last line counts", line.symbol);
+            let message = format!("`{}` is mapped twice", line.symbol);
             let problem = Diagnostic::error("duplicate-mapping", line.span, message);
-            problems.push(problem.help("remove one of the two lines"));
+            problems.push(problem.help("remove one of the two lines, or give it another character"));
         }
         seen.push(line.symbol);
         unusable.retain(|&symbol| symbol != line.symbol);
@@ -295,7 +301,10 @@ struct Names<'a> {
     types: &'a [TypeInfo],
 }
 
-impl Names<'_> {
+/// Subtypes that a message names at most.
+const SUBTYPES_SHOWN: usize = 8;
+
+impl<'a> Names<'a> {
     fn find(self, name: &str) -> Option<SpriteType> {
         self.types.iter().position(|info| info.name == name).map(|at| SpriteType(at as u16))
     }
@@ -336,24 +345,29 @@ impl Names<'_> {
         }
     }
 
+    /// The types without subtypes of their own that are declared below one, those without a class aside.
+    fn subtypes(self, stype: SpriteType) -> Vec<&'a str> {
+        let leaves = self.types.iter().filter(|info| info.leaf && info.class.is_some());
+        let below = leaves.filter(|info| info.path.contains(&stype));
+        below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
+    }
+
     /// Whether sprites of the type can be made; a problem if not.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {
-            let of_it =
-                self.types.iter().filter(|other| other.path.contains(&stype) && other.class.is_some());
-            let below: Vec<&str> = of_it.map(|other| other.name.as_str()).collect();
+            let below = self.subtypes(stype);
             // Without any class below, its own line has been told of.
             if !below.is_empty() {
                 let message = format!("`{}` has no class, so there can be no such sprite", name.text);
                 let problem = Diagnostic::error("no-class", name.span, message);
                 problems.push(problem.help(format!("name one of its subtypes: {}", below.join(", "))));
             }
-        } else if !info.leaf {
+        } else if info.order.is_none() {
             let message = format!("`{}` is a parent type: its sprites are never updated", name.text);
-            problems.push(
-                Diagnostic::warning("parent-sprite", name.span, message).help("name one of its subtypes"),
-            );
+            let problem = Diagnostic::warning("parent-sprite", name.span, message);
+            let below = self.subtypes(stype).join(", ");
+            problems.push(problem.help(format!("name one of its subtypes: {below}")));
         }
         info.class.is_some()
     }
@@ -384,9 +398,9 @@ mod tests {
     #[test]
     fn sprites_that_are_never_there() {
         warnings(GAME, &[]);
-        let egg = "there is never a `egg`: no level character places it and nothing makes it";
+        let egg = "`egg` is never there: no level character places it and nothing makes it";
         warnings(&GAME.replace("    e > egg\n", ""), &[egg]);
-        let chick = "there is never a `chick`: no level character places it and nothing makes it";
+        let chick = "`chick` is never there: no level character places it and nothing makes it";
         warnings(&GAME.replace("coop > SpawnPoint stype=chick", "coop > SpawnPoint stype=egg"), &[chick]);
     }
 }

@@ -71,9 +71,9 @@ impl Expected {
 
 /// The problem of a value that a field does not take. (The reference ignores it silently.)
 pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
-    let message = format!("`{}` takes {}", param.key.text, expected.words());
-    let problem = Diagnostic::error("wrong-type", param.value.span, message).label("not that");
     let value = param.value.text.as_str();
+    let message = format!("`{}` takes {}, not `{value}`", param.key.text, expected.words());
+    let problem = Diagnostic::error("wrong-type", param.value.span, message);
     let fixed = match (expected, convert("", value)) {
         (Expected::Int, Value::Double(double)) => Some(format!("{}", double as i32)),
         (Expected::Int, _) => leading_number(value).map(str::to_owned),
@@ -153,6 +153,11 @@ const BASE: &[&str] = &[
 const BOOK_KEEPING: &[&str] =
     &["spriteID", "bucket", "bucketSharp", "name", "images", "frameRemaining", "currentFrame"];
 
+/// Whether sprites of the class have a parameter.
+pub(super) fn takes(class: SpriteClass, key: &str) -> bool {
+    BASE.contains(&key) || class.parameters().contains(&key)
+}
+
 /// Sets one parameter on the traits of a sprite type. Names of sprites (`stype`, `ammo`) are resolved by the caller.
 pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) -> Result<(), Diagnostic> {
     let key = param.key.text.as_str();
@@ -197,9 +202,9 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
             let physics = int()?;
             (traits.continuous, traits.off_grid) = (physics == 1, physics != 0);
             if !(0..=1).contains(&physics) {
-                let message = "`physicstype` takes GRID or CONT";
+                let message = format!("`physicstype` takes GRID or CONT, not `{}`", param.value.text);
                 let problem = Diagnostic::error("wrong-type", param.value.span, message);
-                return Err(problem.help("use `physicstype=GRID`"));
+                return Err(problem.help("write `physicstype=GRID`, or leave it out"));
             }
         }
         "orientation" => traits.orientation = direction()?,

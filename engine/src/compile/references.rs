@@ -59,7 +59,8 @@ pub(super) fn references(
     for (key, missing) in [(key, missing), ("resource_name", nameless)] {
         if missing && sprite.leaf && sprite.given(key).is_none() {
             let message = format!("{} `{}` needs `{key}=`, the name of a sprite", class.name(), sprite.name);
-            problems.push(Diagnostic::error("missing-parameter", sprite.span, message));
+            let problem = Diagnostic::error("missing-parameter", sprite.span, message);
+            problems.push(problem.help(format!("add `{key}=` and the name")));
         }
     }
     if shoots || produces || matches!(class, C::FlakAvatar | C::Spreader) {
@@ -95,8 +96,10 @@ impl Subject<'_> {
             return found;
         }
         if !many && text.contains(',') {
-            let message = format!("`{key}` of {} names one sprite", self.class.name());
-            problems.push(Diagnostic::error("wrong-type", param.value.span, message));
+            let message =
+                format!("`{key}` of {} takes the name of one sprite, not `{text}`", self.class.name());
+            let problem = Diagnostic::error("wrong-type", param.value.span, message);
+            problems.push(problem.help(format!("write `{key}=` and one of the names")));
             found.push(SpriteType::NONE);
             return found;
         }
@@ -104,7 +107,8 @@ impl Subject<'_> {
         let list = text.trim_end_matches(',');
         if list != text {
             let message = format!("`{key}` ends with a comma");
-            problems.push(Diagnostic::error("wrong-type", param.value.span, message).help("remove it"));
+            let commas = Span::new(param.value.span.start + list.len(), param.value.span.end);
+            problems.push(Diagnostic::error("wrong-type", commas, message).help("remove it"));
         }
         let mut start = param.value.span.start;
         for text in list.split(',').filter(|_| !list.is_empty()) {

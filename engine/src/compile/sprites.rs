@@ -1,6 +1,6 @@
 //! The SpriteSet: registry, inheritance, update order (`spec/01` §1.6).
 
-use super::params::set_trait;
+use super::params::{set_trait, takes};
 use super::references::{Subject, references};
 use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
@@ -142,10 +142,14 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
                 let message = match own.text == class.text {
                     true => format!("`{name}` is a subtype of `{parent}` and has its class anyway"),
                     false => {
-                        format!("`{name}` is a subtype of `{parent}`: its class is {}, not this", class.text)
+                        let (class, own) = (&class.text, &own.text);
+                        format!("`{name}` is a subtype of `{parent}`: its class is {class}, not {own}")
                     }
                 };
-                let problem = Diagnostic::warning("ignored-class", own.span, message);
+                let problem = match loses(line, class) {
+                    true => Diagnostic::error("ignored-class", own.span, message),
+                    false => Diagnostic::warning("ignored-class", own.span, message),
+                };
                 let help = "remove the class; or, to make it a type of its own, indent the line less, like";
                 problems.push(problem.help(format!("{help} `{parent}`")));
             }
@@ -166,6 +170,20 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
     }
 }
 
+/// Whether a line needs the class that it names and does not get.
+fn loses(line: &SpriteLine, inherited: &Word) -> bool {
+    let Some(inherited) = SpriteClass::from_name(&inherited.text) else { return false };
+    let lost = |param: &Param| !takes(inherited, &param.key.text) && is_of_own_class(line, param);
+    let own = line.class.as_ref().and_then(|own| SpriteClass::from_name(&own.text));
+    own.is_some_and(|own| own.is_avatar() && !inherited.is_avatar()) || line.params.iter().any(lost)
+}
+
+/// Whether a parameter is one of the class that a line without subtypes names, be it overruled or not.
+fn is_of_own_class(line: &SpriteLine, param: &Param) -> bool {
+    let own = line.class.as_ref().and_then(|own| SpriteClass::from_name(&own.text));
+    line.children.is_empty() && own.is_some_and(|own| takes(own, &param.key.text))
+}
+
 fn has_class_below(line: &SpriteLine) -> bool {
     line.children.iter().any(|child| child.class.is_some() || has_class_below(child))
 }
@@ -176,7 +194,7 @@ fn duplicates(resolved: &[Resolved<'_>], problems: &mut Vec<Diagnostic>) {
         if resolved[..at].iter().any(|other| other.name == sprite.name) {
             let message = format!("`{}` is declared twice", sprite.name);
             let problem = Diagnostic::error("duplicate-sprite", line.name.span, message);
-            problems.push(problem.help("give one of the two another name"));
+            problems.push(problem.help("remove one of the two, or give it another name"));
         }
         if sprite.name.eq_ignore_ascii_case("EOS") || sprite.name.eq_ignore_ascii_case("TIME") {
             let message = format!("`{}` has a meaning of its own in interactions", sprite.name);
@@ -217,18 +235,23 @@ fn type_info(
             match set_trait(class, &mut traits, param) {
                 Err(problem) if problem.code == "unknown-parameter" => {
                     unknown_parameters += 1;
-                    rejected.problems.push(problem);
+                    // Of a class that is overruled, that has been told.
+                    if !sprite.line.is_some_and(|line| is_of_own_class(line, param)) {
+                        rejected.problems.push(problem);
+                    }
                 }
                 Err(problem) => problems.push(problem),
                 Ok(()) => rejected.taken.push(param.key.span),
             }
         }
     }
-    for factor in [traits.width_factor, traits.height_factor] {
+    for (key, factor) in [("wMult", traits.width_factor), ("hMult", traits.height_factor)] {
         if !(factor > 0.0 && factor <= f64::from(super::MAX_REACH)) {
-            let message = format!("`wMult` and `hMult` are above 0 and at most {}", super::MAX_REACH);
-            let span = sprite.line.map(|line| line.name.span).unwrap_or_default();
-            problems.push(Diagnostic::error("bad-parameter", span, message));
+            let given = sprite.params.iter().find(|param| param.key.text == key);
+            let span = given.map(|param| param.value.span).unwrap_or_default();
+            let message = format!("`{key}` is a number of cells above 0 and at most {}", super::MAX_REACH);
+            let problem = Diagnostic::error("bad-parameter", span, message);
+            problems.push(problem.help(format!("leave it out, and it is `{key}=1`")));
         }
     }
     traits.settle();
@@ -257,6 +280,7 @@ fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClas
     if found.is_none() {
         let message = format!("no sprite class named `{}`", word.text);
         let problem = Diagnostic::error("unknown-class", word.span, message);
+        let problem = problem.help("docs/ontology/sprites has a page for each class");
         problems.push(problem.suggest(&word.text, SpriteClass::ALL.iter().map(|class| class.name())));
     }
     found

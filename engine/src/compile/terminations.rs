@@ -21,8 +21,9 @@ pub(super) fn terminations(
     for line in &description.terminations {
         let mut reader = Reader { line, names, setting, problems };
         can_end = reader.flag("canEnd", can_end);
-        winnable |=
-            reader.param("win").is_some_and(|param| param.value.text.to_lowercase().starts_with("true"));
+        // What is neither true nor false has been told of, and may be meant as true.
+        let loses = |param: &Param| param.value.text.to_lowercase().starts_with("false");
+        winnable |= reader.param("win").is_some_and(|param| !loses(param));
         if let Some(termination) = reader.termination() {
             winnable |= termination.win;
             terminations.push(termination);
@@ -69,6 +70,7 @@ impl<'a> Reader<'a> {
                 let span = self.line.class.span;
                 let message = format!("no termination named `{name}`");
                 let problem = Diagnostic::error("unknown-termination", span, message);
+                let problem = problem.help(format!("terminations are {}", NAMES.join(", ")));
                 self.problems.push(problem.suggest(name, NAMES.iter().copied()));
                 return None;
             }
@@ -78,11 +80,13 @@ impl<'a> Reader<'a> {
             let key = param.key.text.as_str();
             if !common.contains(&key) && !own.contains(&key) {
                 let message = format!("{name} has no parameter `{key}`");
+                let known: Vec<&str> = common.iter().chain(own).copied().collect();
                 let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
-                self.problems.push(problem.suggest(key, common.iter().chain(own).copied()));
+                let problem = problem.help(format!("its parameters are {}", known.join(", ")));
+                self.problems.push(problem.suggest(key, known));
             }
         }
-        let limit = self.limit(name);
+        let limit = self.int("limit", 0);
         let (mut win, mut decided_by) = (self.win(), Decision::Line);
         if self.flag("count_score", false) {
             (win, decided_by) = (true, Decision::Score);
@@ -142,18 +146,6 @@ impl<'a> Reader<'a> {
 
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
-    }
-
-    fn limit(&mut self, name: &str) -> i32 {
-        if self.param("limit").is_none() {
-            if name == "Timeout" {
-                let message = "a Timeout without `limit` ends the game at once";
-                let problem = Diagnostic::warning("ends-at-once", self.line.class.span, message);
-                self.problems.push(problem.help("add `limit=` and a number of ticks"));
-            }
-            return 0;
-        }
-        self.int("limit", 0)
     }
 
     fn int(&mut self, key: &str, default: i32) -> i32 {

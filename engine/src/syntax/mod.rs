@@ -1,6 +1,7 @@
 //! Game text: layout, grammar, syntax tree, canonical print. `pest` does not leave this module.
 
 mod description;
+mod indents;
 mod layout;
 mod parse;
 mod print;
@@ -12,6 +13,6 @@ pub use description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
     TerminationLine, Trivia, Word,
 };
-pub(crate) use parse::{Literal, literal};
+pub(crate) use parse::{Literal, literal, parse_all};
 pub use parse::{MAX_SOURCE, parse, parse_as_reference};
 pub use print::{print, print_bare};

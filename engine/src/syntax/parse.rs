@@ -4,13 +4,14 @@ use super::description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
     TerminationLine, Trivia, Word,
 };
+use super::indents;
 use super::layout::{self, Line};
 use super::reference;
 use super::repair;
 use super::sections::{self, Part};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::ontology::class::SpriteClass;
-use crate::ontology::effects;
+use crate::ontology::{effects, terminations};
 use pest::Parser;
 use pest::iterators::{Pair, Pairs};
 use std::iter::Peekable;
@@ -19,8 +20,6 @@ use std::iter::Peekable;
 pub const MAX_SOURCE: usize = 1 << 20;
 /// Levels of indentation in a SpriteSet; the games of the reference have four at most.
 pub(super) const MAX_DEPTH: usize = 32;
-/// Problems reported before the rest is summed up in one line.
-const MAX_DIAGNOSTICS: usize = 100;
 
 #[derive(pest_derive::Parser)]
 #[grammar = "syntax/vgdl.pest"]
@@ -39,40 +38,42 @@ pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
 
 /// What keeps a text from being looked at as a game.
 fn unreadable(source: &str) -> Option<Diagnostic> {
-    let problem = if source.len() > MAX_SOURCE {
+    if source.len() > MAX_SOURCE {
         let message = format!("the game is {} bytes long; at most {MAX_SOURCE} are read", source.len());
-        Diagnostic::error("too-large", Span::new(0, 0), message)
-    } else {
-        let at = source.find(|c: char| c.is_control() && !"\t\n\r\u{b}\u{c}".contains(c))?;
-        let message = "the file holds a control character; VGDL is plain text";
-        Diagnostic::error("not-text", Span::new(at, at + 1), message)
-    };
-    Some(problem.help("is this a VGDL file?"))
+        let problem = Diagnostic::error("too-large", Span::new(0, 0), message);
+        return Some(problem.help("is this a VGDL file?"));
+    }
+    let is_no_text = |c: char| c.is_control() && !"\t\n\r\u{b}\u{c}".contains(c);
+    let (at, c) = source.char_indices().find(|&(_, c)| is_no_text(c))?;
+    let message = format!("the file holds the control character `{}`", c.escape_default());
+    let problem = Diagnostic::error("not-text", Span::new(at, at + c.len_utf8()), message);
+    Some(problem.help("remove it, or is this no VGDL file? VGDL is plain text"))
 }
 
 /// Reads a game file. The tree holds every line that could be read; the diagnostics, sorted by place, name the rest.
 ///
 /// Cost: linear in the text. Texts above [`MAX_SOURCE`] bytes give one diagnostic and an empty tree.
 pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
+    let (description, problems) = parse_all(source);
+    (description, problems.shortened(source.len()).0)
+}
+
+/// [`parse`] with all problems, however many there are.
+pub(crate) fn parse_all(source: &str) -> (Description, Diagnostics) {
     let mut reader = Reader::default();
     match unreadable(source) {
         Some(problem) => reader.problems.push(problem),
         None => reader.read(source),
     }
-    let mut problems = crate::diagnostic::Diagnostics::sorted(reader.problems).0;
-    if problems.len() > MAX_DIAGNOSTICS {
-        let rest = problems.len() - MAX_DIAGNOSTICS;
-        problems.truncate(MAX_DIAGNOSTICS);
-        let message = format!("{rest} more problems are not shown");
-        problems.push(Diagnostic::error("too-many-problems", Span::new(source.len(), source.len()), message));
-    }
-    (reader.description, problems)
+    (reader.description, Diagnostics::sorted(reader.problems))
 }
 
 #[derive(Default)]
 struct Reader {
     description: Description,
     problems: Vec<Diagnostic>,
+    /// The lines of the SpriteSet stand in columns; those that do not have been told of.
+    columns: bool,
 }
 
 enum Token {
@@ -83,7 +84,8 @@ enum Token {
 
 impl Reader {
     fn read(&mut self, source: &str) {
-        let (lines, tail) = layout::lines(source);
+        let (mut lines, tail) = layout::lines(source);
+        lines.retain_mut(|line| self.without_foreign_comment(line));
         self.description.tail = tail.into_iter().map(str::to_owned).collect();
         let Some((header, rest)) = lines.split_first() else {
             let problem = Diagnostic::error("empty-game", Span::new(0, 0), "the file holds no game")
@@ -118,6 +120,18 @@ impl Reader {
         }
     }
 
+    /// Cuts off what stands behind `//`, which starts a comment in other languages. Whether anything is left.
+    fn without_foreign_comment(&mut self, line: &mut Line<'_>) -> bool {
+        let starts = |at: &(usize, &str)| at.0 == 0 || line.text[..at.0].ends_with([' ', '\t']);
+        let Some((at, mark)) = line.text.match_indices("//").find(starts) else { return true };
+        let span = Span::new(line.span.start + at, line.span.start + at + mark.len());
+        let problem = Diagnostic::error("bad-comment", span, "`//` does not start a comment");
+        self.problems.push(problem.help("comments start with `#`"));
+        line.text = line.text[..at].trim_end();
+        line.span.end = line.span.start + line.text.len();
+        !line.text.is_empty()
+    }
+
     fn header(&mut self, line: &Line<'_>) {
         let mut header = Header { trivia: trivia(line), ..Header::default() };
         for token in self.tokens(line) {
@@ -126,16 +140,21 @@ impl Reader {
                 Token::Param(param) => header.params.push(param),
                 Token::Word(word) => self.stray_word(&word, "the first line takes `key=value` only"),
                 Token::Arrow(span) => {
-                    let message = "the first line takes `key=value` only";
-                    self.problems.push(Diagnostic::error("stray-word", span, message).help("remove it"));
+                    let arrow = Word { text: ">".to_owned(), span };
+                    self.stray_word(&arrow, "the first line takes `key=value` only");
                 }
             }
         }
         if !["BasicGame", "GameSpace"].contains(&header.class.text.as_str()) {
             let span = if header.class.text.is_empty() { line.span } else { header.class.span };
-            let problem = Diagnostic::error("unknown-game-class", span, "a game starts with `BasicGame`");
-            let help = "the first line that is not a comment must be `BasicGame key=value …`";
-            self.problems.push(problem.help(help));
+            let message = match header.class.text.as_str() {
+                "" => "the first line names no game class".to_owned(),
+                class => format!("`{class}` is not a game class"),
+            };
+            let problem = Diagnostic::error("unknown-game-class", span, message);
+            let problem =
+                problem.help("the first line that is not a comment must be `BasicGame key=value …`");
+            self.problems.push(problem.suggest(&header.class.text, ["BasicGame", "GameSpace"]));
         }
         self.description.header = header;
     }
@@ -145,9 +164,9 @@ impl Reader {
         let parts = sections::mended(header, lines, &mut self.problems);
         for (at, part) in parts.iter().enumerate() {
             if parts[..at].iter().any(|other| other.section == part.section) {
-                let message = format!("a second {}", part.section.name());
+                let message = format!("the game has a second {}", part.section.name());
                 let problem = Diagnostic::error("duplicate-section", part.head.span, message);
-                self.problems.push(problem.help("merge the two sections"));
+                self.problems.push(problem.help("move its lines to the first one"));
             }
         }
         let in_space = self.description.header.class.text == "GameSpace";
@@ -156,45 +175,41 @@ impl Reader {
             let problem = Diagnostic::error("stray-line", part.head.span, message);
             self.problems.push(problem.help("begin the file with `GameSpace`, or write the values out"));
         }
-        let place = |section| parts.iter().position(|part| part.section == section);
-        for section in [Section::InteractionSet, Section::TerminationSet] {
-            if let (Some(own), Some(sprites)) = (place(section), place(Section::SpriteSet))
-                && own < sprites
-            {
-                let message = format!("{} stands before the SpriteSet that it speaks of", section.name());
-                let problem = Diagnostic::error("section-order", parts[own].head.span, message);
-                self.problems
-                    .push(problem.help("put the SpriteSet first: the reference engine reads in order"));
-            }
+        let sprites = parts.iter().position(|part| part.section == Section::SpriteSet).unwrap_or(0);
+        let needs =
+            |part: &&Part<'_, '_>| matches!(part.section, Section::InteractionSet | Section::TerminationSet);
+        let early: Vec<_> = parts[..sprites].iter().filter(needs).collect();
+        if let Some(first) = early.first() {
+            let names: Vec<_> = early.iter().map(|part| part.section.name()).collect();
+            let stand = if names.len() == 1 { "stands" } else { "stand" };
+            let message = format!("{} {stand} before the SpriteSet", names.join(" and "));
+            let problem = Diagnostic::error("section-order", first.head.span, message);
+            self.problems.push(
+                problem.help("put the SpriteSet first: what it declares is not known before it is read"),
+            );
         }
         parts
     }
 
     fn body(&mut self, part: &Part<'_, '_>) {
-        let (section, head) = (part.section, part.head);
+        let section = part.section;
+        indents::outside(section, part.indent, &part.body, &mut self.problems);
         if section == Section::SpriteSet {
+            let (lines, outside): (Vec<_>, Vec<_>) =
+                part.body.iter().partition(|line| line.indent > part.indent);
+            // Read all the same, so that their names are known.
+            for line in outside {
+                let sprite = self.sprite(line);
+                self.description.sprites.extend(sprite);
+            }
+            self.columns = indents::off_grid(part.indent, &lines, &mut self.problems);
             let mut forest = Vec::new();
-            let lines = self.indented(part);
-            sections::off_grid(head.indent, &lines, &mut self.problems);
             self.sprites(&lines, &mut forest, 0);
             self.description.sprites.append(&mut forest);
             return;
         }
-        let indents = part.body.iter().map(|line| line.indent);
-        let indent = sections::usual_indent(indents.filter(|&indent| indent > head.indent));
+        indents::uneven(section, part.indent, &part.body, &mut self.problems);
         for &line in &part.body {
-            if line.indent <= head.indent {
-                self.outside(line, section);
-            } else if line.indent != indent {
-                let problem =
-                    Diagnostic::error("stray-indent", line.span, "this line is indented unlike the others")
-                        .label("the reference engine ignores such a line")
-                        .help(format!(
-                            "indent every line of {} by the same {indent} columns",
-                            section.name()
-                        ));
-                self.problems.push(problem);
-            }
             match section {
                 Section::SpriteSet => unreachable!("read above"),
                 Section::LevelMapping => self.mapping(line),
@@ -205,27 +220,9 @@ impl Reader {
         }
     }
 
-    /// The lines of a SpriteSet that are indented below its name; a problem for each other.
-    fn indented<'a, 'b>(&mut self, part: &Part<'a, 'b>) -> Vec<&'b Line<'a>> {
-        let (inside, outside): (Vec<_>, Vec<_>) =
-            part.body.iter().partition(|line| line.indent > part.head.indent);
-        for line in outside {
-            self.outside(line, part.section);
-            // Read all the same, so that its name is known.
-            let sprite = self.sprite(line);
-            self.description.sprites.extend(sprite);
-        }
-        inside
-    }
-
-    fn outside(&mut self, line: &Line<'_>, section: Section) {
-        let message = format!("this line is not indented below {}", section.name());
-        let problem = Diagnostic::error("stray-line", line.span, message);
-        self.problems.push(problem.help("indent it like the other lines of the section"));
-    }
-
-    /// A word where none belongs.
-    fn stray_word(&mut self, word: &Word, message: impl Into<String>) {
+    /// A word where none belongs; `rule` says what does.
+    fn stray_word(&mut self, word: &Word, rule: &str) {
+        let message = format!("`{}` does not belong here: {rule}", word.text);
         let problem = Diagnostic::error("stray-word", word.span, message);
         self.problems.push(match repair::parameter(&word.text) {
             Some(param) => problem.help(format!("did you mean `{param}`?")),
@@ -236,18 +233,19 @@ impl Reader {
     /// Siblings are the lines at one depth; deeper lines are children of the line above (`spec/01` §1.3).
     fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
-        let indent = sections::siblings_indent(lines);
+        let indent = indents::of_siblings(lines);
         if depth == MAX_DEPTH {
             let message = format!("sprites are nested more than {MAX_DEPTH} deep");
-            self.problems.push(Diagnostic::error("too-deep", first.span, message));
+            let problem = Diagnostic::error("too-deep", first.span, message);
+            self.problems
+                .push(problem.help("indent siblings alike: a line that is indented deeper is a subtype"));
             return;
         }
         let mut at = 0;
         while at < lines.len() {
             let line = lines[at];
             let deeper = lines[at + 1..].iter().take_while(|child| child.indent > line.indent).count();
-            let told = |problem: &Diagnostic| problem.code == "uneven-indent" && problem.span == line.span;
-            if line.indent != indent && !self.problems.iter().any(told) {
+            if line.indent != indent && !self.columns {
                 let problem = Diagnostic::warning(
                     "uneven-indent",
                     line.span,
@@ -270,56 +268,74 @@ impl Reader {
     fn sprite(&mut self, line: &Line<'_>) -> Option<SpriteLine> {
         let mut sprite = SpriteLine { trivia: trivia(line), ..SpriteLine::default() };
         let mut arrow = false;
+        let mut strays = Vec::new();
         for token in self.tokens(line) {
             match token {
                 Token::Word(word) if sprite.name.text.is_empty() && !arrow => sprite.name = word,
                 Token::Word(word) if sprite.class.is_none() && !glued(&word) => sprite.class = Some(word),
-                Token::Word(word) => {
-                    self.stray_word(&word, format!("`{}`: a sprite has one class", word.text));
-                }
+                Token::Word(word) => strays.push(word),
                 Token::Arrow(_) => arrow = true,
                 Token::Param(param) => sprite.params.push(param),
             }
         }
         if !arrow || sprite.name.text.is_empty() {
-            let fixed = self.mend_arrow(line, arrow, "a sprite line is `name > Class key=value …`");
+            let fixed =
+                self.mend_arrow(line, arrow, "a sprite is `name > Class key=value …`", "after the name");
             if let Some(name) = fixed.as_deref().and_then(|fixed| fixed.split_whitespace().next()) {
                 sprite.name.text = name.trim_end_matches('>').to_owned();
-                sprite.class = None;
             }
+            // One of the words was meant as the arrow, or holds it: of the others only a class is sure.
+            let known = |word: &Word| SpriteClass::from_name(&word.text).is_some();
+            sprite.class = sprite.class.into_iter().chain(strays.drain(..)).find(known);
+        }
+        for word in strays {
+            self.stray_word(&word, "a sprite has one class");
         }
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
 
     /// The problem of a line whose arrow is missing or something else: at that word, if there is one. What to write there.
-    fn mend_arrow(&mut self, line: &Line<'_>, has_arrow: bool, shape: &str) -> Option<String> {
+    /// `place` says where an arrow belongs.
+    fn mend_arrow(&mut self, line: &Line<'_>, has_arrow: bool, shape: &str, place: &str) -> Option<String> {
         let mut words = line.text.split([' ', '\t']).filter(|word| !word.is_empty());
         let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
         let Some((word, fixed)) = meant else {
-            let help = match has_arrow {
-                true => "put the name of the sprite before the `>`",
-                false => "put ` > ` after the name, with a blank on both sides",
+            let (message, help) = match has_arrow {
+                true => ("nothing stands before the `>`", "put the name before the `>`".to_owned()),
+                false => ("this line has no ` > `", format!("put ` > ` {place}, with a blank on both sides")),
             };
-            self.problems.push(Diagnostic::error("missing-arrow", line.span, shape).help(help));
+            let problem = Diagnostic::error("missing-arrow", line.span, format!("{message}: {shape}"));
+            self.problems.push(problem.help(help));
             return None;
         };
         let start = line.span.start + (word.as_ptr() as usize - line.text.as_ptr() as usize);
         let span = Span::new(start, start + word.len());
-        let problem = Diagnostic::error("missing-arrow", span, format!("`{word}` is no ` > `; {shape}"));
+        let problem = Diagnostic::error("missing-arrow", span, format!("`{word}` is no ` > `: {shape}"));
         self.problems.push(problem.help(format!("write ` {fixed} `, with blanks around the `>`")));
         Some(fixed)
     }
 
     fn mapping(&mut self, line: &Line<'_>) {
+        let shape = "a mapping is `c > sprite sprite …`";
         let Ok(mut pairs) = Grammar::parse(Rule::mapping, line.text) else {
-            let shape = "a mapping line is `c > sprite sprite …`";
-            if !line.text.split([' ', '\t']).any(|word| word == ">") {
-                self.mend_arrow(line, false, shape);
-            } else {
-                let problem = Diagnostic::error("bad-mapping", line.span, shape);
-                self.problems
-                    .push(problem.help("put one character before the `>`, then the names of sprites"));
+            let start = |text: &str| line.span.start + (text.as_ptr() as usize - line.text.as_ptr() as usize);
+            let mut words = line.text.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty());
+            let Some(arrow) = words.clone().find(|&word| word == ">") else {
+                self.mend_arrow(line, false, shape, "after the character");
+                return;
+            };
+            if let Some(param) = words.find(|word| word.contains('=') && start(word) > start(arrow)) {
+                let span = Span::new(start(param), start(param) + param.len());
+                self.stray_word(&Word { text: param.to_owned(), span }, shape);
+                return;
             }
+            let before = line.text[..start(arrow) - line.span.start].trim_end();
+            let (message, end) = match before {
+                "" => ("no character stands before the `>`".to_owned(), start(arrow) + 1),
+                _ => (format!("`{before}` is more than one character"), line.span.start + before.len()),
+            };
+            let problem = Diagnostic::error("bad-mapping", Span::new(line.span.start, end), message);
+            self.problems.push(problem.help("put one character before the `>`, then the names of sprites"));
             return;
         };
         let mut mapping = MappingLine { trivia: trivia(line), ..MappingLine::default() };
@@ -331,7 +347,10 @@ impl Reader {
                     mapping.symbol = characters.next().expect("a symbol is not empty");
                     if characters.next().is_some() || !mapping.symbol.is_ascii_graphic() {
                         let message = format!("`{}` is not one printable ASCII character", pair.as_str());
-                        self.problems.push(Diagnostic::error("bad-mapping", mapping.span, message));
+                        let problem = Diagnostic::error("bad-mapping", mapping.span, message);
+                        self.problems.push(
+                            problem.help("put one character before the `>`: a letter, a digit or a sign"),
+                        );
                     }
                 }
                 Rule::word => mapping.names.push(word(line, &pair)),
@@ -339,8 +358,11 @@ impl Reader {
             }
         }
         if mapping.names.is_empty() {
-            let problem = Diagnostic::warning("empty-mapping", line.span, "this character places nothing");
-            self.problems.push(problem.help("name at least one sprite after `>`"));
+            let message = format!("`{}` places nothing", mapping.symbol);
+            let problem = Diagnostic::warning("empty-mapping", line.span, message);
+            self.problems.push(
+                problem.help("name at least one sprite after `>`; for an empty cell levels have the blank"),
+            );
         }
         self.description.mapping.push(mapping);
     }
@@ -349,20 +371,20 @@ impl Reader {
         let mut names = Vec::new();
         let mut after = Vec::new();
         let mut interaction = InteractionLine { trivia: trivia(line), ..InteractionLine::default() };
-        let mut arrow = false;
+        let mut arrow = None;
         for token in self.tokens(line) {
             match token {
-                Token::Arrow(_) => arrow = true,
-                Token::Word(word) if arrow => after.push(word),
+                Token::Arrow(span) => arrow = Some(span),
+                Token::Word(word) if arrow.is_some() => after.push(word),
                 Token::Word(word) => names.push(word),
                 Token::Param(param) => interaction.params.push(param),
             }
         }
-        let shape = "an interaction is `sprite partner … > effect key=value …`";
-        if !arrow {
-            self.mend_arrow(line, false, shape);
+        let Some(arrow) = arrow else {
+            let shape = "an interaction is `sprite partner … > effect key=value …`";
+            self.mend_arrow(line, false, shape, "before the effect");
             return;
-        }
+        };
         let is_effect = |word: &Word| effects::NAMES.contains(&word.text.as_str());
         if let ([_, ..], [effect, extra, ..]) = (&names[..], &after[..]) {
             let extra = if is_effect(effect) || !is_effect(extra) { extra } else { effect }.clone();
@@ -370,12 +392,17 @@ impl Reader {
             after.retain(|effect| *effect != extra);
             after.truncate(1);
         }
-        if names.len() < 2 || after.is_empty() {
-            let help = match names.len() {
-                0 | 1 => "name two sprites before `>`: the one acted upon, then its partner (or EOS)",
-                _ => "name the effect after `>`",
-            };
-            self.problems.push(Diagnostic::error("bad-interaction", line.span, shape).help(help));
+        let partners = "name two sprites before `>`: the one acted upon, then its partner (or EOS)";
+        let fault = match (&names[..], &after[..]) {
+            ([], _) => Some((arrow, "no sprites stand before the `>`".to_owned(), partners)),
+            ([one], _) => Some((one.span, format!("`{}` has no partner", one.text), partners)),
+            (_, []) => {
+                Some((arrow, "no effect stands after the `>`".to_owned(), "name the effect after `>`"))
+            }
+            _ => None,
+        };
+        if let Some((span, message, help)) = fault {
+            self.problems.push(Diagnostic::error("bad-interaction", span, message).help(help));
             return;
         }
         interaction.first = names.remove(0);
@@ -391,8 +418,8 @@ impl Reader {
                 Token::Word(word) if termination.class.text.is_empty() => termination.class = word,
                 Token::Word(word) => self.stray_word(&word, "a termination is `Class key=value …`"),
                 Token::Arrow(span) => {
-                    let message = "a termination is `Class key=value …`";
-                    self.problems.push(Diagnostic::error("stray-word", span, message).help("remove the `>`"));
+                    let arrow = Word { text: ">".to_owned(), span };
+                    self.stray_word(&arrow, "a termination is `Class key=value …`");
                 }
                 Token::Param(param) => termination.params.push(param),
             }
@@ -405,9 +432,9 @@ impl Reader {
                 () if has("stype1") => "MultiSpriteCounter",
                 () => "Timeout",
             };
-            let message = "a termination is `Class key=value …`";
+            let message = "this termination has no class";
             let problem = Diagnostic::error("bad-termination", line.span, message);
-            self.problems.push(problem.help(format!("put its class first: `{class}`?")));
+            self.problems.push(problem.help(format!("put its class first, maybe `{class}`")));
         } else {
             self.description.terminations.push(termination);
         }
@@ -426,20 +453,14 @@ impl Reader {
             }
         }
         if !arrow || parameter.name.text.is_empty() {
-            self.mend_arrow(line, arrow, shape);
+            self.mend_arrow(line, arrow, shape, "after the name");
         } else {
             self.description.parameters.push(parameter);
         }
     }
 
     fn tokens(&mut self, line: &Line<'_>) -> Vec<Token> {
-        let mut pairs = match Grammar::parse(Rule::tokens, line.text) {
-            Ok(pairs) => pairs,
-            Err(_) => {
-                self.problems.push(Diagnostic::error("bad-line", line.span, "this line cannot be read"));
-                return Vec::new();
-            }
-        };
+        let mut pairs = Grammar::parse(Rule::tokens, line.text).expect("whatever is no blank is a token");
         let mut tokens = Vec::new();
         let mut pairs = pairs.next().expect("the rule matched").into_inner().peekable();
         while let Some(pair) = pairs.next() {
@@ -478,7 +499,12 @@ impl Reader {
             SpriteClass::from_name(&word.text).is_some() || effects::NAMES.contains(&word.text.as_str())
         };
         let has_arrow = line.text.split([' ', '\t']).any(|word| word == ">");
-        if whole.text == "=>" || whole.text == "=" && !has_arrow && next.as_ref().is_some_and(known) {
+        // `gold = color=RED`, in a line that needs an arrow.
+        let names_sprite =
+            |word: &Word| word.text != "BasicGame" && !terminations::NAMES.contains(&word.text.as_str());
+        let after_name = || matches!(&tokens[..], [Token::Word(first)] if names_sprite(first));
+        let like_arrow = || next.as_ref().map_or_else(after_name, known);
+        if whole.text == "=>" || whole.text == "=" && !has_arrow && like_arrow() {
             // Meant as the arrow; whoever misses that says so.
             return;
         }
@@ -492,10 +518,12 @@ impl Reader {
             "" => next,
             value => Some(Word { text: value.to_owned(), span: whole.span }),
         };
-        let message = format!("`{}` is not `key=value`", whole.text);
+        let message = |what: &str| format!("`{what}` is not `key=value`");
         let (Some(key), Some(value)) = (key, value) else {
+            let message = message(&whole.text);
             let problem = Diagnostic::error("bad-parameter", whole.span, message);
             self.problems.push(match whole.text.strip_suffix('=') {
+                Some("") => problem.help("remove it, or write a parameter as one word"),
                 Some(key) => problem.help(format!("write a value after `{key}=`, without a blank")),
                 None => problem.help(format!("write the parameter's name before `{}`", whole.text)),
             });
@@ -509,7 +537,8 @@ impl Reader {
             rest.next();
         }
         let span = Span::new(key.span.start, value.span.end);
-        let problem = Diagnostic::error("bad-parameter", span, message);
+        let written = &line.text[span.start - line.span.start..span.end - line.span.start];
+        let problem = Diagnostic::error("bad-parameter", span, message(written));
         self.problems.push(problem.help(format!("write `{}={}`", key.text, value.text)));
         tokens.push(Token::Param(Param { key, value }));
     }

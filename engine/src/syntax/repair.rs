@@ -3,18 +3,22 @@
 /// The parameter that a word stands for whose `=` is missing or another character: `limit:5`, `scoreChange-1`, `winTrue`.
 pub(super) fn parameter(word: &str) -> Option<String> {
     let (key, value) = match word.split_once([':', ';', '-', '+', '~', '>', '<', '_']) {
-        Some((key, value))
-            if !value.is_empty() && value.chars().all(|c| c.is_ascii_alphanumeric() || c == '.') =>
-        {
+        Some((key, value)) if is_value(value) => {
             // `scoreChange-1` lacks its `=` only.
-            let signed =
-                word.as_bytes()[key.len()] == b'-' && value.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+            let number = |text: &str| text.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+            let signed = word.as_bytes()[key.len()] == b'-' && number(value) && value != "0";
             (key, if signed { &word[key.len()..] } else { value })
         }
         _ => glued(word)?,
     };
-    let is_key = key.len() > 1 && key.chars().all(|c| c.is_ascii_alphabetic() || c == '_');
+    let name = key.trim_end_matches(|c: char| c.is_ascii_digit());
+    let is_key = name.len() > 1 && name.chars().all(|c| c.is_ascii_alphabetic() || c == '_');
     is_key.then(|| format!("{key}={value}"))
+}
+
+fn is_value(text: &str) -> bool {
+    let text = text.strip_prefix('-').unwrap_or(text);
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '.')
 }
 
 /// Key and value of a word in which nothing stands between them.
@@ -22,7 +26,7 @@ fn glued(word: &str) -> Option<(&str, &str)> {
     let truth = ["True", "False", "true", "false"].into_iter().find(|truth| word.ends_with(truth));
     let at = match truth {
         Some(truth) => word.len() - truth.len(),
-        None => word.find(|c: char| c.is_ascii_digit()).or_else(|| named(word))?,
+        None => named(word).or_else(|| word.find(|c: char| c.is_ascii_digit()))?,
     };
     let (key, value) = word.split_at(at);
     let fits = truth.is_some() || named(word).is_some() || value.parse::<f64>().is_ok();
@@ -71,9 +75,13 @@ mod tests {
         check("limit:5", Some("limit=5"));
         check("limit5", Some("limit=5"));
         check("scoreChange-1", Some("scoreChange=-1"));
+        check("scoreChange:-1", Some("scoreChange=-1"));
+        check("limit-0", Some("limit=0"));
+        check("stype1;gold", Some("stype1=gold"));
         check("winTrue", Some("win=True"));
         check("stypegold", Some("stype=gold"));
         check("stype-gold", Some("stype=gold"));
+        check("stype1gold", Some("stype1=gold"));
         check("speed0.5", Some("speed=0.5"));
         check("Missile", None);
         check("gold", None);

@@ -2,6 +2,7 @@
 //! problem at its place, not one for every line below it.
 
 use super::description::Section;
+use super::indents;
 use super::layout::Line;
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::ontology::class::SpriteClass;
@@ -12,6 +13,8 @@ pub(super) struct Part<'a, 'b> {
     pub(super) section: Section,
     /// Of a section whose name is missing: the line that the name should stand at the depth of.
     pub(super) head: &'b Line<'a>,
+    /// The column that its lines are to be indented deeper than: that of its name, if the name stands where it should.
+    pub(super) indent: usize,
     pub(super) body: Vec<&'b Line<'a>>,
 }
 
@@ -19,61 +22,6 @@ pub(super) struct Part<'a, 'b> {
 pub(super) fn named(text: &str) -> Option<Section> {
     let mut all = Section::ALL.into_iter().chain([Section::ParameterSet]);
     all.find(|section| section.name().eq_ignore_ascii_case(text))
-}
-
-/// The most frequent indent; of several, the one that comes first.
-pub(super) fn usual_indent(indents: impl Iterator<Item = usize>) -> usize {
-    let mut counts: Vec<(usize, usize)> = Vec::new();
-    for indent in indents {
-        match counts.iter_mut().find(|(known, _)| *known == indent) {
-            Some((_, count)) => *count += 1,
-            None => counts.push((indent, 1)),
-        }
-    }
-    let most = counts.iter().map(|&(_, count)| count).max();
-    counts.iter().find(|(_, count)| Some(*count) == most).map_or(0, |&(indent, _)| indent)
-}
-
-/// Lines of a SpriteSet that stand between the columns of the others: children or siblings by accident. In a file without
-/// such columns there is nothing to tell.
-pub(super) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
-    let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));
-    let mut steps: Vec<usize> =
-        indents().zip(indents().skip(1)).map(|(a, b)| a.abs_diff(b)).filter(|&step| step > 0).collect();
-    steps.push(usual_indent(lines.iter().map(|line| line.indent)).saturating_sub(head).max(1));
-    steps.sort_unstable();
-    steps.dedup();
-    // Between columns, or more than one column to the right of the line above.
-    let off = |step: usize| {
-        let above = indents().zip(lines);
-        let off = above.filter(move |(above, line)| {
-            !(line.indent - head).is_multiple_of(step) || line.indent > above + step
-        });
-        off.map(|(_, line)| line).collect::<Vec<_>>()
-    };
-    // The widest columns that nearly all lines keep to.
-    let found = steps.into_iter().rev().map(|step| (step, off(step)));
-    let Some((step, off)) = found.into_iter().find(|(_, off)| off.len() * 4 <= lines.len()) else { return };
-    for line in off {
-        let below = head + (line.indent - head) / step * step;
-        let near = if below == head { below + step } else { below };
-        let message = "this line is indented unlike the others";
-        let problem = Diagnostic::warning("uneven-indent", line.span, message);
-        problems.push(problem.help(match near == below {
-            true => format!("indent it by {near} columns, or by {} below its parent", near + step),
-            false => format!("indent it by {near} columns, like them"),
-        }));
-    }
-}
-
-/// The usual indent of those lines that are no one's children.
-pub(super) fn siblings_indent(lines: &[&Line<'_>]) -> usize {
-    let mut sibling = usize::MAX;
-    usual_indent(lines.iter().map(|line| line.indent).filter(|&indent| {
-        let is_sibling = indent <= sibling;
-        sibling = if is_sibling { indent } else { sibling };
-        is_sibling
-    }))
 }
 
 /// The sections of a file as they were meant, by what their lines look like where the names are not right.
@@ -86,7 +34,7 @@ pub(super) fn mended<'a, 'b>(
     let (orphans, mut parts) = split(lines, problems);
     swapped(&guess, &mut parts, problems);
     missing(&guess, header, orphans, &mut parts, problems);
-    depths(header, &parts, problems);
+    depths(header, &mut parts, problems);
     moved(&guess, &mut parts, problems);
     parts
 }
@@ -117,7 +65,7 @@ fn split<'a, 'b>(
             let problem = Diagnostic::error("unknown-section", line.span, message);
             problems.push(problem.help(format!("did you mean `{}`?", section.name())));
         }
-        parts.push(Part { section, head: line, body: Vec::new() });
+        parts.push(Part { section, head: line, indent: line.indent, body: Vec::new() });
     }
     (orphans, parts)
 }
@@ -163,7 +111,7 @@ fn missing<'a, 'b>(
         if let Some(at) = orphans.iter().position(&starts).filter(|&at| orphans[at..].iter().all(fits)) {
             tell(section, orphans[at]);
             let body = orphans.split_off(at);
-            parts.insert(0, Part { section, head: header, body });
+            parts.insert(0, Part { section, head: header, indent: header.indent, body });
             continue;
         }
         let found = parts.iter().enumerate().find_map(|(place, part)| {
@@ -172,37 +120,52 @@ fn missing<'a, 'b>(
         });
         if let Some((place, at)) = found {
             tell(section, parts[place].body[at]);
-            let (head, body) = (parts[place].head, parts[place].body.split_off(at));
-            parts.insert(place + 1, Part { section, head, body });
+            let Part { head, indent, .. } = parts[place];
+            let body = parts[place].body.split_off(at);
+            parts.insert(place + 1, Part { section, head, indent, body });
         }
     }
-    for line in orphans {
-        let problem = Diagnostic::error("stray-line", line.span, "this line is in no section");
-        problems.push(match nearest(line.text, Section::ALL.map(Section::name)) {
-            Some(name) => problem.help(format!("did you mean `{name}`?")),
-            None => problem.help("sections are SpriteSet, LevelMapping, InteractionSet and TerminationSet"),
-        });
+    if let Some(first) = orphans.first() {
+        let message = match orphans.len() {
+            1 => "this line is in no section".to_owned(),
+            count => format!("these {count} lines are in no section"),
+        };
+        let problem = Diagnostic::error("stray-line", first.span, message);
+        let problem = problem.help("sections are SpriteSet, LevelMapping, InteractionSet and TerminationSet");
+        problems.push(problem.suggest(first.text, Section::ALL.map(Section::name)));
     }
 }
 
 /// Section names that are not indented like the others: deeper ones the reference takes for a line of the section above.
-fn depths(header: &Line<'_>, parts: &[Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
-    let usual =
-        usual_indent(parts.iter().map(|part| part.head.indent).filter(|&indent| indent > header.indent));
-    for part in parts.iter().filter(|part| !std::ptr::eq(part.head, header)) {
-        let (name, indent) = (part.section.name(), part.head.indent);
-        if indent <= header.indent {
-            let message = format!("{name} is not indented below the first line");
-            let problem = Diagnostic::error("stray-indent", part.head.span, message);
-            problems.push(problem.help("indent the names of sections deeper than `BasicGame`"));
-        } else if indent != usual {
-            let message = format!("{name} is indented unlike the other sections");
-            let help = format!("indent it by {usual} columns, like them");
-            let problem = match indent > usual {
-                true => Diagnostic::error("stray-indent", part.head.span, message),
-                false => Diagnostic::warning("uneven-indent", part.head.span, message),
-            };
-            problems.push(problem.help(help));
+fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
+    // A section whose name is missing has the line of another one as its head.
+    let is_own = |&(at, part): &(usize, &Part<'_, '_>)| {
+        let same = |other: &Part<'_, '_>| std::ptr::eq(other.head, part.head);
+        !std::ptr::eq(part.head, header) && !parts[..at].iter().any(same)
+    };
+    let own = parts.iter().enumerate().filter(is_own).map(|(_, part)| part);
+    let (below, outside): (Vec<_>, Vec<_>) = own.partition(|part| part.head.indent > header.indent);
+    if let [first, more @ ..] = &outside[..] {
+        let message = match more.len() {
+            0 => format!("{} is not indented below the first line", first.section.name()),
+            _ => format!("{} sections are not indented below the first line", outside.len()),
+        };
+        let problem = Diagnostic::error("stray-indent", first.head.span, message);
+        problems.push(problem.help("indent the names of sections deeper than `BasicGame`"));
+    }
+    let usual = indents::usual(below.iter().map(|part| part.head.indent));
+    for part in below.iter().filter(|part| part.head.indent != usual) {
+        let message = format!("{} is indented unlike the other sections", part.section.name());
+        let problem = match part.head.indent > usual {
+            true => Diagnostic::error("stray-indent", part.head.span, message),
+            false => Diagnostic::warning("uneven-indent", part.head.span, message),
+        };
+        problems.push(problem.help(format!("indent it by {usual} columns, like them")));
+    }
+    if !below.is_empty() {
+        for part in parts {
+            let deeper = part.body.iter().all(|line| line.indent > usual);
+            part.indent = if deeper { usual } else { part.indent.min(usual) };
         }
     }
 }
@@ -223,7 +186,7 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
     }
     for (section, line) in moved {
         // Its indent fits the section that it came from; at least its name is to be known, so sprites are kept.
-        let part = parts.iter_mut().find(|part| part.section == section && part.head.indent < line.indent);
+        let part = parts.iter_mut().find(|part| part.section == section && part.indent < line.indent);
         if let Some(part) = part.filter(|part| part.section == Section::SpriteSet) {
             part.body.push(line);
         }
