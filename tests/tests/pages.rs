@@ -17,10 +17,12 @@
 
 use engine::{Action, Chance, Diagnostic, Game, Level, Outcome, Severity, SpriteClass, SpriteRecord, State};
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::fs;
 use std::ops::Range;
-use tests::{read, workspace_files, workspace_root};
+use std::path::Path;
+use tests::{read, rust_files, workspace_files, workspace_root};
 
 #[test]
 fn every_page_says_what_happens() {
@@ -81,6 +83,99 @@ fn every_class_has_a_page() {
         }
     }
     assert!(problems.is_empty(), "\n{problems}");
+}
+
+#[test]
+fn every_diagnostic_code_has_a_page() {
+    let mut problems = String::new();
+    let codes = codes();
+    for code in &codes {
+        let file = format!("docs/diagnostics/{code}.md");
+        if !workspace_root().join(&file).is_file() {
+            writeln!(problems, "{file}: missing").unwrap();
+            continue;
+        }
+        let page = read(&file);
+        if !page.starts_with(&format!("# {code}\n")) {
+            writeln!(problems, "{file}: does not start with `# {code}`").unwrap();
+        }
+        if !page.contains(&shown(code)) {
+            writeln!(problems, "{file}: no example shows the code as {}", shown(code)).unwrap();
+        }
+        if repaired(&page).iter().any(|problem| problem.code == code) {
+            writeln!(problems, "{file}: the last block still has the problem").unwrap();
+        }
+    }
+    for file in pages("docs/diagnostics").filter(|file| !file.ends_with("README.md")) {
+        let code = Path::new(&file).file_stem().unwrap().to_string_lossy().into_owned();
+        if !codes.contains(&code) {
+            writeln!(problems, "{file}: there is no such code").unwrap();
+        }
+    }
+    let index = read("docs/diagnostics/README.md");
+    for code in codes.iter().filter(|code| !index.contains(&format!("({code}.md)"))) {
+        writeln!(problems, "docs/diagnostics/README.md: does not list {code}").unwrap();
+    }
+    assert!(problems.is_empty(), "\n{problems}");
+}
+
+/// What the page of a code is to show: the code in a list of problems; or, where no small example has it, all that is told of
+/// a file that is made here.
+fn shown(code: &str) -> String {
+    let source = match code {
+        "not-text" => "BasicGame\u{7}\n".to_owned(),
+        "too-deep" => (0..40).fold("BasicGame\n SpriteSet\n".to_owned(), |text, depth| {
+            format!("{text}  {}s{depth} > Immovable\n", " ".repeat(depth))
+        }),
+        "too-many-problems" => {
+            let lines = "  wall avatar\n".repeat(150);
+            format!("BasicGame\n SpriteSet\n LevelMapping\n InteractionSet\n{lines} TerminationSet\n")
+        }
+        _ => return format!("[{code}]: "),
+    };
+    let problems = problems_of(&source);
+    let own = problems.iter().filter(|problem| problem.code == code);
+    own.map(|problem| rendered(&source, problem)).collect()
+}
+
+/// The problems of the last game or level of a page.
+fn repaired(page: &str) -> Vec<Diagnostic> {
+    let mut game = None;
+    let mut problems = Vec::new();
+    for block in blocks(page) {
+        match (block.info.split(' ').next(), &game) {
+            (Some("vgdl"), _) => {
+                problems = problems_of(&block.text);
+                game = Game::from_source(&block.text).ok();
+            }
+            (Some("level"), Some(game)) => problems = level_problems(game, &block.text),
+            _ => {}
+        }
+    }
+    problems
+}
+
+/// The codes that the engine's source writes. They are the first argument where a problem is made, or in the statement
+/// `let code = …;` above.
+fn codes() -> BTreeSet<String> {
+    let mut codes = BTreeSet::new();
+    for (file, text) in rust_files().into_iter().filter(|(file, _)| file.starts_with("engine/src")) {
+        for call in ["Diagnostic::error(", "Diagnostic::warning("] {
+            for (at, _) in text.match_indices(call) {
+                let argument = text[at + call.len()..].trim_start();
+                let written = argument.split(',').next().unwrap_or_default();
+                if written == "code" && file.ends_with("diagnostic.rs") {
+                    continue;
+                }
+                let above = text[..at].rsplit("let code = ").next().unwrap_or_default();
+                let from = if written == "code" { above.split(';').next() } else { Some(written) };
+                let literals: Vec<&str> = from.unwrap_or_default().split('"').skip(1).step_by(2).collect();
+                assert!(!literals.is_empty(), "{}: which code is `{written}`?", file.display());
+                codes.extend(literals.into_iter().map(str::to_owned));
+            }
+        }
+    }
+    codes
 }
 
 fn pages(folder: &'static str) -> impl Iterator<Item = String> {
