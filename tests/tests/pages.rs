@@ -140,19 +140,11 @@ fn shown(code: &str) -> String {
 
 /// The problems of the last game or level of a page.
 fn repaired(page: &str) -> Vec<Diagnostic> {
-    let mut game = None;
-    let mut problems = Vec::new();
-    for block in blocks(page) {
-        match (block.info.split(' ').next(), &game) {
-            (Some("vgdl"), _) => {
-                problems = problems_of(&block.text);
-                game = Game::from_source(&block.text).ok();
-            }
-            (Some("level"), Some(game)) => problems = level_problems(game, &block.text),
-            _ => {}
-        }
-    }
-    problems
+    let blocks = blocks(page);
+    let games = blocks.iter().rfind(|block| block.info == "vgdl");
+    let game = games.and_then(|block| Game::from_source(&block.text).ok());
+    let last = blocks.iter().rfind(|block| block.info.starts_with("vgdl") || block.info.starts_with("level"));
+    last.map_or(Vec::new(), |block| block.problems(game.as_ref()))
 }
 
 /// The codes that the engine's source writes. They are the first argument where a problem is made, or in the statement
@@ -203,6 +195,20 @@ struct Block {
     info: String,
     text: String,
     at: Range<usize>,
+}
+
+impl Block {
+    /// What is told of it, as a level of `game` if it is a level.
+    fn problems(&self, game: Option<&Game>) -> Vec<Diagnostic> {
+        match (self.info.as_str(), game) {
+            ("vgdl as-reference", _) => {
+                Game::from_source_as_reference(&self.text).map_or_else(|problems| problems.0, |_| Vec::new())
+            }
+            ("vgdl", _) => problems_of(&self.text),
+            (info, Some(game)) if info.starts_with("level") => level_problems(game, &self.text),
+            _ => Vec::new(),
+        }
+    }
 }
 
 fn blocks(page: &str) -> Vec<Block> {
@@ -261,10 +267,7 @@ fn run(page: &str) -> Result<String, String> {
             Some("expect") => Some(bench.report(&block.text).map_err(fail)?),
             Some("diagnostics") => {
                 let above = &blocks[number.checked_sub(1).ok_or_else(|| fail("nothing above".into()))?];
-                let problems = match above.info.starts_with("vgdl") {
-                    true => problems_of(&above.text),
-                    false => bench.game.as_ref().map_or(Vec::new(), |game| level_problems(game, &above.text)),
-                };
+                let problems = above.problems(bench.game.as_ref());
                 Some(problems.iter().map(|problem| rendered(&above.text, problem)).collect())
             }
             _ => None,

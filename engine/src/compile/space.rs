@@ -42,7 +42,8 @@ pub(super) fn settled<'a>(
     }
     for (name, span, _) in space.parameters.iter().filter(|(name, ..)| !space.used.contains(name)) {
         let message = format!("nothing has `{name}` for a value");
-        problems.push(Diagnostic::warning("unused-parameter", *span, message).help("remove it"));
+        let problem = Diagnostic::warning("unused-parameter", *span, message);
+        problems.push(problem.help("write it where a value is wanted, or remove it"));
     }
     Cow::Owned(game)
 }
@@ -91,7 +92,7 @@ impl<'a> Space<'a> {
             let span = given("values").map_or(line.name.span, Param::span);
             let message = format!("`{}` needs `values=min:step:max`, or `values=True:False`", line.name.text);
             let problem = Diagnostic::error("bad-parameter-values", span, message);
-            problems.push(problem.help("numbers, the step leading from the first to the last"));
+            problems.push(problem.help("write three numbers, the step leading from the first to the last"));
             return Values::Int(1);
         };
         let Some(value) = given("value") else {
