@@ -138,7 +138,8 @@ mod tests {
         check("stype=egg", "stype:egg", &["STRAY-WORD 15"]);
         check("win=True", "win=yes", &["WRONG-TYPE 15"]);
         check("Timeout limit=90", "Timeout", &["ends-at-once 16"]);
-        check("limit=90", "limits=90", &["UNKNOWN-PARAMETER 16"]);
+        check("limit=90", "limits=90", &["WRONG-TYPE 16"]);
+        check("limit=90", "ticks=90", &["UNKNOWN-PARAMETER 16"]);
         check("        fox > RandomNPC\n", "", &["UNKNOWN-SPRITE 3"]);
         check("d > den", "d >", &["empty-mapping 8"]);
         check("d > den", "ex > den", &["BAD-MAPPING 8"]);

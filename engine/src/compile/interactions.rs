@@ -307,13 +307,12 @@ impl<'a> Reader<'a> {
         let nothing = std::iter::repeat_n(Some(0), self.setting.counters);
         let Some((param, value)) = self.value(key) else { return nothing.collect() };
         let Value::Text(text) = value else {
-            let message = format!("`{key}` takes a list of whole numbers, an entry for each counter");
+            let value = &param.value.text;
+            let message =
+                format!("`{key}` takes a list of whole numbers, an entry for each counter, not `{value}`");
             let problem = Diagnostic::error("wrong-type", param.value.span, message);
-            let list = format!(
-                "write `{key}={0},{0}`: the reference engine ignores a single number",
-                param.value.text
-            );
-            self.problems.push(problem.label("not a list").help(list));
+            let list = format!("write `{key}={value},{value}`: the reference engine ignores a single number");
+            self.problems.push(problem.help(list));
             return nothing.collect();
         };
         let entries: Vec<Option<i32>> =

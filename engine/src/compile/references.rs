@@ -107,8 +107,7 @@ impl Subject<'_> {
         let list = text.trim_end_matches(',');
         if list != text {
             let message = format!("`{key}` ends with a comma");
-            let commas = Span::new(param.value.span.start + list.len(), param.value.span.end);
-            problems.push(Diagnostic::error("wrong-type", commas, message).help("remove it"));
+            problems.push(Diagnostic::error("wrong-type", param.value.span, message).help("remove it"));
         }
         let mut start = param.value.span.start;
         for text in list.split(',').filter(|_| !list.is_empty()) {

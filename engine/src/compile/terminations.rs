@@ -123,7 +123,11 @@ impl<'a> Reader<'a> {
         let limits = self.param("limits").and_then(|param| match convert("limits", &param.value.text) {
             Value::Text(list) => Some((param, list)),
             _ => {
-                self.problems.push(wrong_type(param, Expected::Text));
+                let value = &param.value.text;
+                let message = format!("`limits` takes a list of whole numbers, not `{value}`");
+                let problem = Diagnostic::error("wrong-type", param.value.span, message);
+                let help = format!("write `limits={value},0` for counters, or `limit={value}` for ticks");
+                self.problems.push(problem.help(help));
                 None
             }
         });
