@@ -575,6 +575,6 @@ fn strict_loading_says_what_is_wrong() {
     check("Immovable spriteID=3", "bad-parameter", "spriteID");
     check("Immovable physicstype=2", "wrong-type", "2");
     check("Immovable is_avatar=True", "bad-parameter", "is_avatar=True");
-    check("Immovable hMult=0", "bad-parameter", "s");
+    check("Immovable hMult=0", "bad-parameter", "0");
     check("Missile speed=fast", "wrong-type", "fast");
 }
