@@ -1,5 +1,6 @@
 //! What can be wrong with a VGDL file, as plain data; `cli` renders it.
 
+use crate::limits::MAX_PROBLEMS;
 use serde::Serialize;
 use std::fmt;
 
@@ -68,6 +69,16 @@ impl Diagnostic {
         Diagnostic { help: Some(help.into()), ..self }
     }
 
+    /// [`Diagnostic::suggest`] for those of a list that are shown; for the others nothing is looked up.
+    pub(crate) fn suggest_after<'a>(
+        self,
+        found: usize,
+        wrong: &str,
+        candidates: impl IntoIterator<Item = &'a str>,
+    ) -> Diagnostic {
+        if found < MAX_PROBLEMS { self.suggest(wrong, candidates) } else { self }
+    }
+
     /// With "did you mean" if one of `candidates` is close to `wrong`.
     pub fn suggest<'a>(self, wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Diagnostic {
         match nearest(wrong, candidates) {
@@ -80,10 +91,14 @@ impl Diagnostic {
 /// The candidate that `wrong` most likely stands for.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let key = wrong.to_lowercase();
+    let length = key.chars().count();
+    let near = |name: &str| 1.max(name.chars().count().min(length) / 3);
     candidates
         .into_iter()
+        // The distance is at least the difference in length, which costs less to know.
+        .filter(|name| name.chars().count().abs_diff(length) <= near(name))
         .map(|name| (strsim::damerau_levenshtein(&key, &name.to_lowercase()), name))
-        .filter(|&(distance, name)| distance <= 1.max(name.chars().count().min(key.chars().count()) / 3))
+        .filter(|&(distance, name)| distance <= near(name))
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, name)| name)
 }
@@ -98,6 +113,17 @@ impl Diagnostics {
         list.sort_by(|a, b| (a.span, a.code).cmp(&(b.span, b.code)));
         list.dedup();
         Diagnostics(list)
+    }
+
+    /// The first [`MAX_PROBLEMS`], and how many more there are; `end` is the end of the text.
+    pub(crate) fn shortened(mut self, end: usize) -> Diagnostics {
+        let Some(rest) = self.0.len().checked_sub(MAX_PROBLEMS).filter(|&rest| rest > 0) else { return self };
+        let severity = self.0.iter().map(|problem| problem.severity).min().unwrap_or(Severity::Error);
+        self.0.truncate(MAX_PROBLEMS);
+        let message = format!("{rest} more problems are not shown");
+        let more = Diagnostic::error("too-many-problems", Span::new(end, end), message);
+        self.0.push(Diagnostic { severity, ..more });
+        self
     }
 
     /// Whether `list` holds an error.

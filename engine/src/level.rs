@@ -3,18 +3,13 @@
 use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::game::{Game, SpriteType};
+use crate::limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
+use crate::syntax::BYTE_ORDER_MARK;
+use std::collections::BTreeSet;
 use std::fmt;
 
-/// Columns or rows at most.
-pub const MAX_SIDE: usize = 512;
-/// Cells at most.
-pub const MAX_CELLS: usize = 1 << 16;
-/// Sprites at most: the reference refuses to make more.
-pub const MAX_SPRITES: usize = 10_000;
 /// Sprites at most that a level may try to place, where the surplus is refused one by one.
 const MAX_ATTEMPTS: usize = 1 << 20;
-/// Bytes of level text that are read.
-pub const MAX_LEVEL_TEXT: usize = 1 << 18;
 /// Problems of one kind that are reported one by one.
 const MAX_REPEATS: usize = 10;
 
@@ -110,6 +105,7 @@ impl Game {
         }
         let mut reader = LevelReader {
             game: self,
+            mapped: self.0.description.mapping.iter().map(|line| line.symbol).collect(),
             problems: Vec::new(),
             avatars: Vec::new(),
             sprites: 0,
@@ -125,6 +121,8 @@ impl Game {
 
 struct LevelReader<'a> {
     game: &'a Game,
+    /// The characters that the LevelMapping has a line for.
+    mapped: BTreeSet<char>,
     problems: Vec<Diagnostic>,
     avatars: Vec<Span>,
     sprites: usize,
@@ -135,11 +133,11 @@ struct LevelReader<'a> {
 impl LevelReader<'_> {
     fn row(&mut self, start: usize, line: &str, columns: usize, cells: &mut Vec<u8>) {
         let length = line.chars().count();
-        if length != columns {
+        if length != columns && self.tells("ragged-level") {
             let message = format!("this row has {length} characters, the first one has {columns}");
             let help = if length < columns { "the rest is taken as blank" } else { "the rest is cut off" };
             let span = Span::new(start, start + line.len());
-            self.problem(Diagnostic::warning("ragged-level", span, message).help(help));
+            self.problems.push(Diagnostic::warning("ragged-level", span, message).help(help));
         }
         let mut width = 0;
         for (at, symbol) in line.char_indices().take(columns) {
@@ -161,32 +159,33 @@ impl LevelReader<'_> {
             }
         }
         if rules.unusable.contains(&symbol) {
-            let message = format!("`{}` stands for a sprite that is not declared", symbol.escape_default());
-            self.problem(
-                Diagnostic::error("unknown-sprite", span, message).help("the reference engine dies of it"),
-            );
+            if self.tells("unknown-sprite") {
+                let message =
+                    format!("`{}` stands for a sprite that is not declared", symbol.escape_default());
+                let problem = Diagnostic::error("unknown-sprite", span, message);
+                self.problems.push(problem.help("the reference engine dies of it"));
+            }
             return UNMAPPED;
         }
-        let mapped = rules.description.mapping.iter().any(|line| line.symbol == symbol);
-        if !mapped && places.is_empty() && symbol != ' ' && rules.as_reference {
+        if self.mapped.contains(&symbol) || !places.is_empty() || symbol == ' ' {
+            return code;
+        }
+        if rules.as_reference {
             return UNMAPPED;
         }
-        if !mapped && places.is_empty() && symbol != ' ' {
-            self.undefined.push((at, symbol, span));
-        }
+        self.undefined.push((at, symbol, span));
         code
     }
 
     /// Characters without a mapping, each with the one that was most likely meant.
     fn tell_undefined(&mut self, columns: usize, cells: &[u8]) {
-        let mapping = &self.game.0.description.mapping;
         let unused: Vec<char> =
-            mapping.iter().map(|line| line.symbol).filter(|&c| !cells.contains(&(c as u8))).collect();
+            self.mapped.iter().copied().filter(|&c| !cells.contains(&(c as u8))).collect();
         let undefined = std::mem::take(&mut self.undefined);
         let same = undefined.iter().all(|&(_, symbol, _)| symbol == undefined[0].1);
-        for &(at, symbol, span) in &undefined {
+        for &(at, symbol, span) in undefined.iter().take(MAX_REPEATS) {
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
-            let other_case = mapping.iter().map(|line| line.symbol).find(|&c| swapped.contains(c));
+            let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
             let avatar = self.avatar_symbol().filter(|_| self.avatars.is_empty() && undefined.len() == 1);
             let help = match (other_case.or(avatar), &unused[..], around(at, columns, cells)) {
                 (Some(meant), ..) => format!("did you mean `{meant}`?"),
@@ -197,7 +196,7 @@ impl LevelReader<'_> {
                 _ => "add a line for it to the LevelMapping, or use a character that is there".to_owned(),
             };
             let message = format!("`{}` is not in the LevelMapping", symbol.escape_default());
-            self.problem(Diagnostic::error("undefined-character", span, message).help(help));
+            self.problems.push(Diagnostic::error("undefined-character", span, message).help(help));
         }
     }
 
@@ -211,11 +210,9 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
-    fn problem(&mut self, problem: Diagnostic) {
-        let same = self.problems.iter().filter(|other| other.code == problem.code).count();
-        if same < MAX_REPEATS {
-            self.problems.push(problem);
-        }
+    /// Whether a problem is reported once more, or was often enough.
+    fn tells(&self, code: &str) -> bool {
+        self.problems.iter().filter(|other| other.code == code).count() < MAX_REPEATS
     }
 
     fn finish(
@@ -232,22 +229,24 @@ impl LevelReader<'_> {
         let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
         if self.sprites > most {
             let message = format!("the level places {} sprites; the limit is {most}", self.sprites);
-            self.problem(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
+            self.problems
+                .push(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
         }
         if let [_, extra, ..] = self.avatars[..] {
             let message = format!("the level places {} avatars", self.avatars.len());
             let problem = Diagnostic::error("extra-avatars", extra, message).label("not the first one");
-            self.problem(problem.help("keep one; the reference engine would remove all but the first"));
+            self.problems.push(problem.help("keep one; the reference engine would remove all but the first"));
         }
         if self.avatars.is_empty() {
             let end = text.trim_end().len();
+            let first = text.chars().next().map_or(0, char::len_utf8);
             let help = match self.avatar_symbol() {
                 Some(symbol) => format!("put `{symbol}` where it starts"),
                 None => "no character of the LevelMapping places one: add a line `A > avatar`".to_owned(),
             };
             let problem =
-                Diagnostic::error("no-avatar", Span::new(0, end.min(1)), "the level places no avatar");
-            self.problem(problem.help(help));
+                Diagnostic::error("no-avatar", Span::new(0, end.min(first)), "the level places no avatar");
+            self.problems.push(problem.help(help));
         }
         let mut messages = 0;
         if self.game.0.as_reference {
@@ -287,7 +286,7 @@ fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
 /// The lines of a level and where each starts; a final newline does not make another line.
 fn level_lines(text: &str) -> Vec<(usize, &str)> {
     let mut lines = Vec::new();
-    let mut rest = text;
+    let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     while !rest.is_empty() {
         let start = text.len() - rest.len();
         let end = rest.find(['\n', '\r']).unwrap_or(rest.len());
@@ -322,7 +321,9 @@ mod tests {
         check("wAg\n\n", Ok((3, 2)));
         check("wAG\n", Err(&["undefined-character"]));
         check("wgw\n", Err(&["no-avatar"]));
+        check("\u{feff}\n", Err(&["empty-level"]));
         check("AgA\n", Err(&["extra-avatars"]));
+        check("\u{feff}wAg\n", Ok((3, 1)));
         check("", Err(&["empty-level"]));
         check(&"w".repeat(600), Err(&["too-large"]));
         check(&"x".repeat(MAX_LEVEL_TEXT + 1), Err(&["too-large"]));

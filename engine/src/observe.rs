@@ -80,7 +80,7 @@ impl Game {
 
     /// What the avatar holds: names of resources, sorted, with their amounts.
     pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
-        let held = state.held.iter().filter(|held| held.holder == state.avatar);
+        let held = state.held_by(state.avatar).iter();
         let mut resources: Vec<_> =
             held.map(|held| (self.name(held.resource).to_owned(), held.amount)).collect();
         resources.sort();
@@ -93,9 +93,8 @@ impl Game {
         let mut records: Vec<SpriteRecord> = slots
             .map(|slot| {
                 let sprite = state.sprite(slot);
-                let held = state.held.iter().filter(|held| held.holder == slot);
-                let mut resources: Vec<_> = held.map(|held| (held.resource.0, held.amount)).collect();
-                resources.sort_unstable();
+                let held = state.held_by(slot).iter();
+                let resources = held.map(|held| (held.resource.0, held.amount)).collect();
                 SpriteRecord {
                     id: sprite.id,
                     stype: sprite.stype.0,

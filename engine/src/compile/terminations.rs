@@ -69,7 +69,7 @@ impl<'a> Reader<'a> {
                 let span = self.line.class.span;
                 let message = format!("no termination named `{name}`");
                 let problem = Diagnostic::error("unknown-termination", span, message);
-                self.problems.push(problem.suggest(name, NAMES.iter().copied()));
+                self.problems.push(problem.suggest_after(self.problems.len(), name, NAMES.iter().copied()));
                 return None;
             }
         };
@@ -79,7 +79,8 @@ impl<'a> Reader<'a> {
             if !common.contains(&key) && !own.contains(&key) {
                 let message = format!("{name} has no parameter `{key}`");
                 let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
-                self.problems.push(problem.suggest(key, common.iter().chain(own).copied()));
+                let known = common.iter().chain(own).copied();
+                self.problems.push(problem.suggest_after(self.problems.len(), key, known));
             }
         }
         let limit = self.limit(name);

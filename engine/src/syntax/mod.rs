@@ -12,6 +12,7 @@ pub use description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
     TerminationLine, Trivia, Word,
 };
+pub(crate) use layout::BYTE_ORDER_MARK;
 pub(crate) use parse::{Literal, literal};
-pub use parse::{MAX_SOURCE, parse, parse_as_reference};
+pub use parse::{parse, parse_as_reference};
 pub use print::{print, print_bare};

@@ -8,19 +8,13 @@ use super::layout::{self, Line};
 use super::reference;
 use super::repair;
 use super::sections::{self, Part};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+use crate::limits::{MAX_LINE, MAX_NAME, MAX_NESTING, MAX_PROBLEMS, MAX_SOURCE};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects;
 use pest::Parser;
 use pest::iterators::{Pair, Pairs};
 use std::iter::Peekable;
-
-/// Bytes of game text that are read; a game is a few kilobytes.
-pub const MAX_SOURCE: usize = 1 << 20;
-/// Levels of indentation in a SpriteSet; the games of the reference have four at most.
-pub(super) const MAX_DEPTH: usize = 32;
-/// Problems reported before the rest is summed up in one line.
-const MAX_DIAGNOSTICS: usize = 100;
 
 #[derive(pest_derive::Parser)]
 #[grammar = "syntax/vgdl.pest"]
@@ -43,9 +37,10 @@ fn unreadable(source: &str) -> Option<Diagnostic> {
         let message = format!("the game is {} bytes long; at most {MAX_SOURCE} are read", source.len());
         Diagnostic::error("too-large", Span::new(0, 0), message)
     } else {
-        let at = source.find(|c: char| c.is_control() && !"\t\n\r\u{b}\u{c}".contains(c))?;
+        let is_no_text = |c: char| c.is_control() && !"\t\n\r\u{b}\u{c}".contains(c);
+        let (at, c) = source.char_indices().find(|&(_, c)| is_no_text(c))?;
         let message = "the file holds a control character; VGDL is plain text";
-        Diagnostic::error("not-text", Span::new(at, at + 1), message)
+        Diagnostic::error("not-text", Span::new(at, at + c.len_utf8()), message)
     };
     Some(problem.help("is this a VGDL file?"))
 }
@@ -59,14 +54,30 @@ pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
         Some(problem) => reader.problems.push(problem),
         None => reader.read(source),
     }
-    let mut problems = crate::diagnostic::Diagnostics::sorted(reader.problems).0;
-    if problems.len() > MAX_DIAGNOSTICS {
-        let rest = problems.len() - MAX_DIAGNOSTICS;
-        problems.truncate(MAX_DIAGNOSTICS);
-        let message = format!("{rest} more problems are not shown");
-        problems.push(Diagnostic::error("too-many-problems", Span::new(source.len(), source.len()), message));
-    }
-    (reader.description, problems)
+    (reader.description, Diagnostics::sorted(reader.problems).shortened(source.len()).0)
+}
+
+/// The problem of a line that is too long to be read.
+pub(super) fn long_line(line: &Line<'_>) -> Option<Diagnostic> {
+    let length = line.text.len();
+    let message = format!("this line is {length} bytes long; at most {MAX_LINE} are read");
+    let problem = Diagnostic::error("too-long", line.span, message).help("is this a VGDL file?");
+    (length > MAX_LINE).then_some(problem)
+}
+
+/// The problem of a sprite's name that is too long.
+pub(super) fn long_name(name: &Word) -> Option<Diagnostic> {
+    let length = name.text.len();
+    let message = format!("this name is {length} bytes long; the limit is {MAX_NAME}");
+    let problem = Diagnostic::error("too-long", name.span, message).help("choose a shorter name");
+    (length > MAX_NAME).then_some(problem)
+}
+
+/// The problem of sprites that are nested too deep.
+pub(super) fn too_deep(line: &Line<'_>) -> Diagnostic {
+    let message = format!("sprites are nested more than {MAX_NESTING} deep");
+    let problem = Diagnostic::error("too-deep", line.span, message);
+    problem.help("indent siblings alike: a line that is indented deeper is a subtype")
 }
 
 #[derive(Default)]
@@ -83,7 +94,9 @@ enum Token {
 
 impl Reader {
     fn read(&mut self, source: &str) {
-        let (lines, tail) = layout::lines(source);
+        let (mut lines, tail) = layout::lines(source);
+        self.problems.extend(lines.iter().filter_map(long_line));
+        lines.retain(|line| long_line(line).is_none());
         self.description.tail = tail.into_iter().map(str::to_owned).collect();
         let Some((header, rest)) = lines.split_first() else {
             let problem = Diagnostic::error("empty-game", Span::new(0, 0), "the file holds no game")
@@ -104,6 +117,7 @@ impl Reader {
             if let Some(has) = self.description.has.get_mut(part.section as usize) {
                 *has = true;
             }
+            self.description.section_trivia[part.section as usize] = trivia(part.head);
             self.body(&part);
         }
         for (has, section) in self.description.has.into_iter().zip(Section::ALL) {
@@ -237,9 +251,8 @@ impl Reader {
     fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
         let indent = sections::siblings_indent(lines);
-        if depth == MAX_DEPTH {
-            let message = format!("sprites are nested more than {MAX_DEPTH} deep");
-            self.problems.push(Diagnostic::error("too-deep", first.span, message));
+        if depth == MAX_NESTING {
+            self.problems.push(too_deep(first));
             return;
         }
         let mut at = 0;
@@ -247,7 +260,8 @@ impl Reader {
             let line = lines[at];
             let deeper = lines[at + 1..].iter().take_while(|child| child.indent > line.indent).count();
             let told = |problem: &Diagnostic| problem.code == "uneven-indent" && problem.span == line.span;
-            if line.indent != indent && !self.problems.iter().any(told) {
+            let shown = self.problems.len() < MAX_PROBLEMS;
+            if line.indent != indent && shown && !self.problems.iter().any(told) {
                 let problem = Diagnostic::warning(
                     "uneven-indent",
                     line.span,
@@ -288,6 +302,7 @@ impl Reader {
                 sprite.class = None;
             }
         }
+        self.problems.extend(long_name(&sprite.name));
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
 
