@@ -47,3 +47,5 @@ pub const EFFECT_WORK: usize = 8;
 pub const MAX_TIMERS: usize = 1 << 16;
 /// Resources held by all sprites together, each kind that a sprite holds counted once.
 pub const MAX_HELD: usize = 1 << 14;
+/// Names of sprites in an observation, each counted in each cell.
+pub const MAX_SEEN: usize = 1 << 20;

@@ -2,6 +2,7 @@
 
 use crate::game::{Game, Outcome};
 use crate::geometry::Rect;
+use crate::limits::MAX_SEEN;
 use crate::state::{State, flag};
 
 /// What a player is shown of a state: never the state itself.
@@ -47,10 +48,11 @@ pub struct SpriteRecord {
 }
 
 impl Game {
-    /// What the player is shown. Cost: O(sprites + cells).
+    /// What the player is shown. Cost: O(sprites + cells). Of a board full of giants, the first [`MAX_SEEN`] names.
     pub fn observe(&self, state: &State) -> Observation {
         let (columns, rows) = (state.columns as usize, state.rows as usize);
         let mut cells = vec![Vec::new(); columns * rows];
+        let mut room = MAX_SEEN;
         for &stype in &self.0.order {
             let info = &self.0.types[stype.index()];
             if info.traits.hidden {
@@ -67,7 +69,9 @@ impl Game {
                     first as usize..(last + 1) as usize
                 };
                 for row in span(sprite.rect.y, sprite.rect.h, state.rows) {
-                    for column in span(sprite.rect.x, sprite.rect.w, state.columns) {
+                    let seen = span(sprite.rect.x, sprite.rect.w, state.columns).take(room);
+                    for column in seen {
+                        room -= 1;
                         cells[row * columns + column].push(info.name.clone());
                     }
                 }

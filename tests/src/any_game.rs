@@ -158,6 +158,7 @@ impl Author<'_, '_> {
             let optional = match key {
                 "ammo" | "spawnBehind" | "stype2" => true,
                 "stype" => class == C::BomberRandomMissile,
+                "resource_name" => class != C::ResourcePack,
                 _ => false,
             };
             if !matches!(kind, Kind::Sprite | Kind::Sprites) || optional && !self.choices.once_in(2) {

@@ -38,7 +38,7 @@ pub fn sprite_parameter(key: &str) -> Option<Kind> {
     Some(match key {
         "cooldown" | "timeToLive" | "cons" | "age" | "limit" | "total" => Kind::Ticks,
         "healthPoints" | "maxHealthPoints" | "limitHealthPoints" | "value" | "maxDistance" | "start"
-        | "counter" | "minAmmo" | "ammoCost" | "last_block_time" | "frameRate" => Kind::Int,
+        | "counter" | "lastmove" | "minAmmo" | "ammoCost" | "last_block_time" | "frameRate" => Kind::Int,
         "speed"
         | "mass"
         | "gravity"
@@ -56,13 +56,14 @@ pub fn sprite_parameter(key: &str) -> Option<Kind> {
         "wMult" | "hMult" => Kind::Size,
         "is_oriented" | "rotateInPlace" | "is_static" | "only_active" | "stationary" | "solid"
         | "singleton" | "portal" | "is_npc" | "hidden" | "invisible" | "is_stochastic" | "draw_arrow"
-        | "autotiling" | "airsteering" | "fleeing" | "randomTarget" => Kind::Flag,
+        | "autotiling" | "is_from_avatar" | "isFirstTick" | "on_ground" | "airsteering" | "fleeing"
+        | "randomTarget" => Kind::Flag,
         "orientation" | "spawnorientation" | "facing_dir" => Kind::Direction,
         "physicstype" => Kind::Physics,
         "color" => Kind::Color,
-        "stype" | "spawnBehind" | "stypeMissile" => Kind::Sprite,
+        "stype" | "spawnBehind" | "stypeMissile" | "resource_name" => Kind::Sprite,
         "stype1" | "stype2" | "stypes" | "ammo" => Kind::Sprites,
-        "img" | "orientedImg" | "resource_name" => Kind::Text,
+        "img" | "orientedImg" => Kind::Text,
         "is_resource" | "is_avatar" => Kind::Fixed,
         _ => return None,
     })

@@ -13,7 +13,7 @@ fn the_page_lists_every_limit() {
     let constants = constants! {
         MAX_SOURCE MAX_LINE MAX_NAME MAX_NESTING MAX_TYPES MAX_PARAMETERS MAX_LIST MAX_INTERACTIONS MAX_REACH
         MAX_PROBLEMS MAX_LEVEL_TEXT MAX_SIDE MAX_CELLS MAX_SPRITES MAX_TICKS MAX_MESSAGES MAX_SLOTS MAX_WORK
-        EFFECT_WORK MAX_TIMERS MAX_HELD
+        EFFECT_WORK MAX_TIMERS MAX_HELD MAX_SEEN
     };
     let source = read("engine/src/limits.rs");
     let declared = source.lines().filter_map(|line| line.strip_prefix("pub const ")?.split_once(':'));
