@@ -133,6 +133,12 @@ proptest! {
         robustness::play(&bytes);
     }
 
+    /// Lines of VGDL words in any order.
+    #[test]
+    fn any_careless_lines_are_read(lines in prop::collection::vec(careless_line(), 0..30)) {
+        robustness::text(format!("BasicGame\n{}", lines.join("\n")).as_bytes());
+    }
+
     #[test]
     fn any_text_is_read(text in "(?s).{0,300}") {
         robustness::text(text.as_bytes());
@@ -142,4 +148,55 @@ proptest! {
     fn any_characters_are_a_level_or_are_refused(which in any::<u8>(), text in "[ -~\n]{0,60}") {
         robustness::level(&[&[which], text.as_bytes()].concat());
     }
+}
+
+/// A line as a careless author might write it.
+fn careless_line() -> impl Strategy<Value = String> {
+    const WORDS: [&str; 43] = [
+        "SpriteSet",
+        "InteractionSet",
+        "LevelMapping",
+        "TerminationSet",
+        "avatar",
+        "wall",
+        "a",
+        "b",
+        ">",
+        "EOS",
+        "Missile",
+        "MovingAvatar",
+        "Chaser",
+        "stype=a",
+        "stype=b",
+        "stype=",
+        "=",
+        "orientation=UP",
+        "speed=0.5",
+        "wMult=0",
+        "wMult=-3.5",
+        "hMult=1e300",
+        "cooldown=-2147483648",
+        "killSprite",
+        "stepBack",
+        "transformTo",
+        "transformToAll",
+        "stypeTo=b",
+        "spawn",
+        "SpriteCounter",
+        "Timeout",
+        "limit=0",
+        "win=True",
+        "A",
+        "w",
+        "#",
+        "Spreader",
+        "SpawnPoint",
+        "total=1",
+        "prob=2",
+        "healthPoints=99999999999",
+        "undoAll",
+        "repeat=100000",
+    ];
+    let words = prop::collection::vec(prop::sample::select(&WORDS[..]), 1..7);
+    (0usize..10, words).prop_map(|(indent, words)| format!("{}{}", " ".repeat(indent), words.join(" ")))
 }
