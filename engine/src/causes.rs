@@ -1,6 +1,7 @@
 //! One cause, one problem: what only follows from another problem of the same file is not told.
 
-use crate::diagnostic::{Diagnostic, Diagnostics, MAX_PROBLEMS, Severity, line_start};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, line_start};
+use crate::limits::MAX_PROBLEMS;
 use std::collections::BTreeMap;
 
 /// Problems that make it uncertain which sprites are declared.

@@ -1,10 +1,8 @@
 //! What can be wrong with a VGDL file, as plain data; `cli` renders it.
 
+use crate::limits::MAX_PROBLEMS;
 use serde::Serialize;
 use std::fmt;
-
-/// Problems of a file that are reported before the rest is summed up in one.
-pub(crate) const MAX_PROBLEMS: usize = 100;
 
 /// A range of bytes in a source text. The default span is "nowhere": made, not read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize)]
@@ -71,6 +69,16 @@ impl Diagnostic {
         Diagnostic { help: Some(help.into()), ..self }
     }
 
+    /// [`Diagnostic::suggest`] for those of a list that are shown; for the others nothing is looked up.
+    pub(crate) fn suggest_after<'a>(
+        self,
+        found: usize,
+        wrong: &str,
+        candidates: impl IntoIterator<Item = &'a str>,
+    ) -> Diagnostic {
+        if found < MAX_PROBLEMS { self.suggest(wrong, candidates) } else { self }
+    }
+
     /// With "did you mean" if one of `candidates` is close to `wrong`.
     pub fn suggest<'a>(self, wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Diagnostic {
         match nearest(wrong, candidates) {
@@ -83,14 +91,19 @@ impl Diagnostic {
 /// The candidate that `wrong` most likely stands for: with the same words in another order, or few letters off.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (key, parts) = (wrong.to_lowercase(), words(wrong));
-    let distance = |name: &str| match parts.len() > 1 && parts == words(name) {
+    let length = key.chars().count();
+    let near = |name: &str| 1.max(name.chars().count().min(length) / 3);
+    let same_words = |name: &str| parts.len() > 1 && parts == words(name);
+    let distance = |name: &str| match same_words(name) {
         true => 0,
         false => strsim::damerau_levenshtein(&key, &name.to_lowercase()),
     };
     candidates
         .into_iter()
+        // The distance is at least the difference in length, which costs less to know.
+        .filter(|name| name.chars().count().abs_diff(length) <= near(name) || same_words(name))
         .map(|name| (distance(name), name))
-        .filter(|&(distance, name)| distance <= 1.max(name.chars().count().min(key.chars().count()) / 3))
+        .filter(|&(distance, name)| distance <= near(name))
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, name)| name)
 }

@@ -2,10 +2,11 @@
 
 use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed, TypeInfo};
 use crate::geometry::Rect;
+use crate::limits::EFFECT_WORK;
 use crate::occupancy::Hits;
 use crate::ontology::effects;
 use crate::state::{NONE, Slot, Timer, flag, memory};
-use crate::step::{MAX_EFFECTS, Step, Watch};
+use crate::step::{Step, Watch};
 use smallvec::SmallVec;
 
 impl Step<'_> {
@@ -33,14 +34,14 @@ impl Step<'_> {
 
     /// Effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
     fn timers(&mut self, watch: &mut impl Watch) {
-        while let Some(&Timer { due, timed: number }) = self.state.timers.first() {
+        while let Some(&Timer { due, timed: number }) = self.state.timers.last() {
             if due > self.state.tick {
                 return;
             }
-            self.state.timers.remove(0);
-            let timed = &self.rules.timed[usize::from(number)];
+            self.state.timers.pop();
             // Also for those that find no sprite: one that repeats at once would never end.
-            self.work(1);
+            self.work_of_effect();
+            let timed = &self.rules.timed[usize::from(number)];
             match timed.target {
                 None => {
                     watch.interaction(timed.line);
@@ -56,9 +57,15 @@ impl Step<'_> {
             }
             if timed.repeating {
                 let due = self.state.tick.saturating_add(timed.timer);
-                self.state.plan(Timer { due, timed: number });
+                self.plan(Timer { due, timed: number });
             }
         }
+    }
+
+    /// [`State::plan`](crate::State::plan), which moves timers along in memory.
+    pub(crate) fn plan(&mut self, timer: Timer) {
+        self.work(self.state.timers.len() / 64);
+        self.state.plan(timer);
     }
 
     /// A timed effect on every sprite of a type and its relatives; the score is the line's own, whatever the effect did.
@@ -71,7 +78,7 @@ impl Step<'_> {
                 if !self.state.sprite(slot).is(flag::KILLED | flag::DISABLED) {
                     let tail = self.state.group(stype).tail;
                     watch.interaction(timed.line);
-                    self.work(1);
+                    self.work_of_effect();
                     effects::execute(self, timed.effect, &info.effect, slot, None);
                     self.credit(info, info.initial_memory(), 1);
                     if self.state.group(stype).tail != tail {
@@ -130,6 +137,7 @@ impl Step<'_> {
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
         let screen = self.screen();
         for &stype in &family.tree {
+            self.work(1 + usize::from(self.state.group(stype).count));
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 let sprite = self.state.sprite(slot);
@@ -156,6 +164,7 @@ impl Step<'_> {
             family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
         };
         let (firsts, seconds) = (size(first), size(second));
+        self.work(first.tree.len() + second.tree.len());
         if firsts == 0 || seconds == 0 {
             return;
         }
@@ -185,16 +194,18 @@ impl Step<'_> {
             let mut slot = self.state.group(stype).head;
             while slot != NONE && self.state.sprite(slot).id < newborn {
                 hits.clear();
-                if self.rules.types[stype.index()].ground_aware {
-                    self.look_down(slot, second, newborn, &mut hits);
+                let looked = if self.rules.types[stype.index()].ground_aware {
+                    self.look_down(slot, second, newborn, &mut hits)
                 } else {
-                    self.state.overlapping(self.rules, second, slot, newborn, &mut hits);
-                }
+                    self.state.overlapping(self.rules, second, slot, newborn, &mut hits)
+                };
+                self.work(looked);
                 if hits.len() > 1 {
                     hits.sort_unstable_by_key(|&hit| self.rank(second, hit));
                 }
                 if pass.repeats {
                     let once = std::mem::take(&mut hits);
+                    self.work(second.tree.len() * once.len() / 8);
                     for &stype in &second.tree {
                         let of_type = |hit: &&Slot| self.state.sprite(**hit).stype == stype;
                         hits.extend(once.iter().filter(of_type).copied());
@@ -212,6 +223,9 @@ impl Step<'_> {
                     if self.stopped.is_some() {
                         return;
                     }
+                }
+                if self.stopped.is_some() {
+                    return;
                 }
                 slot = self.state.sprite(slot).next;
             }
@@ -233,10 +247,11 @@ impl Step<'_> {
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 hits.clear();
-                self.state.overlapping(self.rules, first, slot, newborn, &mut hits);
+                let looked = self.state.overlapping(self.rules, first, slot, newborn, &mut hits);
+                self.work(looked);
                 pairs.extend(hits.iter().map(|&hit| (hit, slot)));
-                if pairs.len() > MAX_EFFECTS {
-                    return self.stop(Limit::Effects);
+                if self.stopped.is_some() {
+                    return;
                 }
                 slot = self.state.sprite(slot).next;
             }
@@ -272,7 +287,7 @@ impl Step<'_> {
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
-        self.work(1);
+        self.work_of_effect();
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
@@ -282,20 +297,22 @@ impl Step<'_> {
     fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Hits, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
-        self.work(partners.len());
+        self.work(EFFECT_WORK * partners.len());
         let times = effects::execute_batch(self, &info.effect, one, partners);
         self.credit(info, self.state.memory[usize::from(effect)], times);
     }
 
     /// The partners of a sprite that notices what it stands on: testing a solid one just below it is what it notices.
-    fn look_down(&mut self, slot: Slot, second: &TypeInfo, newborn: u32, hits: &mut Hits) {
+    /// Returns how many cells and sprites it looked at.
+    fn look_down(&mut self, slot: Slot, second: &TypeInfo, newborn: u32, hits: &mut Hits) -> usize {
         let rect = self.state.sprite(slot).rect;
         let around = Rect { h: rect.h.saturating_add(GROUND), ..rect };
-        self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);
+        let looked = self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);
         for &hit in hits.iter() {
             self.notice_ground(slot, hit);
         }
         hits.retain(|hit| self.state.sprite(*hit).rect.intersects(rect));
+        looked
     }
 
     /// `spec/02` §2.5.

@@ -10,6 +10,7 @@ use crate::syntax::Description;
 use crate::{Digest, causes};
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
+use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
@@ -92,8 +93,8 @@ pub enum Outcome {
 pub enum Limit {
     /// More sprites than a state can hold.
     Sprites,
-    /// More work of effects and chasers in one tick than [`MAX_EFFECTS`](crate::MAX_EFFECTS), or more timers than can be planned.
-    Effects,
+    /// More work in one tick than [`MAX_WORK`](crate::limits::MAX_WORK): effects, and sprites and cells looked at.
+    Work,
     /// A sprite of the type whose sprites are being updated was spawned: the reference throws.
     SpawnIntoUpdatedType,
     /// A score changed after the avatar was removed for good: the reference throws.
@@ -111,13 +112,17 @@ pub enum Limit {
     /// A sprite's parameters do not fit its class: the reference throws when it makes the sprite, or when it relies on
     /// them.
     UnfitSprite,
+    /// More timers than can be planned.
+    Timers,
+    /// More resources held than a state can hold.
+    Resources,
 }
 
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Limit::Sprites => "more sprites than a state can hold",
-            Limit::Effects => "the effects of one tick do not come to an end",
+            Limit::Work => "one tick is more work than is allowed",
             Limit::SpawnIntoUpdatedType => "a sprite was spawned into the type that is being updated",
             Limit::NoAvatar => "the score changed after the avatar was removed for good",
             Limit::FlatSprite => "a sprite of height 0 moved",
@@ -128,6 +133,8 @@ impl fmt::Display for Limit {
             Limit::NoSprite => "an effect ran without the sprites that it needs",
             Limit::EndlessTransform => "a type was transformed into itself without end",
             Limit::UnfitSprite => "the parameters of a sprite do not fit its class",
+            Limit::Timers => "more timers than can be planned",
+            Limit::Resources => "more resources held than a state can hold",
         })
     }
 }
@@ -159,6 +166,9 @@ pub(crate) struct TypeInfo {
     pub(crate) unknown_parameters: u32,
     /// Notices what it stands on when rules test what it meets.
     pub(crate) ground_aware: bool,
+    /// The first sprite of the type is not like later ones, which are copies: they have the size from the start, their
+    /// parameters have been complained of, and what they leave behind is wall.
+    pub(crate) first_differs: bool,
 }
 
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
@@ -284,7 +294,7 @@ pub(crate) struct Rules {
     /// By ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
     /// Level characters that stand for an undeclared sprite: the reference dies of a level that uses one.
-    pub(crate) unusable: Vec<char>,
+    pub(crate) unusable: BTreeSet<char>,
     pub(crate) effects: Vec<EffectInfo>,
     /// Edge-of-screen passes, repeats expanded: the type and the effect. An undeclared type is what the reference dies
     /// of in the first tick.
@@ -306,8 +316,14 @@ pub(crate) struct Rules {
     pub(crate) reads_score: bool,
     /// The largest sprite, in cells, rounded up.
     pub(crate) reach: i32,
-    /// Whether the first sprite of a type can differ from later ones.
+    /// Cooldowns of spawners: those made later fire at ticks that are multiples of them.
+    pub(crate) clocks: Vec<i32>,
+    /// Ticks before which wizards, those made later included, make no block.
+    pub(crate) wizard_ticks: Vec<i32>,
+    /// Whether the first sprite of some type can differ from later ones.
     pub(crate) first_differs: bool,
+    /// Effects that may credit by what an earlier execution of theirs found.
+    pub(crate) remembering: Vec<u16>,
 }
 
 /// A game, ready to play.

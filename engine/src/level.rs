@@ -3,19 +3,15 @@
 use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::game::{Game, SpriteType};
-use std::collections::BTreeMap;
+use crate::limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
+use crate::syntax::BYTE_ORDER_MARK;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Columns or rows at most.
-pub const MAX_SIDE: usize = 512;
-/// Cells at most.
-pub const MAX_CELLS: usize = 1 << 16;
-/// Sprites at most: the reference refuses to make more.
-pub const MAX_SPRITES: usize = 10_000;
 /// Sprites at most that a level may try to place, where the surplus is refused one by one.
 const MAX_ATTEMPTS: usize = 1 << 20;
-/// Bytes of level text that are read.
-pub const MAX_LEVEL_TEXT: usize = 1 << 18;
+/// Problems of one kind that are reported one by one.
+const MAX_REPEATS: usize = 10;
 /// In levels that are loaded as the reference does: a character without a mapping.
 const UNMAPPED: u8 = 0;
 
@@ -108,6 +104,7 @@ impl Game {
         }
         let mut reader = LevelReader {
             game: self,
+            mapped: self.0.description.mapping.iter().map(|line| line.symbol).collect(),
             problems: Vec::new(),
             avatars: Vec::new(),
             sprites: 0,
@@ -124,6 +121,8 @@ impl Game {
 
 struct LevelReader<'a> {
     game: &'a Game,
+    /// The characters that the LevelMapping has a line for.
+    mapped: BTreeSet<char>,
     problems: Vec<Diagnostic>,
     avatars: Vec<Span>,
     sprites: usize,
@@ -153,19 +152,21 @@ impl LevelReader<'_> {
             }
         }
         if rules.unusable.contains(&symbol) {
-            let message = format!("`{}` stands for a sprite that is not declared", symbol.escape_default());
-            self.problems.push(
-                Diagnostic::error("unknown-sprite", span, message).help("the reference engine dies of it"),
-            );
+            if self.tells("unknown-sprite") {
+                let message =
+                    format!("`{}` stands for a sprite that is not declared", symbol.escape_default());
+                let problem = Diagnostic::error("unknown-sprite", span, message);
+                self.problems.push(problem.help("the reference engine dies of it"));
+            }
             return UNMAPPED;
         }
-        let mapped = rules.description.mapping.iter().any(|line| line.symbol == symbol);
-        if !mapped && places.is_empty() && symbol != ' ' && rules.as_reference {
+        if self.mapped.contains(&symbol) || !places.is_empty() || symbol == ' ' {
+            return code;
+        }
+        if rules.as_reference {
             return UNMAPPED;
         }
-        if !mapped && places.is_empty() && symbol != ' ' {
-            self.undefined.push((at, symbol, span));
-        }
+        self.undefined.push((at, symbol, span));
         code
     }
 
@@ -198,9 +199,8 @@ impl LevelReader<'_> {
 
     /// Characters without a mapping, each with the one that was most likely meant. Whether that is the missing avatar.
     fn tell_undefined(&mut self, columns: usize, cells: &[u8]) -> bool {
-        let mapping = &self.game.0.description.mapping;
         let unused: Vec<char> =
-            mapping.iter().map(|line| line.symbol).filter(|&c| !cells.contains(&(c as u8))).collect();
+            self.mapped.iter().copied().filter(|&c| !cells.contains(&(c as u8))).collect();
         let undefined = std::mem::take(&mut self.undefined);
         let mut counts: BTreeMap<char, usize> = BTreeMap::new();
         undefined.iter().for_each(|(_, symbol, _)| *counts.entry(*symbol).or_default() += 1);
@@ -211,7 +211,7 @@ impl LevelReader<'_> {
             // Each is told of where it stands first.
             let Some(count) = counts.remove(&symbol) else { continue };
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
-            let other_case = mapping.iter().map(|line| line.symbol).find(|&c| swapped.contains(c));
+            let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
             let near = around(at, columns, cells).filter(|_| count == 1);
             avatar_told |= other_case.is_none() && avatar.is_some();
             let shown = symbol.escape_default();
@@ -248,6 +248,11 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
+    /// Whether a problem is reported once more, or was often enough.
+    fn tells(&self, code: &str) -> bool {
+        self.problems.iter().filter(|other| other.code == code).count() < MAX_REPEATS
+    }
+
     fn finish(
         mut self,
         text: &str,
@@ -270,12 +275,13 @@ impl LevelReader<'_> {
         }
         if self.avatars.is_empty() && !avatar_told {
             let end = text.trim_end().len();
+            let first = text.chars().next().map_or(0, char::len_utf8);
             let help = match self.avatar_symbol() {
                 Some(symbol) => format!("put `{symbol}` where it starts"),
                 None => "no character of the LevelMapping places one: add a line `A > avatar`".to_owned(),
             };
             let problem =
-                Diagnostic::error("no-avatar", Span::new(0, end.min(1)), "the level places no avatar");
+                Diagnostic::error("no-avatar", Span::new(0, end.min(first)), "the level places no avatar");
             self.problems.push(problem.help(help));
         }
         let mut messages = 0;
@@ -316,7 +322,7 @@ fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
 /// The lines of a level and where each starts; a final newline does not make another line.
 fn level_lines(text: &str) -> Vec<(usize, &str)> {
     let mut lines = Vec::new();
-    let mut rest = text;
+    let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     while !rest.is_empty() {
         let start = text.len() - rest.len();
         let end = rest.find(['\n', '\r']).unwrap_or(rest.len());
@@ -352,7 +358,9 @@ mod tests {
         check("w@g\n", Err(&["undefined-character"]));
         check("wAG\n", Err(&["undefined-character"]));
         check("wgw\n", Err(&["no-avatar"]));
+        check("\u{feff}\n", Err(&["empty-level"]));
         check("AgA\n", Err(&["extra-avatars"]));
+        check("\u{feff}wAg\n", Ok((3, 1)));
         check("", Err(&["empty-level"]));
         check(&"w".repeat(600), Err(&["too-large"]));
         check(&"x".repeat(MAX_LEVEL_TEXT + 1), Err(&["too-large"]));

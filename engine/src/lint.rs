@@ -4,9 +4,9 @@
 use crate::analysis::{Analysis, Deed, Encounter, Motion, Provided};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Game, SpriteType};
+use crate::limits::MAX_TICKS;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::terminations::Condition;
-use crate::step::MAX_TICKS;
 use crate::syntax::{Param, TerminationLine};
 
 /// All warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].

@@ -2,6 +2,7 @@
 
 use crate::game::{Game, Outcome};
 use crate::geometry::Rect;
+use crate::limits::MAX_SEEN;
 use crate::state::{State, flag};
 
 /// What a player is shown of a state: never the state itself.
@@ -47,10 +48,11 @@ pub struct SpriteRecord {
 }
 
 impl Game {
-    /// What the player is shown. Cost: O(sprites + cells).
+    /// What the player is shown. Cost: O(sprites + cells). Of a board full of giants, the first [`MAX_SEEN`] names.
     pub fn observe(&self, state: &State) -> Observation {
         let (columns, rows) = (state.columns as usize, state.rows as usize);
         let mut cells = vec![Vec::new(); columns * rows];
+        let mut room = MAX_SEEN;
         for &stype in &self.0.order {
             let info = &self.0.types[stype.index()];
             if info.traits.hidden {
@@ -67,7 +69,9 @@ impl Game {
                     first as usize..(last + 1) as usize
                 };
                 for row in span(sprite.rect.y, sprite.rect.h, state.rows) {
-                    for column in span(sprite.rect.x, sprite.rect.w, state.columns) {
+                    let seen = span(sprite.rect.x, sprite.rect.w, state.columns).take(room);
+                    for column in seen {
+                        room -= 1;
                         cells[row * columns + column].push(info.name.clone());
                     }
                 }
@@ -80,7 +84,7 @@ impl Game {
 
     /// What the avatar holds: names of resources, sorted, with their amounts.
     pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
-        let held = state.held.iter().filter(|held| held.holder == state.avatar);
+        let held = state.held_by(state.avatar).iter();
         let mut resources: Vec<_> =
             held.map(|held| (self.name(held.resource).to_owned(), held.amount)).collect();
         resources.sort();
@@ -93,9 +97,8 @@ impl Game {
         let mut records: Vec<SpriteRecord> = slots
             .map(|slot| {
                 let sprite = state.sprite(slot);
-                let held = state.held.iter().filter(|held| held.holder == slot);
-                let mut resources: Vec<_> = held.map(|held| (held.resource.0, held.amount)).collect();
-                resources.sort_unstable();
+                let held = state.held_by(slot).iter();
+                let resources = held.map(|held| (held.resource.0, held.amount)).collect();
                 SpriteRecord {
                     id: sprite.id,
                     stype: sprite.stype.0,

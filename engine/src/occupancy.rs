@@ -63,7 +63,7 @@ impl State {
     }
 
     /// Collects the sprites of `family`'s tree that overlap a sprite, itself left out, in no particular order. `above`
-    /// excludes sprites created since that id was next.
+    /// excludes sprites created since that id was next. Returns how many cells and sprites it looked at.
     pub(crate) fn overlapping(
         &self,
         rules: &Rules,
@@ -71,7 +71,7 @@ impl State {
         slot: Slot,
         above: u32,
         hits: &mut Hits,
-    ) {
+    ) -> usize {
         let Sprite { rect, column, row, flags, .. } = *self.sprite(slot);
         let (column, row) = (i32::from(column), i32::from(row));
         // Sprites that are not aligned to one cell may reach over from the cells left and above.
@@ -80,7 +80,7 @@ impl State {
             return self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
         }
         let reach = if reached { rules.reach.saturating_mul(self.block) - 1 } else { 0 };
-        self.overlapping_around(family, (slot, rect), reach, above, hits);
+        self.overlapping_around(family, (slot, rect), reach, above, hits)
     }
 
     /// The sprites of `family`'s tree that overlap a rectangle around a sprite, itself left out.
@@ -91,13 +91,13 @@ impl State {
         (slot, rect): (Slot, Rect),
         above: u32,
         hits: &mut Hits,
-    ) {
+    ) -> usize {
         let reach = rules.reach.saturating_mul(self.block) - 1;
-        self.overlapping_around(family, (slot, rect), reach, above, hits);
+        self.overlapping_around(family, (slot, rect), reach, above, hits)
     }
 
     /// Looks into all cells from which sprites can reach into the rectangle, or, if these are more than there are
-    /// sprites, at all sprites.
+    /// sprites, at all sprites. Returns at how many.
     fn overlapping_around(
         &self,
         family: &TypeInfo,
@@ -105,7 +105,7 @@ impl State {
         reach: i32,
         above: u32,
         hits: &mut Hits,
-    ) {
+    ) -> usize {
         let first_column = self.column(rect.x.saturating_sub(reach));
         let last_column = self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
         let first_row = self.row(rect.y.saturating_sub(reach));
@@ -121,13 +121,15 @@ impl State {
                 *at != slot && sprite.id < above && sprite.rect.intersects(rect)
             };
             hits.extend(all.filter(overlaps));
-            return;
+            return family.tree.len() + sprites as usize;
         }
+        let mut looked = 0;
         for row in first_row..=last_row {
             for column in first_column..=last_column {
-                self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
+                looked += self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
             }
         }
+        looked
     }
 
     fn overlapping_in(
@@ -137,9 +139,11 @@ impl State {
         (slot, rect): (Slot, Rect),
         above: u32,
         hits: &mut Hits,
-    ) {
+    ) -> usize {
         let mut at = self.cells[cell];
+        let mut looked = 1;
         while at != NONE {
+            looked += 1;
             let sprite = self.sprite(at);
             if family.in_tree(sprite.stype) && at != slot && sprite.id < above && sprite.rect.intersects(rect)
             {
@@ -147,6 +151,7 @@ impl State {
             }
             at = sprite.cell_next;
         }
+        looked
     }
 }
 

@@ -64,23 +64,26 @@ impl State {
         self.sideways = self.avatar_actions(rules) == 3;
     }
 
-    /// The first step of the path between two pixels; None if there is none, or none to go. Cost: O(cells).
-    pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> Option<Direction> {
-        let start = self.path_cell(from)?;
-        let goal = self.path_cell(to)?;
+    /// The first step of the path between two pixels, None if there is none, or none to go; and how many cells were looked
+    /// at.
+    pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
+        let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
         if start == goal || self.obstacles[start] || self.obstacles[goal] {
-            return None;
+            return (None, 1);
         }
         let (up, down) = (Direction::UP, Direction::DOWN);
         let (left, right) = (Direction::LEFT, Direction::RIGHT);
         let ways: &[Direction] = if self.sideways { &[left, right] } else { &[up, down, left, right] };
         // For each reached cell, the first step of the way there.
         let mut first: Vec<Option<Direction>> = vec![None; self.obstacles.len()];
+        // To make that table is work too.
+        let mut looked = self.obstacles.len() / 8;
         let mut frontier = Heap::default();
         frontier.push((0, start as u32));
         while let Some((cost, cell)) = frontier.pop() {
             let (column, row) = (cell as i32 % self.columns, cell as i32 / self.columns);
             for &way in ways {
+                looked += 1;
                 let (column, row) = (column + way.x as i32, row + way.y as i32);
                 if !(0..self.columns).contains(&column) || !(0..self.rows).contains(&row) {
                     continue;
@@ -91,13 +94,13 @@ impl State {
                 }
                 let step = first[cell as usize].unwrap_or(way);
                 if next == goal {
-                    return Some(step);
+                    return (Some(step), looked);
                 }
                 first[next] = Some(step);
                 frontier.push((cost + 1, next as u32));
             }
         }
-        None
+        (None, looked)
     }
 
     /// The reference multiplies by the reciprocal of the block, which for some sizes falls short of the cell.
@@ -106,7 +109,7 @@ impl State {
         let column = (f64::from(x) * reciprocal) as i32;
         let row = (f64::from(y) * reciprocal) as i32;
         let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
-        inside.then_some((row * self.columns + column) as usize)
+        inside.then(|| (row * self.columns + column) as usize)
     }
 
     /// How many actions the avatar has, doing nothing left out.
@@ -128,7 +131,7 @@ mod tests {
         let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
         let level = game.level("A     \n      \n  r   \n      \n      \n").unwrap();
         let state = game.start_with(&level, Chance::from_java(1));
-        let first = |column: i32, row: i32| match state.first_step((20, 40), (10 * column, 10 * row)) {
+        let first = |column: i32, row: i32| match state.first_step((20, 40), (10 * column, 10 * row)).0 {
             Some(crate::Direction::UP) => 'U',
             Some(crate::Direction::LEFT) => 'L',
             Some(crate::Direction::RIGHT) => 'R',
@@ -145,7 +148,7 @@ mod tests {
         let source = "BasicGame obs=rock square_size=49\n  SpriteSet\n    rock > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    r > rock\n  InteractionSet\n    avatar rock > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";
         let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
         let state = game.start_with(&game.level("A r\n").unwrap(), Chance::from_java(1));
-        assert_eq!(state.first_step((0, 0), (49, 0)), None, "the same cell");
-        assert_eq!(state.first_step((0, 0), (50, 0)), Some(crate::Direction::RIGHT));
+        assert_eq!(state.first_step((0, 0), (49, 0)).0, None, "the same cell");
+        assert_eq!(state.first_step((0, 0), (50, 0)).0, Some(crate::Direction::RIGHT));
     }
 }

@@ -8,6 +8,7 @@
 use crate::chance::Chance;
 use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
+use crate::limits::MAX_SLOTS;
 use crate::ontology::class::SpriteClass;
 
 /// An index into the sprites of a state.
@@ -29,7 +30,8 @@ pub(crate) mod flag {
     pub(crate) const ORIENTED: u16 = 32;
     /// In the kill list.
     pub(crate) const KILLED: u16 = 64;
-    /// `moved_at` holds the age itself: the sprite is not updated.
+    /// The sprite is not updated, and `moved_at` holds its age: its type is not in the update order, or it is of an avatar
+    /// class and not the player's, or disabled.
     pub(crate) const FROZEN: u16 = 128;
     /// In `State::moved`: the last rectangle differs from the rectangle, or may.
     pub(crate) const MOVED: u16 = 256;
@@ -200,22 +202,23 @@ pub struct State {
     pub(crate) moved: Vec<Slot>,
     pub(crate) stale: Vec<Slot>,
     pub(crate) killed: Vec<Slot>,
+    /// Sorted by holder and resource.
     pub(crate) held: Vec<Held>,
     pub(crate) memory: Vec<u8>,
     /// Types of which a sprite was made before: later ones are copies (`spec/02` §1.3).
     pub(crate) templates: Vec<bool>,
-    /// This tick's shields: type, partner, effect keyword (`spec/03` §5.7).
+    /// This tick's shields, sorted: type, partner, effect keyword (`spec/03` §5.7).
     pub(crate) shields: Vec<(SpriteType, SpriteType, u16)>,
-    /// Sprites that a pullWithIt effect has carried in this tick.
+    /// Sprites that a pullWithIt effect has carried in this tick, sorted.
     pub(crate) pulled: Vec<(u16, Slot)>,
     pub(crate) extras: Vec<Extra>,
-    /// Planned time effects, the next one first (`spec/03` §6.2).
+    /// Planned time effects, the next one last (`spec/03` §6.2).
     pub(crate) timers: Vec<Timer>,
     /// Cells that path finding goes around; empty without `obs=`.
     pub(crate) obstacles: Vec<bool>,
     /// Paths go left and right only.
     pub(crate) sideways: bool,
-    /// Entries of the lists of BomberRandomMissiles that updateSpawnType has replaced.
+    /// Entries of the lists of BomberRandomMissiles that updateSpawnType has replaced, sorted by holder and place.
     pub(crate) replaced: Vec<Replaced>,
     /// The game's counters.
     pub(crate) counters: Vec<i32>,
@@ -335,18 +338,36 @@ impl State {
         tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()
     }
 
+    /// Where the entry of a resource is, or would be.
+    fn find_held(&self, holder: Slot, resource: SpriteType) -> Result<usize, usize> {
+        self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
+    }
+
     /// How much of a resource a sprite holds.
     pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
-        let found = self.held.iter().find(|held| held.holder == holder && held.resource == resource);
-        found.map_or(0, |held| held.amount)
+        self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
     }
 
     /// Adds to a resource, not below 0; the entry is made even for 0.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
-        match self.held.iter_mut().find(|held| held.holder == holder && held.resource == resource) {
-            Some(held) => held.amount = held.amount.wrapping_add(change).max(0),
-            None => self.held.push(Held { holder, resource, amount: change.max(0) }),
+        match self.find_held(holder, resource) {
+            Ok(at) => self.held[at].amount = self.held[at].amount.wrapping_add(change).max(0),
+            Err(at) => self.held.insert(at, Held { holder, resource, amount: change.max(0) }),
         }
+    }
+
+    /// Takes from a resource that is there, also below 0.
+    pub(crate) fn overdraw(&mut self, holder: Slot, resource: SpriteType, cost: i32) {
+        if let Ok(at) = self.find_held(holder, resource) {
+            self.held[at].amount = self.held[at].amount.saturating_sub(cost);
+        }
+    }
+
+    /// What a sprite holds, by resource.
+    pub(crate) fn held_by(&self, holder: Slot) -> &[Held] {
+        let start = self.held.partition_point(|held| held.holder < holder);
+        let end = self.held.partition_point(|held| held.holder <= holder);
+        &self.held[start..end]
     }
 
     /// A sprite, to be changed: takes it out of the running hash until the end of the step.
@@ -369,7 +390,8 @@ impl State {
         }
     }
 
-    /// Takes a slot out of its chains and frees it. The caller has taken it out of the running hash.
+    /// Takes a slot out of its chains and frees it. The caller has taken it out of the running hash, and calls
+    /// [`State::forget_gone`] after the last one.
     pub(crate) fn release(&mut self, slot: Slot) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
         self.leave_cell(slot);
@@ -387,31 +409,42 @@ impl State {
             next => self.sprites[usize::from(next)].previous = previous,
         }
         if !self.held.is_empty() {
-            self.held.retain(|held| held.holder != slot);
-        }
-        if !self.extras.is_empty() {
-            self.release_extra(slot);
+            let count = self.held_by(slot).len();
+            let start = self.held.partition_point(|held| held.holder < slot);
+            self.held.drain(start..start + count);
         }
         if !self.replaced.is_empty() {
-            self.replaced.retain(|replaced| replaced.holder != slot);
+            let count = self.replaced_by(slot).len();
+            let start = self.replaced.partition_point(|one| one.holder < slot);
+            self.replaced.drain(start..start + count);
         }
+        self.release_extra(slot);
         let sprite = &mut self.sprites[usize::from(slot)];
         (sprite.next, sprite.flags) = (self.free, flag::GONE);
         self.free = slot;
     }
 
-    /// Pursuers of the sprite keep its last rectangle; its own extra goes.
     fn release_extra(&mut self, slot: Slot) {
-        let Sprite { rect, extra, .. } = *self.sprite(slot);
-        for other in &mut self.extras {
-            if other.target == Target::Sprite(slot) {
-                other.target = Target::Gone(rect);
-            }
-        }
+        let extra = self.sprite(slot).extra;
         if extra != NONE {
             self.extras.swap_remove(usize::from(extra));
             if let Some(moved) = self.extras.get(usize::from(extra)) {
                 self.sprites[usize::from(moved.holder)].extra = extra;
+            }
+        }
+    }
+
+    /// What refers to slots that have been freed forgets them. Pursuers keep the last rectangle of whom they pursued.
+    pub(crate) fn forget_gone(&mut self) {
+        let State { stale, moved, extras, sprites, .. } = self;
+        let gone = |slot: Slot| sprites[usize::from(slot)].is(flag::GONE);
+        stale.retain(|&slot| !gone(slot));
+        moved.retain(|&slot| !gone(slot));
+        for extra in extras {
+            if let Target::Sprite(slot) = extra.target
+                && gone(slot)
+            {
+                extra.target = Target::Gone(sprites[usize::from(slot)].rect);
             }
         }
     }
@@ -452,9 +485,19 @@ impl State {
 
     /// One of the types that a BomberRandomMissile makes.
     pub(crate) fn missile(&self, rules: &Rules, slot: Slot, place: usize) -> SpriteType {
-        let is_it = |one: &&Replaced| one.holder == slot && usize::from(one.place) == place;
-        let own = || rules.types[self.sprite(slot).stype.index()].traits.stypes[place];
-        self.replaced.iter().find(is_it).map_or_else(own, |replaced| replaced.stype)
+        let own = |_| rules.types[self.sprite(slot).stype.index()].traits.stypes[place];
+        self.find_replaced(slot, place).map_or_else(own, |at| self.replaced[at].stype)
+    }
+
+    fn find_replaced(&self, slot: Slot, place: usize) -> Result<usize, usize> {
+        self.replaced.binary_search_by_key(&(slot, place), |one| (one.holder, usize::from(one.place)))
+    }
+
+    /// The replaced entries of a sprite's list.
+    pub(crate) fn replaced_by(&self, slot: Slot) -> &[Replaced] {
+        let start = self.replaced.partition_point(|one| one.holder < slot);
+        let end = self.replaced.partition_point(|one| one.holder <= slot);
+        &self.replaced[start..end]
     }
 
     /// Replaces the first entry of a BomberRandomMissile's list that is `before`.
@@ -469,14 +512,15 @@ impl State {
         let Some(place) = (0..count).find(|&place| self.missile(rules, slot, place) == before) else {
             return;
         };
-        let place = place as u16;
-        self.replaced.retain(|one| (one.holder, one.place) != (slot, place));
-        self.replaced.push(Replaced { holder: slot, place, stype });
+        match self.find_replaced(slot, place) {
+            Ok(at) => self.replaced[at].stype = stype,
+            Err(at) => self.replaced.insert(at, Replaced { holder: slot, place: place as u16, stype }),
+        }
     }
 
     /// Plans a timer before all that are due at the same tick (`spec/03` §6.2).
     pub(crate) fn plan(&mut self, timer: Timer) {
-        let at = self.timers.partition_point(|other| other.due < timer.due);
+        let at = self.timers.partition_point(|other| other.due >= timer.due);
         self.timers.insert(at, timer);
     }
 
@@ -484,7 +528,8 @@ impl State {
     pub(crate) fn admit(&mut self, sprite: Sprite) -> Option<Slot> {
         let slot = match self.free {
             NONE => {
-                let slot = Slot::try_from(self.sprites.len()).ok().filter(|&slot| slot != NONE)?;
+                let slot =
+                    Slot::try_from(self.sprites.len()).ok().filter(|&slot| usize::from(slot) < MAX_SLOTS)?;
                 self.sprites.push(sprite);
                 slot
             }

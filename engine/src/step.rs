@@ -4,30 +4,23 @@ use crate::Seed;
 use crate::chance::Chance;
 use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
-use crate::level::{Level, MAX_SPRITES};
+use crate::level::Level;
+use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_SPRITES, MAX_TICKS, MAX_WORK};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::traits::Traits;
 use crate::ontology::{avatars, sprites};
 use crate::state::{Group, NONE, Slot, Sprite, State, Timer, flag};
 
-/// The tick at which the reference ends every game.
-pub const MAX_TICKS: i32 = 2000;
-/// Messages after which the reference ends a game without a winner.
-const MAX_MESSAGES: u32 = 25;
 /// Pixels of the longer side of a board whose game does not set `square_size`.
 const SCREEN: i32 = 800;
-
-/// Work of the effects of one tick at most: an execution counts one, those that go through many sprites one a sprite,
-/// and chasers one for every sixteen targets, or cells of a path, that they look at.
-/// The busiest tick of a real game does some thousands.
-pub const MAX_EFFECTS: usize = 1 << 20;
-/// Timers that can be planned at a time.
-pub(crate) const MAX_TIMERS: usize = 1 << 16;
 
 /// Learns what happens inside a step: which interaction of the description was executed on which sprites.
 pub trait Watch {
     /// Interaction `line` (index into [`Description::interactions`](crate::Description)) was executed.
     fn interaction(&mut self, line: usize);
+
+    /// The step is over and was so much work, see [`MAX_WORK`].
+    fn worked(&mut self, _work: usize) {}
 }
 
 /// Watches nothing, costs nothing.
@@ -43,8 +36,8 @@ pub(crate) struct Step<'a> {
     pub(crate) updating: i32,
     /// What stopped the step, if anything did.
     pub(crate) stopped: Option<Limit>,
-    /// Work of effects so far.
-    pub(crate) effects: usize,
+    /// Work so far, see [`MAX_WORK`].
+    pub(crate) work: usize,
 }
 
 impl Game {
@@ -93,7 +86,7 @@ impl Game {
             replaced: Vec::new(),
             jumps: chance,
         };
-        let mut step = Step { rules, state: &mut state, updating: -1, stopped: None, effects: 0 };
+        let mut step = Step { rules, state: &mut state, updating: -1, stopped: None, work: 0 };
         for (at, &symbol) in level.cells().iter().enumerate() {
             let (column, row) = ((at % level.columns()) as i32, (at / level.columns()) as i32);
             for &stype in self.places(symbol) {
@@ -130,8 +123,9 @@ impl Game {
             return state.outcome;
         }
         let allowed = self.actions(state).contains(&action);
-        let mut step = Step { rules: &self.0, state, updating: i32::MAX, stopped: None, effects: 0 };
+        let mut step = Step { rules: &self.0, state, updating: i32::MAX, stopped: None, work: 0 };
         step.cycle(if allowed { action } else { Action::Nil }, watch);
+        watch.worked(step.work);
         state.freshen();
         state.outcome
     }
@@ -170,23 +164,17 @@ impl Step<'_> {
     fn settle_moved(&mut self) {
         let mut moved = std::mem::take(&mut self.state.moved);
         moved.retain(|&slot| {
-            if self.is_updated(slot) {
+            let sprite = self.state.sprite(slot);
+            let (back, settles) = (sprite.last == sprite.rect, !sprite.is(flag::FROZEN));
+            if settles && !back {
                 let sprite = self.state.edit(slot);
                 sprite.last = sprite.rect;
-                sprite.set(flag::MOVED, false);
-                return false;
             }
-            true
+            let keep = !settles && !back;
+            self.state.sprites[usize::from(slot)].set(flag::MOVED, keep);
+            keep
         });
         self.state.moved = moved;
-    }
-
-    /// Whether the sprite takes part in update phases: as the player's avatar, or, if its class is no avatar's, by its
-    /// type.
-    fn is_updated(&self, slot: Slot) -> bool {
-        let sprite = self.state.sprite(slot);
-        let takes_turns = self.rules.types[sprite.stype.index()].order.is_some();
-        !sprite.is(flag::FROZEN) && (takes_turns || slot == self.state.avatar)
     }
 
     /// Whether the sprite's class is an avatar's; what the sprite passes for is [`flag::AVATAR`].
@@ -207,6 +195,7 @@ impl Step<'_> {
             self.updating = i32::from(info.order.expect("movers are in the update order"));
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
+                self.work(1);
                 self.turn_picture(&info.traits, slot);
                 sprites::update(self, slot);
                 if self.stopped.is_some() {
@@ -248,19 +237,15 @@ impl Step<'_> {
         self.message();
         for &slot in extra {
             self.state.release(slot);
-            self.state.stale.retain(|&stale| stale != slot);
-            self.state.moved.retain(|&moved| moved != slot);
         }
+        self.state.forget_gone();
     }
 
-    /// Makes a sprite the player's: from now on it is updated, and ages, and the one before is not.
+    /// Makes a sprite the player's: from now on it is updated, and ages, and the one before is not and does not.
     pub(crate) fn control(&mut self, slot: Slot) {
         let before = std::mem::replace(&mut self.state.avatar, slot);
         if before != NONE && before != slot && !self.state.sprite(before).is(flag::FROZEN) {
-            let age = self.age(before);
-            let sprite = self.state.edit(before);
-            sprite.set(flag::FROZEN, true);
-            sprite.moved_at = age;
+            self.freeze(before);
         }
         let tick = self.state.tick;
         let sprite = self.state.edit(slot);
@@ -285,10 +270,7 @@ impl Step<'_> {
             self.state.release(slot);
         }
         if !killed.is_empty() {
-            let State { stale, moved, sprites, .. } = &mut *self.state;
-            let gone = |slot: &Slot| sprites[usize::from(*slot)].is(flag::GONE);
-            stale.retain(|slot| !gone(slot));
-            moved.retain(|slot| !gone(slot));
+            self.state.forget_gone();
             killed.clear();
         }
         self.state.killed = killed;
@@ -314,11 +296,24 @@ impl Step<'_> {
         self.stopped.get_or_insert(limit);
     }
 
-    /// Counts work of effects; too much of it stops the episode.
+    /// Counts sprites or cells that are looked at; too many of them in one tick stop the episode.
     pub(crate) fn work(&mut self, amount: usize) {
-        self.effects = self.effects.saturating_add(amount);
-        if self.effects > MAX_EFFECTS {
-            self.stop(Limit::Effects);
+        self.work = self.work.saturating_add(amount);
+        if self.work > MAX_WORK {
+            self.stop(Limit::Work);
+        }
+    }
+
+    /// Counts an execution of an effect.
+    pub(crate) fn work_of_effect(&mut self) {
+        self.work(EFFECT_WORK);
+    }
+
+    /// [`State::add_amount`], within the limit.
+    pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
+        self.state.add_amount(holder, resource, change);
+        if self.state.held.len() > MAX_HELD {
+            self.stop(Limit::Resources);
         }
     }
 
@@ -446,12 +441,18 @@ impl Step<'_> {
         if sprite.is(flag::DISABLED) {
             return;
         }
-        let age = self.age(slot);
         let stype = sprite.stype;
-        let sprite = self.state.edit(slot);
-        sprite.set(flag::DISABLED | flag::FROZEN, true);
-        sprite.moved_at = age;
+        self.freeze(slot);
+        self.state.edit(slot).set(flag::DISABLED, true);
         self.state.groups[stype.index()].disabled += 1;
+    }
+
+    /// The sprite is not updated any more, and stays as old as it is.
+    fn freeze(&mut self, slot: Slot) {
+        let age = self.age(slot);
+        let sprite = self.state.edit(slot);
+        sprite.set(flag::FROZEN, true);
+        sprite.moved_at = age;
     }
 
     /// Kills for good, avatar or not.
@@ -463,6 +464,7 @@ impl Step<'_> {
     /// The reference's `lastmove`: ticks since the last move, as it stands in this tick's update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
         let sprite = self.state.sprite(slot);
+        // The reference counts on beyond the largest number, too.
         if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.state.tick.wrapping_sub(sprite.moved_at) }
     }
 

@@ -57,7 +57,7 @@ fn timers_without_end() {
         let setting = setup(sprites, rule);
         assert_eq!(setting.problems(&[("a", 20, 20), AVATAR]), ["endless-timer"]);
         let mut board = setting.place(&[("a", 20, 20), AVATAR]);
-        assert_eq!(board.wait().state.outcome(), Outcome::Stopped(Limit::Effects), "{rule}");
+        assert_eq!(board.wait().state.outcome(), Outcome::Stopped(Limit::Work), "{rule}");
     }
 }
 

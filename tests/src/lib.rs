@@ -1,6 +1,14 @@
-//! What the tests that span crates share: where the workspace is and what files it holds.
+//! What the tests that span crates share: where the workspace is and what files it holds, and what must hold of any
+//! input whatever ([`robustness`]).
 //!
 //! The tests themselves are in `tests/tests/`; `tidy.rs` there holds the rules that a machine can check.
+
+pub mod any_game;
+pub mod choices;
+pub mod hostile;
+pub mod mutation;
+pub mod robustness;
+pub mod vocabulary;
 
 use std::fs;
 use std::io::{self, Write};

@@ -4,14 +4,15 @@
 use super::header::Header;
 use super::interactions::{Partner, Reader, partner};
 use super::{
-    Fate, Names, Policy, Setting, compile_with, space, sprites, terminations, too_large, unknown_parameters,
+    Fate, Names, Policy, Setting, compile_with, refuse_large, space, sprites, terminations,
+    unknown_parameters,
 };
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::game::Rules;
 use crate::syntax::{Description, InteractionLine, Section, Word};
 
 pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, Diagnostics> {
-    too_large(description)?;
+    refuse_large(description)?;
     let mut problems = Vec::new();
     let description = &*space::settled(description, Policy::Reference, &mut problems);
     problems.retain(|problem| problem.code == "bad-parameter-values");

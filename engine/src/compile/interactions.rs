@@ -1,11 +1,13 @@
 //! The InteractionSet as a flat program: effects, edge passes, pair passes in execution order (`spec/01` §1.8).
 
 use super::params::{Expected, Value, convert, wrong_type};
-use super::{MAX_PASSES, Names, Policy, Setting};
+use super::{Names, Policy, Setting, too_many};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{Counting, EffectInfo, Pass, SpriteType, Timed};
+use crate::game::{Counting, EffectInfo, Pass, SpriteType, Timed, TypeInfo};
+use crate::limits::MAX_INTERACTIONS;
 use crate::ontology::effects::{self, Arguments, Effect, Moves, Undeclared};
 use crate::syntax::{Description, InteractionLine, Param, Word};
+use std::collections::BTreeMap;
 
 #[derive(Default)]
 pub(super) struct Program {
@@ -17,6 +19,31 @@ pub(super) struct Program {
 
 /// A keyword that no effect has: a shield of it is of no use.
 const NO_KEYWORD: u16 = u16::MAX;
+
+impl Program {
+    /// Effects that credit by what an earlier execution found: those that an execution may leave alone, because what is
+    /// collected is no resource, or because at the edge there is no partner.
+    pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {
+        let collects = |index: u16| {
+            let effect = &self.effects[usize::from(index)].effect;
+            matches!(effect, Effect::CollectResource { .. } | Effect::CollectResourceIfHeld { .. })
+        };
+        let other = |&stype: &SpriteType| {
+            let info = &types[stype.index()];
+            info.class.is_some() && !info.traits.is_resource
+        };
+        let others = |pass: &&Pass| collects(pass.effect) && types[pass.first.index()].tree.iter().any(other);
+        let mut paired = vec![false; self.effects.len()];
+        self.passes.iter().for_each(|pass| paired[usize::from(pass.effect)] = true);
+        let paired = |effect: &u16| paired.get(usize::from(*effect)) == Some(&true);
+        let at_edge = self.edge.iter().map(|(_, effect)| *effect).filter(paired);
+        let mut found: Vec<u16> =
+            self.passes.iter().filter(others).map(|pass| pass.effect).chain(at_edge).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
 
 /// Parameters that every effect takes.
 pub(super) const COMMON: &[&str] = &[
@@ -44,13 +71,15 @@ pub(super) fn program(
     let mut program = Program::default();
     // Pairs execute where they first appear, whatever stands between their lines.
     let mut pairs: Vec<((SpriteType, SpriteType), Vec<u16>)> = Vec::new();
+    let mut places: BTreeMap<(SpriteType, SpriteType), usize> = BTreeMap::new();
     let mut edges: Vec<SpriteType> = Vec::new();
-    let mut edge_effects: Vec<(SpriteType, u16)> = Vec::new();
+    let mut edge_effects: BTreeMap<SpriteType, Vec<u16>> = BTreeMap::new();
+    let mut total = 0usize;
     let mut keywords: Vec<u16> = Vec::new();
-    let mut passes = 0;
     for (at, line) in description.interactions.iter().enumerate() {
         let timed = program.timed.len() as u16;
         let mut reader = Reader::new(line, names, setting, timed);
+        reader.told = problems.len();
         let built = reader.line(at);
         let clock = reader.clock();
         let planned = reader.planned.take();
@@ -83,19 +112,19 @@ pub(super) fn program(
         for (second, word) in seconds.into_iter().zip(&line.second) {
             match (first, second) {
                 (Partner::Sprite(one), Partner::Sprite(two)) => {
-                    let found = pairs.iter().position(|(pair, _)| *pair == (one, two));
-                    let at = found.unwrap_or_else(|| {
+                    let at = *places.entry((one, two)).or_insert(pairs.len());
+                    if at == pairs.len() {
                         pairs.push(((one, two), Vec::new()));
-                        pairs.len() - 1
-                    });
-                    let room = (MAX_PASSES + 1).saturating_sub(passes);
-                    let copies = index.map_or(0, |_| repeat.min(room));
-                    passes += copies;
-                    pairs[at].1.extend(std::iter::repeat_n(own.effect, copies));
+                    }
+                    let copies = index.map_or(0, |_| repeat);
+                    total = total.saturating_add(copies);
+                    if total <= MAX_INTERACTIONS {
+                        pairs[at].1.extend(std::iter::repeat_n(own.effect, copies));
+                    }
                 }
                 (Partner::Sprite(stype), Partner::Edge) | (Partner::Edge, Partner::Sprite(stype)) => {
                     edges.push(stype);
-                    edge_effects.extend(index.map(|index| (stype, index)));
+                    edge_effects.entry(stype).or_default().extend(index);
                 }
                 (Partner::Unknown | Partner::Clock, _) | (_, Partner::Unknown | Partner::Clock) => {}
                 (Partner::Edge, Partner::Edge) => {
@@ -108,8 +137,13 @@ pub(super) fn program(
     }
     // A type with n lines has all its effects executed n times, in order each time (`spec/03` §4.4).
     for stype in edges {
-        let effects = edge_effects.iter().filter(|(other, _)| *other == stype);
-        program.edge.extend(effects.take((MAX_PASSES + 1).saturating_sub(program.edge.len())));
+        total = total.saturating_add(edge_effects[&stype].len());
+        if total <= MAX_INTERACTIONS {
+            program.edge.extend(edge_effects[&stype].iter().map(|&effect| (stype, effect)));
+        }
+    }
+    if total > MAX_INTERACTIONS {
+        problems.push(too_many(description, "interactions, repeats counted,", total, MAX_INTERACTIONS));
     }
     for ((first, second), effects) in pairs {
         let (one, two) = (&names.types[first.index()], &names.types[second.index()]);
@@ -181,7 +215,7 @@ pub(super) fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnost
     if word.text.eq_ignore_ascii_case("TIME") {
         return Partner::Clock;
     }
-    let problem = names.unknown(word, &["EOS", "TIME"]);
+    let problem = names.unknown(word, &["EOS", "TIME"], problems.len());
     problems.push(match word.text.split_once(',') {
         Some((one, _)) if names.find(one).is_some() => {
             problem.help("names stand apart with a blank between them: one before, partners after")
@@ -198,6 +232,8 @@ pub(super) struct Reader<'a> {
     setting: Setting,
     used: Vec<&'a str>,
     pub(super) problems: Vec<Diagnostic>,
+    /// Problems of the lines before.
+    told: usize,
     /// The reference makes no effect of the line, and reads no further.
     pub(super) failed: bool,
     /// `scoreChange` and `scoreChangeIfKilled` are no numbers.
@@ -227,7 +263,7 @@ impl<'a> Reader<'a> {
     ) -> Reader<'a> {
         let (used, problems) = (Vec::new(), Vec::new());
         let (failed, score_faults, planned) = (false, [false; 2], None);
-        Reader { line, names, setting, used, problems, failed, score_faults, timed, planned }
+        Reader { line, names, setting, used, problems, told: 0, failed, score_faults, timed, planned }
     }
 
     /// None if there is no such effect.
@@ -238,7 +274,8 @@ impl<'a> Reader<'a> {
             let message = format!("no effect named `{name}`");
             let problem = Diagnostic::error("unknown-effect", self.line.effect.span, message);
             let problem = problem.help("docs/ontology/effects has a page for each effect");
-            self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
+            let told = self.told + self.problems.len();
+            self.problems.push(problem.suggest_after(told, name, effects::NAMES.iter().copied()));
             return None;
         };
         let keyword =
@@ -375,7 +412,8 @@ impl<'a> Reader<'a> {
                 [] => format!("remove it: `{name}` has no parameters of its own"),
                 _ => format!("remove it, or write one of its own: {}", own.join(", ")),
             });
-            self.problems.push(problem.suggest(key, known));
+            let told = self.told + self.problems.len();
+            self.problems.push(problem.suggest_after(told, key, known));
         }
     }
 
@@ -548,7 +586,8 @@ impl Arguments for Reader<'_> {
                 let message = format!("no effect named `{name}`");
                 let problem = Diagnostic::error("unknown-effect", param.value.span, message);
                 let problem = problem.help("docs/ontology/effects has a page for each effect");
-                self.problems.push(problem.suggest(name, effects::NAMES.iter().copied()));
+                let told = self.told + self.problems.len();
+                self.problems.push(problem.suggest_after(told, name, effects::NAMES.iter().copied()));
                 NO_KEYWORD
             },
             |at| at as u16,

@@ -9,9 +9,13 @@ mod space;
 mod sprites;
 mod terminations;
 
+pub use params::BASE as SPRITE_PARAMETERS;
+
 use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
+use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TICKS, MAX_TYPES};
+use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites as behaviour;
 use crate::ontology::terminations::{Condition, Decision};
@@ -19,14 +23,8 @@ use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
 use smallvec::SmallVec;
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
-
-/// Lines of the SpriteSet at most.
-const MAX_TYPES: usize = 512;
-/// Interaction lines at most, and passes that they make.
-const MAX_PASSES: usize = 20_000;
-/// Cells that the largest sprite may cover along one side.
-const MAX_REACH: i32 = 64;
 
 /// What to do about faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +53,7 @@ struct Fate {
 }
 
 pub(crate) fn compile(description: &Description) -> Result<Rules, Diagnostics> {
-    too_large(description)?;
+    refuse_large(description)?;
     let mut problems = Vec::new();
     let description = space::settled(description, Policy::Strict, &mut problems);
     compile_with(&description, Policy::Strict, Fate::default(), problems)
@@ -76,11 +74,7 @@ fn compile_with(
     let (terminations, can_end) = terminations::terminations(description, names, setting, &mut problems);
     let obstacles = header.obstacles.iter().flatten();
     let obstacles = obstacles.filter_map(|name| names.resolve(name, &mut problems)).collect();
-    if program.passes.len().max(program.edge.len()) > MAX_PASSES {
-        let message = format!("the game has more than {MAX_PASSES} interactions, repeats counted");
-        problems.push(Diagnostic::error("too-large", description.header.class.span, message));
-    }
-    if policy == Policy::Strict {
+    if policy == Policy::Strict && problems.len() < MAX_PROBLEMS {
         misspelt_declarations(description, &mut problems);
     }
     if fate.dies_at_edge {
@@ -108,6 +102,15 @@ fn compile_with(
     // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
+    let of_class = |is: &'static dyn Fn(SpriteClass) -> bool| {
+        types.iter().filter(move |info| info.class.is_some_and(is)).map(|info| &info.traits)
+    };
+    let spawners = || of_class(&SpriteClass::is_spawner);
+    let wizards = of_class(&|class| class == SpriteClass::WizardAvatar);
+    let distinct = |numbers: &mut dyn Iterator<Item = i32>| {
+        let numbers: BTreeSet<i32> = numbers.collect();
+        numbers.into_iter().collect::<Vec<i32>>()
+    };
     Ok(Rules {
         digest: Digest::of(print_bare(description).as_bytes()),
         description: description.clone(),
@@ -123,20 +126,24 @@ fn compile_with(
         mapping,
         unusable,
         draws: classes().any(behaviour::draws) || program.effects.iter().any(|info| info.effect.draws()),
+        first_differs: types.iter().any(|info| info.first_differs),
+        remembering: program.remembering(&types),
         effects: program.effects,
         edge: program.edge,
         passes: program.passes,
         timed: program.timed,
         finds_paths: header.obstacles.is_some(),
         obstacles,
-        reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. })),
+        reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. }))
+            || spawners().any(|traits| traits.start > i32::MAX - 2 * MAX_TICKS),
         reads_counters: terminations
             .iter()
             .any(|end| matches!(end.decided_by, Decision::Difference | Decision::Value(_))),
         reads_score: terminations.iter().any(|end| end.decided_by == Decision::Score),
+        clocks: distinct(&mut spawners().map(|traits| traits.cooldown).filter(|&cooldown| cooldown > 1)),
+        wizard_ticks: distinct(&mut wizards.map(|traits| traits.last_block_time.wrapping_add(BLOCK_PAUSE))),
         terminations,
-        reach: factors.clone().fold(1, |reach, factor| reach.max(factor.ceil() as i32)),
-        first_differs: types.iter().any(first_differs),
+        reach: factors.fold(1, |reach, factor| reach.max(factor.ceil() as i32)),
         types,
     })
 }
@@ -153,23 +160,25 @@ fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     unknown.len() as u32
 }
 
-/// Refuses games that would take long to look at.
-fn too_large(description: &Description) -> Result<(), Diagnostics> {
+/// Refuses games that would take long to look at: before anything is resolved.
+fn refuse_large(description: &Description) -> Result<(), Diagnostics> {
     let counts = [
-        ("sprites", description.sprite_lines().len(), MAX_TYPES),
+        ("sprite types", description.sprite_lines().len(), MAX_TYPES),
         ("parameters", description.parameters.len(), MAX_TYPES),
         ("mappings of characters", description.mapping.len(), MAX_TYPES),
-        ("interactions", description.interactions.len(), MAX_PASSES),
-        ("terminations", description.terminations.len(), MAX_PASSES),
+        ("interactions", description.interactions.len(), MAX_INTERACTIONS),
+        ("terminations", description.terminations.len(), MAX_TYPES),
     ];
-    let problem = |(what, count, most): (&str, usize, usize)| {
-        let message = format!("the game has {count} {what}; the limit is {most}");
-        let problem = Diagnostic::error("too-large", description.header.class.span, message);
-        problem.help("split it into several games")
-    };
+    let exceeded = counts.into_iter().filter(|(_, count, most)| count > most);
     let problems: Vec<Diagnostic> =
-        counts.into_iter().filter(|(_, count, most)| count > most).map(problem).collect();
+        exceeded.map(|(what, count, most)| too_many(description, what, count, most)).collect();
     if problems.is_empty() { Ok(()) } else { Err(Diagnostics(problems)) }
+}
+
+fn too_many(description: &Description, what: &str, count: usize, most: usize) -> Diagnostic {
+    let message = format!("the game has {count} {what}; the limit is {most}");
+    let problem = Diagnostic::error("too-large", description.header.class.span, message);
+    problem.help("split it into several games")
 }
 
 /// Names that nothing declares, next to a declared one that nothing uses: the declaration is what is misspelt, if the name is
@@ -188,11 +197,11 @@ fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnosti
     let mut names: Vec<&str> = used.iter().filter(unknown).map(|word| word.text.as_str()).collect();
     names.sort_unstable();
     names.dedup();
-    let is_used = |name: &str| used.iter().any(|word| word.text.split(',').any(|entry| entry == name));
+    let entries: BTreeSet<&str> = used.iter().flat_map(|word| word.text.split(',')).collect();
+    let idle = || lines().filter(|line| !entries.contains(line.name.text.as_str()));
     for name in names {
-        let idle = lines().filter(|line| !is_used(&line.name.text));
-        let Some(near) = nearest(name, idle.clone().map(|line| line.name.text.as_str())) else { continue };
-        let Some(line) = idle.clone().find(|line| line.name.text == near) else { continue };
+        let Some(near) = nearest(name, idle().map(|line| line.name.text.as_str())) else { continue };
+        let Some(line) = idle().find(|line| line.name.text == near) else { continue };
         let places: Vec<&Word> = used.iter().filter(|word| word.text == name).copied().collect();
         let problem = if places.len() > 1 {
             problems.retain(|problem| {
@@ -219,7 +228,7 @@ fn never_there(
     program: &interactions::Program,
     problems: &mut Vec<Diagnostic>,
 ) {
-    let mut there: Vec<SpriteType> = mapping.iter().flatten().copied().collect();
+    let mut there: BTreeSet<SpriteType> = mapping.iter().flatten().copied().collect();
     for traits in types.iter().map(|info| &info.traits) {
         there.extend(traits.stypes.iter().chain(&traits.ammo).chain(&traits.spawn_behind));
     }
@@ -248,36 +257,28 @@ fn never_there(
     }
 }
 
-/// A later sprite is a copy of the first: it has its size from the start, its parameters have been complained of, and if
-/// it leaves something behind it is wall.
-fn first_differs(info: &TypeInfo) -> bool {
-    let scales = [info.traits.width_factor, info.traits.height_factor] != [1.0, 1.0];
-    scales || info.unknown_parameters > 0 || info.class == Some(SpriteClass::OngoingTurningAvatar)
-}
-
 /// What each level character places, and the characters that name an undeclared sprite: a level that uses one does not
 /// load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
     problems: &mut Vec<Diagnostic>,
-) -> (Vec<SmallVec<[SpriteType; 4]>>, Vec<char>) {
-    let mut unusable = Vec::new();
+) -> (Vec<SmallVec<[SpriteType; 4]>>, BTreeSet<char>) {
+    let mut unusable = BTreeSet::new();
     let mut mapping = vec![SmallVec::new(); 128];
     // Present in every game unless it maps these characters itself (`spec/01` §1.7).
     mapping[usize::from(b'w')] = SmallVec::from_slice(&[SpriteType(0)]);
     mapping[usize::from(b'A')] = SmallVec::from_slice(&[SpriteType(1)]);
-    let mut seen = Vec::new();
+    let mut seen = BTreeSet::new();
     for line in &description.mapping {
-        if seen.contains(&line.symbol) {
+        if !seen.insert(line.symbol) {
             let message = format!("`{}` is mapped twice", line.symbol);
             let problem = Diagnostic::error("duplicate-mapping", line.span, message);
             problems.push(problem.help("remove one of the two lines, or give it another character"));
         }
-        seen.push(line.symbol);
-        unusable.retain(|&symbol| symbol != line.symbol);
+        unusable.remove(&line.symbol);
         if line.names.iter().any(|name| names.find(&name.text).is_none()) {
-            unusable.push(line.symbol);
+            unusable.insert(line.symbol);
         }
         let types = line.names.iter().filter_map(|name| {
             let stype = names.resolve(name, problems)?;
@@ -312,7 +313,7 @@ impl<'a> Names<'a> {
     fn resolve(self, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
-            problems.push(self.unknown(name, &[]));
+            problems.push(self.unknown(name, &[], problems.len()));
         }
         found
     }
@@ -321,7 +322,7 @@ impl<'a> Names<'a> {
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
-            let problem = self.unknown(name, &[]);
+            let problem = self.unknown(name, &[], problems.len());
             problems.push(match params::is_name(&name.text) {
                 true => problem,
                 false => problem.help(format!("write `{}=` and the name of a sprite", param.key.text)),
@@ -331,9 +332,13 @@ impl<'a> Names<'a> {
     }
 
     /// The problem of a name that no sprite has, and that is none of `others` either.
-    fn unknown(self, name: &Word, others: &[&str]) -> Diagnostic {
+    /// `found` problems were found before.
+    fn unknown(self, name: &Word, others: &[&str], found: usize) -> Diagnostic {
         let message = format!("no sprite named `{}`", name.text);
         let problem = Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
+        if found >= MAX_PROBLEMS {
+            return problem;
+        }
         let known = || self.types.iter().map(|info| info.name.as_str()).chain(others.iter().copied());
         match nearest(&name.text, known()) {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
@@ -356,7 +361,10 @@ impl<'a> Names<'a> {
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {
-            let below = self.subtypes(stype);
+            let shown = if problems.len() < MAX_PROBLEMS { SUBTYPES_SHOWN } else { 1 };
+            let of_it =
+                self.types.iter().filter(|other| other.path.contains(&stype) && other.class.is_some());
+            let below: Vec<&str> = of_it.map(|other| other.name.as_str()).take(shown).collect();
             // Without any class below, its own line has been told of.
             if !below.is_empty() {
                 let message = format!("`{}` has no class, so there can be no such sprite", name.text);

@@ -104,7 +104,7 @@ fn leading_number(value: &str) -> Option<&str> {
 }
 
 /// The parameters of every sprite, whatever its class. Those that only pictures use are read and forgotten.
-const BASE: &[&str] = &[
+pub const BASE: &[&str] = &[
     "speed",
     "cooldown",
     "physicstype",
@@ -155,25 +155,25 @@ const BOOK_KEEPING: &[&str] =
 
 /// Whether sprites of the class have a parameter.
 pub(super) fn takes(class: SpriteClass, key: &str) -> bool {
-    BASE.contains(&key) || class.parameters().contains(&key)
+    BASE.contains(&key) || BOOK_KEEPING.contains(&key) || class.parameters().contains(&key)
 }
 
-/// Sets one parameter on the traits of a sprite type. Names of sprites (`stype`, `ammo`) are resolved by the caller.
+/// The problem of a parameter that the class does not have; `found` others were found before.
+pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize) -> Diagnostic {
+    let key = param.key.text.as_str();
+    let message = format!("{} has no parameter `{key}`", class.name());
+    let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
+    let problem = problem.help(format!("remove it: {} does nothing with it", class.name()));
+    problem.suggest_after(found, key, BASE.iter().copied().chain(class.parameters()))
+}
+
+/// Sets one parameter that the class has on the traits of a sprite type. Names of sprites (`stype`, `ammo`) are resolved by
+/// the caller.
 pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) -> Result<(), Diagnostic> {
     let key = param.key.text.as_str();
-    let own = class.parameters();
     if BOOK_KEEPING.contains(&key) {
         let message = format!("`{key}` is set by the engine");
         return Err(Diagnostic::error("bad-parameter", param.key.span, message).help("remove it"));
-    }
-    if !BASE.contains(&key) && !own.contains(&key) {
-        let message = format!("{} has no parameter `{key}`", class.name());
-        let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
-        let known = || BASE.iter().copied().chain(own.iter().copied());
-        return Err(match nearest(key, known()) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem.help(format!("remove it: {} does nothing with it", class.name())),
-        });
     }
     let value = convert(key, &param.value.text);
     let fail = |expected| wrong_type(param, expected);
@@ -316,7 +316,7 @@ mod tests {
     fn values_must_fit_the_field() {
         assert_eq!(set(SpriteClass::Missile, "speed", "0.5").unwrap().speed, 0.5);
         assert_eq!(set(SpriteClass::Missile, "cooldown", "2.0").unwrap_err(), "wrong-type");
-        assert_eq!(set(SpriteClass::Missile, "sped", "2").unwrap_err(), "unknown-parameter");
+        assert!(!takes(SpriteClass::Missile, "sped") && takes(SpriteClass::Missile, "speed"));
         assert_eq!(set(SpriteClass::Missile, "orientation", "up").unwrap_err(), "wrong-type");
         assert_eq!(set(SpriteClass::Missile, "orientation", "DUP").unwrap().orientation, Direction::UP);
         assert_eq!(set(SpriteClass::Missile, "singleton", "1").unwrap_err(), "wrong-type");

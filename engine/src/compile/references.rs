@@ -4,6 +4,7 @@ use super::Names;
 use super::params::{Expected, Value, convert, wrong_type};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::SpriteType;
+use crate::limits::MAX_LIST;
 use crate::ontology::class::SpriteClass;
 use crate::syntax::{Param, Word};
 use smallvec::SmallVec;
@@ -105,6 +106,12 @@ impl Subject<'_> {
         }
         // Nothing stands between trailing commas.
         let list = text.trim_end_matches(',');
+        let count = list.split(',').count();
+        if count > MAX_LIST {
+            let message = format!("`{key}` names {count} sprites; the limit is {MAX_LIST}");
+            problems.push(Diagnostic::error("too-large", param.value.span, message).help("name fewer"));
+            return found;
+        }
         if list != text {
             let message = format!("`{key}` ends with a comma");
             problems.push(Diagnostic::error("wrong-type", param.value.span, message).help("remove it"));

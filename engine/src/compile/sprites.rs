@@ -1,13 +1,15 @@
 //! The SpriteSet: registry, inheritance, update order (`spec/01` §1.6).
 
-use super::params::{set_trait, takes};
+use super::params::{set_trait, takes, unknown_parameter};
 use super::references::{Subject, references};
 use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{SpriteType, TypeInfo};
+use crate::limits::{MAX_PARAMETERS, MAX_REACH};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::traits::Traits;
 use crate::syntax::{Description, Param, SpriteLine, Word};
+use std::collections::BTreeSet;
 
 /// A line with what it inherits.
 struct Resolved<'a> {
@@ -28,7 +30,7 @@ pub(super) fn types(
     problems: &mut Vec<Diagnostic>,
 ) -> (Vec<TypeInfo>, Vec<SpriteType>) {
     let mut resolved = Vec::new();
-    inherit(&description.sprites, &None, &[], &[], &mut resolved);
+    inherit(&description.sprites, &None, &[], &[], &mut resolved, problems);
     duplicates(&resolved, problems);
     classes(&description.sprites, None, problems);
     let leaves: Vec<String> = resolved
@@ -51,7 +53,7 @@ pub(super) fn types(
     let mut rejected = Rejected::default();
     let mut types: Vec<TypeInfo> =
         registry.iter().map(|sprite| type_info(sprite, &registry, policy, &mut rejected, problems)).collect();
-    problems.extend(rejected.by_all());
+    rejected.by_all(problems);
     let order = update_order(&leaves, &types);
     for (at, stype) in order.iter().enumerate() {
         types[stype.index()].order = Some(at as u16);
@@ -75,19 +77,19 @@ pub(super) fn types(
 /// Parameters that a class does not have. A parent line passes its parameters to children of several classes; one is a
 /// mistake if none of them takes it.
 #[derive(Default)]
-struct Rejected {
-    problems: Vec<Diagnostic>,
-    taken: Vec<Span>,
+struct Rejected<'a> {
+    refused: Vec<(SpriteClass, &'a Param)>,
+    taken: BTreeSet<Span>,
 }
 
-impl Rejected {
-    fn by_all(self) -> impl Iterator<Item = Diagnostic> {
-        let mut told: Vec<Span> = self.taken;
-        self.problems.into_iter().filter(move |problem| {
-            let new = !told.contains(&problem.span);
-            told.push(problem.span);
-            new
-        })
+impl Rejected<'_> {
+    fn by_all(self, problems: &mut Vec<Diagnostic>) {
+        let mut told = self.taken;
+        for (class, param) in self.refused {
+            if told.insert(param.key.span) {
+                problems.push(unknown_parameter(class, param, problems.len()));
+            }
+        }
     }
 }
 
@@ -109,11 +111,19 @@ fn inherit<'a>(
     params: &[&'a Param],
     path: &[String],
     out: &mut Vec<Resolved<'a>>,
+    problems: &mut Vec<Diagnostic>,
 ) {
     for line in lines {
         let mut own_params: Vec<&Param> = params.to_vec();
         for param in &line.params {
             own_params.retain(|inherited| inherited.key.text != param.key.text);
+            if own_params.len() == MAX_PARAMETERS {
+                let message =
+                    format!("a sprite has at most {MAX_PARAMETERS} parameters, inherited ones included");
+                let problem = Diagnostic::error("too-large", param.key.span, message);
+                problems.push(problem.help("no class has as many: remove those that are not meant"));
+                break;
+            }
             own_params.push(param);
         }
         let mut own_path = path.to_vec();
@@ -128,7 +138,7 @@ fn inherit<'a>(
             params: own_params.clone(),
         });
         let passed_on = line.class.clone().or_else(|| class.clone());
-        inherit(&line.children, &passed_on, &own_params, &own_path, out);
+        inherit(&line.children, &passed_on, &own_params, &own_path, out, problems);
         out[at].descendants = out[at + 1..].iter().map(|sprite| sprite.name.clone()).collect();
     }
 }
@@ -205,11 +215,11 @@ fn duplicates(resolved: &[Resolved<'_>], problems: &mut Vec<Diagnostic>) {
     }
 }
 
-fn type_info(
-    sprite: &Resolved<'_>,
-    registry: &[Resolved<'_>],
+fn type_info<'a>(
+    sprite: &Resolved<'a>,
+    registry: &[Resolved<'a>],
     policy: Policy,
-    rejected: &mut Rejected,
+    rejected: &mut Rejected<'a>,
     problems: &mut Vec<Diagnostic>,
 ) -> TypeInfo {
     let id = |name: &String| {
@@ -232,24 +242,22 @@ fn type_info(
     let mut unknown_parameters = 0;
     if let Some(class) = class {
         for param in &sprite.params {
+            if !takes(class, &param.key.text) {
+                unknown_parameters += 1;
+                rejected.refused.push((class, param));
+                continue;
+            }
             match set_trait(class, &mut traits, param) {
-                Err(problem) if problem.code == "unknown-parameter" => {
-                    unknown_parameters += 1;
-                    // Of a class that is overruled, that has been told.
-                    if !sprite.line.is_some_and(|line| is_of_own_class(line, param)) {
-                        rejected.problems.push(problem);
-                    }
-                }
                 Err(problem) => problems.push(problem),
-                Ok(()) => rejected.taken.push(param.key.span),
+                Ok(()) => drop(rejected.taken.insert(param.key.span)),
             }
         }
     }
     for (key, factor) in [("wMult", traits.width_factor), ("hMult", traits.height_factor)] {
-        if !(factor > 0.0 && factor <= f64::from(super::MAX_REACH)) {
+        if !(factor > 0.0 && factor <= f64::from(MAX_REACH)) {
             let given = sprite.params.iter().find(|param| param.key.text == key);
             let span = given.map(|param| param.value.span).unwrap_or_default();
-            let message = format!("`{key}` is a number of cells above 0 and at most {}", super::MAX_REACH);
+            let message = format!("`{key}` is a number of cells above 0 and at most {}", MAX_REACH);
             let problem = Diagnostic::error("bad-parameter", span, message);
             problems.push(problem.help(format!("leave it out, and it is `{key}=1`")));
         }
@@ -258,6 +266,8 @@ fn type_info(
     let singleton = |param: &Param| {
         (param.key.text == "singleton").then(|| param.value.text.eq_ignore_ascii_case("true"))
     };
+    let scales = [traits.width_factor, traits.height_factor] != [1.0, 1.0];
+    let unknown_parameters = if policy == Policy::Reference { unknown_parameters } else { 0 };
     TypeInfo {
         name: sprite.name.clone(),
         class,
@@ -270,7 +280,8 @@ fn type_info(
         singleton: sprite.line.and_then(|line| line.params.iter().rev().find_map(singleton)) == Some(true),
         leaf: sprite.descendants.is_empty(),
         incomplete: false,
-        unknown_parameters: if policy == Policy::Reference { unknown_parameters } else { 0 },
+        unknown_parameters,
+        first_differs: scales || unknown_parameters > 0 || class == Some(SpriteClass::OngoingTurningAvatar),
         ground_aware: class.is_some_and(SpriteClass::is_ground_aware),
     }
 }

@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
                 let message = format!("no termination named `{name}`");
                 let problem = Diagnostic::error("unknown-termination", span, message);
                 let problem = problem.help(format!("terminations are {}", NAMES.join(", ")));
-                self.problems.push(problem.suggest(name, NAMES.iter().copied()));
+                self.problems.push(problem.suggest_after(self.problems.len(), name, NAMES.iter().copied()));
                 return None;
             }
         };
@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
                 let known: Vec<&str> = common.iter().chain(own).copied().collect();
                 let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
                 let problem = problem.help(format!("its parameters are {}", known.join(", ")));
-                self.problems.push(problem.suggest(key, known));
+                self.problems.push(problem.suggest_after(self.problems.len(), key, known));
             }
         }
         let limit = self.int("limit", 0);

@@ -108,17 +108,10 @@ fn flak(step: &mut Step<'_>, slot: Slot) {
         step.add(traits.stypes.first().copied().unwrap_or(SpriteType::NONE), sprite.rect.x, sprite.rect.y)
     {
         if let Some(ammo) = ammo {
-            spend(step, slot, ammo, traits.ammo_cost);
+            // The reference stores the difference as it is: ammunition may go below 0.
+            step.state.overdraw(slot, ammo, traits.ammo_cost);
         }
         step.state.edit(shot).set(flag::FROM_AVATAR, true);
-    }
-}
-
-/// The reference stores the difference as it is: ammunition may go below 0.
-fn spend(step: &mut Step<'_>, slot: Slot, ammo: SpriteType, cost: i32) {
-    let held = step.state.held.iter_mut().find(|held| held.holder == slot && held.resource == ammo);
-    if let Some(held) = held {
-        held.amount = held.amount.wrapping_sub(cost);
     }
 }
 
@@ -150,7 +143,7 @@ fn shoot_kind(step: &mut Step<'_>, slot: Slot, kind: usize, facing: Direction) {
     let y = ahead(sprite.rect.y, facing.y, sprite.last.h);
     if let Some(shot) = step.add(traits.stypes[kind], x, y) {
         if let Some(&ammo) = traits.ammo.get(kind) {
-            step.state.add_amount(slot, ammo, -1);
+            step.add_amount(slot, ammo, -1);
         }
         let new = step.state.edit(shot);
         if new.is(flag::ORIENTED) {
@@ -302,12 +295,15 @@ fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Act
     }
 }
 
+/// Ticks between two blocks of a wizard.
+pub(crate) const BLOCK_PAUSE: i32 = 5;
+
 /// A platformer that puts blocks where it looks.
 fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
     platformer(step, slot, direction, action);
     let rules = step.rules;
     let tick = step.state.tick;
-    let ready = step.state.extra(rules, slot).block_time.wrapping_add(5) <= tick;
+    let ready = step.state.extra(rules, slot).block_time.wrapping_add(BLOCK_PAUSE) <= tick;
     if action == Action::Up && ready {
         physics::active(step, slot, Direction::DOWN, -1.0);
         let sprite = *step.state.sprite(slot);

@@ -101,6 +101,11 @@ impl SpriteClass {
         self.is_a(SpriteClass::MovingAvatar)
     }
 
+    /// Whether sprites of the class make others by the clock (`spec/02` §8).
+    pub(crate) fn is_spawner(self) -> bool {
+        self.is_a(SpriteClass::SpawnPoint) || self == SpriteClass::SpawnPointMultiSprite
+    }
+
     /// Whether sprites of the class notice what they stand on (`spec/02` §2.5).
     pub(crate) fn is_ground_aware(self) -> bool {
         self.is_a(SpriteClass::PlatformerAvatar) || self.is_a(SpriteClass::Walker)

@@ -144,6 +144,8 @@ pub struct Description {
     pub terminations: Vec<TerminationLine>,
     /// Which sections the file has, in the order of [`Section::ALL`].
     pub has: [bool; 4],
+    /// The comments of the lines that name the sections, in the same order; those of the ParameterSet are the last ones.
+    pub section_trivia: [Trivia; 5],
     /// Comments below the last line.
     pub tail: Vec<String>,
     /// ParameterSet, of a `GameSpace`.

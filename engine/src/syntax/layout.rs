@@ -2,6 +2,9 @@
 
 use crate::diagnostic::Span;
 
+/// What some editors start a file with.
+pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
+
 /// One line that is not blank.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Line<'a> {
@@ -27,6 +30,8 @@ pub(super) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
             Some((code, comment)) => (code, Some(comment.trim())),
             None => (raw, None),
         };
+        // Some editors put a byte order mark before the first line.
+        let code = code.strip_prefix(BYTE_ORDER_MARK).filter(|_| start == 0).unwrap_or(code);
         let text = code.trim_matches(|c: char| c <= ' ');
         if text.is_empty() {
             above.extend(comment);

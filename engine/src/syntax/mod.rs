@@ -13,6 +13,7 @@ pub use description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
     TerminationLine, Trivia, Word,
 };
+pub(crate) use layout::BYTE_ORDER_MARK;
 pub(crate) use parse::{Literal, literal, parse_all};
-pub use parse::{MAX_SOURCE, parse, parse_as_reference};
+pub use parse::{parse, parse_as_reference};
 pub use print::{print, print_bare};

@@ -10,16 +10,12 @@ use super::reference;
 use super::repair;
 use super::sections::{self, Part};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+use crate::limits::{MAX_LINE, MAX_NAME, MAX_NESTING, MAX_SOURCE};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::{effects, terminations};
 use pest::Parser;
 use pest::iterators::{Pair, Pairs};
 use std::iter::Peekable;
-
-/// Bytes of game text that are read; a game is a few kilobytes.
-pub const MAX_SOURCE: usize = 1 << 20;
-/// Levels of indentation in a SpriteSet; the games of the reference have four at most.
-pub(super) const MAX_DEPTH: usize = 32;
 
 #[derive(pest_derive::Parser)]
 #[grammar = "syntax/vgdl.pest"]
@@ -68,6 +64,29 @@ pub(crate) fn parse_all(source: &str) -> (Description, Diagnostics) {
     (reader.description, Diagnostics::sorted(reader.problems))
 }
 
+/// The problem of a line that is too long to be read.
+pub(super) fn long_line(line: &Line<'_>) -> Option<Diagnostic> {
+    let length = line.text.len();
+    let message = format!("this line is {length} bytes long; at most {MAX_LINE} are read");
+    let problem = Diagnostic::error("too-long", line.span, message).help("is this a VGDL file?");
+    (length > MAX_LINE).then_some(problem)
+}
+
+/// The problem of a sprite's name that is too long.
+pub(super) fn long_name(name: &Word) -> Option<Diagnostic> {
+    let length = name.text.len();
+    let message = format!("this name is {length} bytes long; the limit is {MAX_NAME}");
+    let problem = Diagnostic::error("too-long", name.span, message).help("choose a shorter name");
+    (length > MAX_NAME).then_some(problem)
+}
+
+/// The problem of sprites that are nested too deep.
+pub(super) fn too_deep(line: &Line<'_>) -> Diagnostic {
+    let message = format!("sprites are nested more than {MAX_NESTING} deep");
+    let problem = Diagnostic::error("too-deep", line.span, message);
+    problem.help("indent siblings alike: a line that is indented deeper is a subtype")
+}
+
 #[derive(Default)]
 struct Reader {
     description: Description,
@@ -85,6 +104,8 @@ enum Token {
 impl Reader {
     fn read(&mut self, source: &str) {
         let (mut lines, tail) = layout::lines(source);
+        self.problems.extend(lines.iter().filter_map(long_line));
+        lines.retain(|line| long_line(line).is_none());
         lines.retain_mut(|line| self.without_foreign_comment(line));
         self.description.tail = tail.into_iter().map(str::to_owned).collect();
         let Some((header, rest)) = lines.split_first() else {
@@ -106,6 +127,7 @@ impl Reader {
             if let Some(has) = self.description.has.get_mut(part.section as usize) {
                 *has = true;
             }
+            self.description.section_trivia[part.section as usize] = trivia(part.head);
             self.body(&part);
         }
         for (has, section) in self.description.has.into_iter().zip(Section::ALL) {
@@ -234,11 +256,8 @@ impl Reader {
     fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
         let indent = indents::of_siblings(lines);
-        if depth == MAX_DEPTH {
-            let message = format!("sprites are nested more than {MAX_DEPTH} deep");
-            let problem = Diagnostic::error("too-deep", first.span, message);
-            self.problems
-                .push(problem.help("indent siblings alike: a line that is indented deeper is a subtype"));
+        if depth == MAX_NESTING {
+            self.problems.push(too_deep(first));
             return;
         }
         let mut at = 0;
@@ -291,6 +310,7 @@ impl Reader {
         for word in strays {
             self.stray_word(&word, "a sprite has one class");
         }
+        self.problems.extend(long_name(&sprite.name));
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
 

@@ -21,14 +21,14 @@ struct Printer {
 impl Printer {
     fn game(mut self, game: &Description) -> String {
         self.line(0, &game.header.trivia, &with_params(&game.header.class.text, &game.header.params));
-        let sections = Section::ALL.into_iter().zip(game.has);
-        for (section, has) in
-            [(Section::ParameterSet, !game.parameters.is_empty())].into_iter().chain(sections)
-        {
+        let space = Section::ParameterSet;
+        let has_space =
+            !game.parameters.is_empty() || game.section_trivia[space as usize] != Trivia::default();
+        for (section, has) in [(space, has_space)].into_iter().chain(Section::ALL.into_iter().zip(game.has)) {
             if !has {
                 continue;
             }
-            self.line(1, &Trivia::default(), section.name());
+            self.line(1, &game.section_trivia[section as usize], section.name());
             match section {
                 Section::ParameterSet => {
                     for line in &game.parameters {
@@ -98,7 +98,7 @@ impl Printer {
             }
         }
         let _ = match trivia.beside.as_ref().filter(|_| self.comments) {
-            Some(comment) => writeln!(self.out, "{indent}{text}  # {comment}"),
+            Some(comment) => writeln!(self.out, "{}", format!("{indent}{text}  # {comment}").trim_end()),
             None => writeln!(self.out, "{indent}{text}"),
         };
     }
@@ -123,6 +123,7 @@ mod tests {
         assert_eq!(print(&parse(&once).0), once);
         assert!(once.contains("            # fruit\n            b > color=RED\n"), "{once}");
         assert!(once.contains("        a > Missile  # fast\n"), "{once}");
+        assert!(once.contains("    SpriteSet  # what exists\n"), "{once}");
         assert!(once.ends_with("# end\n"), "{once}");
         assert!(!print_bare(&parse(source).0).contains('#'));
     }

@@ -6,9 +6,10 @@ use super::description::{
     TerminationLine, Word,
 };
 use super::layout::{self, Line};
-use super::parse::MAX_DEPTH;
+use super::parse::{long_line, long_name, too_deep};
 use super::sections;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::limits::MAX_NESTING;
 
 /// The description that the reference works with, or what it dies of.
 pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
@@ -18,6 +19,9 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
         return Err(problem.help("the reference engine dies of it; write a blank or a word as well"));
     }
     let (lines, _) = layout::lines(source);
+    if let Some(problem) = lines.iter().find_map(long_line) {
+        return Err(problem);
+    }
     let mut tree = Tree::default();
     let mut grammar = None;
     for line in &lines {
@@ -212,9 +216,11 @@ impl<'a> Tree<'a> {
         let mut lines = Vec::new();
         for &at in siblings {
             let node = &self.nodes[at];
-            if depth == MAX_DEPTH {
-                let message = format!("sprites are nested more than {MAX_DEPTH} deep");
-                return Err(Diagnostic::error("too-deep", node.line.span, message));
+            if depth == MAX_NESTING {
+                return Err(too_deep(node.line));
+            }
+            if let Some(problem) = long_name(&node.tokens[0]) {
+                return Err(problem);
             }
             let words = || node.tokens[1..].iter().filter(|token| !token.text.contains('='));
             if !words().any(|word| word.text == ">") {

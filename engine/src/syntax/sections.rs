@@ -44,14 +44,14 @@ fn split<'a, 'b>(
     lines: &'b [Line<'a>],
     problems: &mut Vec<Diagnostic>,
 ) -> (Vec<&'b Line<'a>>, Vec<Part<'a, 'b>>) {
-    let exact = |section: Section| lines.iter().any(|line| named(line.text) == Some(section));
+    let exact = Section::ALL.map(|section| lines.iter().any(|line| named(line.text) == Some(section)));
     let mut orphans = Vec::new();
     let mut parts: Vec<Part<'a, 'b>> = Vec::new();
     for line in lines {
         let misspelt = || {
             let alone = !line.text.contains([' ', '\t', '>', '=']);
             let near = nearest(line.text, Section::ALL.map(Section::name)).and_then(named);
-            near.filter(|&section| alone && !exact(section))
+            near.filter(|&section| alone && !exact[section as usize])
         };
         let Some(section) = named(line.text).or_else(misspelt) else {
             parts.last_mut().map_or(&mut orphans, |part| &mut part.body).push(line);

@@ -39,7 +39,7 @@ pub(crate) enum Undeclared {
     Void,
 }
 
-/// The keywords that the engine plays, sorted.
+/// The keywords of all effects, sorted.
 pub const NAMES: &[&str] = &[
     "addHealthPoints",
     "addHealthPointsToMax",

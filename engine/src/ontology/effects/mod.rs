@@ -4,17 +4,20 @@ mod build;
 mod health;
 mod kill;
 mod motion;
+mod parameters;
 mod resource;
 mod spawn;
 mod transform;
 mod walls;
 
 use crate::game::{EffectInfo, Limit, Pass, SpriteType};
+use crate::limits::MAX_TIMERS;
 use crate::occupancy::Hits;
 use crate::state::{Slot, Timer, flag, memory};
-use crate::step::{MAX_TIMERS, Step};
+use crate::step::Step;
 pub use build::NAMES;
 pub(crate) use build::{Arguments, Undeclared, build};
+pub use parameters::{ParameterKind, effect_parameters};
 
 /// An effect with its parameters, named as in VGDL.
 #[derive(Clone, Debug)]
@@ -324,8 +327,10 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             transform::random_child(step, one, two.filter(|_| *kill_second), options, *force_orientation);
         }
         (Effect::ShieldFrom { stype, keyword }, _) => {
-            let shielded = step.state.sprite(one).stype;
-            step.state.shields.push((shielded, *stype, *keyword));
+            let shield = (step.state.sprite(one).stype, *stype, *keyword);
+            if let Err(at) = step.state.shields.binary_search(&shield) {
+                step.state.shields.insert(at, shield);
+            }
         }
         (Effect::KillIfNotUpright, _) => kill::if_not_upright(step, one),
         (Effect::RemoveScore { stype, kill_second }, _) => {
@@ -362,7 +367,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
             let hit = step.state.amount(two, *resource) >= *limit;
             kill::when(step, index, one, hit);
             if hit && *subtract {
-                step.state.add_amount(two, *resource, limit.wrapping_neg());
+                step.add_amount(two, *resource, limit.wrapping_neg());
             }
         }
         (Effect::Align { orient }, Some(two)) => motion::align(step, one, two, *orient),
@@ -425,10 +430,10 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
 
 fn add_timer(step: &mut Step<'_>, timed: u16) {
     if step.state.timers.len() >= MAX_TIMERS {
-        return step.stop(Limit::Effects);
+        return step.stop(Limit::Timers);
     }
     let due = step.state.tick.saturating_add(step.rules.timed[usize::from(timed)].timer);
-    step.state.plan(Timer { due, timed });
+    step.plan(Timer { due, timed });
 }
 
 /// What an execution adds to the score, and whether the text of it is no number.
@@ -443,7 +448,7 @@ pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
 
 /// Whether a shield of this tick covers the pass (`spec/03` §5.7): exact types and keyword.
 pub(crate) fn is_shielded(step: &Step<'_>, pass: &Pass) -> bool {
-    step.state.shields.contains(&(pass.first, pass.second, pass.keyword))
+    step.state.shields.binary_search(&(pass.first, pass.second, pass.keyword)).is_ok()
 }
 
 impl Step<'_> {

@@ -145,10 +145,9 @@ pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
 
 /// The partner carries the sprite, once a tick.
 pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, onto: bool) {
-    if step.state.pulled.contains(&(index, one)) {
-        return;
-    }
-    step.state.pulled.push((index, one));
+    let Err(at) = step.state.pulled.binary_search(&(index, one)) else { return };
+    step.work(step.state.pulled.len() / 64);
+    step.state.pulled.insert(at, (index, one));
     let direction = step.last_direction(two).normalised();
     let amount = (step.state.sprite(two).speed * physics::grid_size(step, one)) as i32;
     step.displace(one, direction, amount);
@@ -175,6 +174,7 @@ pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
     if count == 0 {
         return step.kill(one);
     }
+    step.work(usize::from(count));
     let drawn = step.state.chance.below(i32::from(count));
     let exit = step.state.slots(exit_type).nth(drawn as usize).expect("one of the group");
     let exit = *step.state.sprite(exit);

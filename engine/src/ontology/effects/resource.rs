@@ -26,7 +26,7 @@ pub(super) fn collect(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, kil
     let amount = step.state.amount(two, resource);
     step.apply_score(index, amount < limit);
     if amount < limit {
-        step.state.add_amount(two, resource, value.min(limit.wrapping_sub(amount)));
+        step.add_amount(two, resource, value.min(limit.wrapping_sub(amount)));
         if kill {
             step.remove(one);
         }
@@ -48,7 +48,7 @@ pub(super) fn collect_if_held(
         return;
     }
     if step.state.amount(two, resource).wrapping_add(worth) <= limit {
-        step.state.add_amount(two, resource, worth);
+        step.add_amount(two, resource, worth);
         step.apply_score(index, true);
     }
     if kill {
@@ -69,7 +69,7 @@ pub(super) fn change(
     let fits = step.state.amount(one, resource).wrapping_add(value) <= info.resource_limit;
     step.apply_score(index, fits);
     if fits {
-        step.state.add_amount(one, resource, value);
+        step.add_amount(one, resource, value);
         if kill {
             step.remove(two);
         }

@@ -28,7 +28,7 @@ pub(super) fn if_amount(step: &mut Step<'_>, index: u16, one: Slot, effect: &Eff
         step.add(stype, rect.x, rect.y);
         step.apply_score(index, true);
         if more {
-            step.state.add_amount(one, resource, spend.saturating_neg());
+            step.add_amount(one, resource, spend.saturating_neg());
         }
     }
 }
@@ -77,8 +77,10 @@ pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, ef
     let rules = step.rules;
     let rect = step.state.sprite(one).rect;
     let mut met = false;
+    let tree = &rules.types[counted.index()].tree;
+    step.work(tree.len());
     if step.state.count_live(rules, counted) == limit {
-        let tree = &rules.types[counted.index()].tree;
+        step.work(tree.len() * tree.len());
         let alive = tree.iter().filter(|&&stype| step.state.count_live(rules, stype) > 0).count();
         met = (alive / 2) as i32 == kinds;
     }
@@ -99,6 +101,7 @@ pub(super) fn update_type(
     for &family in &rules.types[spawn_point.index()].tree {
         let class = rules.types[family.index()].class;
         let is_spawner = class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
+        step.work(usize::from(step.state.group(family).count));
         let mut slot = step.state.group(family).head;
         while slot != NONE && is_spawner {
             let Some(partner) = partner else { return step.stop(Limit::NoSprite) };

@@ -3,8 +3,10 @@
 use super::TransformIfCount;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
-use crate::state::{NONE, Slot, flag};
+use crate::limits::EFFECT_WORK;
+use crate::state::{Held, NONE, Slot, flag};
 use crate::step::Step;
+use smallvec::SmallVec;
 
 pub(super) fn to(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: SpriteType, force: bool) {
     if step.state.sprite(one).is(flag::DISABLED) {
@@ -21,7 +23,7 @@ pub(super) fn all(step: &mut Step<'_>, victim: Option<Slot>, stype: SpriteType, 
     if stype == to && step.state.group(stype).head != NONE {
         return step.stop(Limit::EndlessTransform);
     }
-    step.work(usize::from(step.state.group(stype).count));
+    step.work(EFFECT_WORK * usize::from(step.state.group(stype).count));
     let mut slot = step.state.group(stype).head;
     while slot != NONE {
         let rect = step.state.sprite(slot).rect;
@@ -58,6 +60,7 @@ pub(super) fn if_count(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, ru
     if rule.counted == SpriteType::NONE {
         return step.stop(Limit::NoType);
     }
+    step.work(step.rules.types[rule.counted.index()].tree.len());
     let count = step.state.count(step.rules, rule.counted);
     let met = (rule.at_least..=rule.at_most).contains(&count);
     step.apply_score(index, met);
@@ -82,7 +85,7 @@ pub(super) fn to_singleton(
     if stype == other && step.state.group(stype).head != NONE {
         return step.stop(Limit::EndlessTransform);
     }
-    step.work(usize::from(step.state.group(stype).count));
+    step.work(EFFECT_WORK * usize::from(step.state.group(stype).count));
     let mut slot = step.state.group(stype).head;
     while slot != NONE {
         let rect = step.state.sprite(slot).rect;
@@ -131,10 +134,10 @@ fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, fo
 fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
     let before = *step.state.sprite(old);
     step.set_last(new, before.last);
-    for at in 0..step.state.held.len() {
-        let held = step.state.held[at];
-        if held.holder == old {
-            step.state.add_amount(new, held.resource, held.amount);
+    if !step.state.held.is_empty() {
+        let held: SmallVec<[Held; 4]> = step.state.held_by(old).into();
+        for Held { resource, amount, .. } in held {
+            step.add_amount(new, resource, amount);
         }
     }
     // The player moves on with the avatar, if the new sprite can be one; else the old one stays, disabled.

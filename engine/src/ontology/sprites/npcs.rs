@@ -8,9 +8,6 @@ use crate::state::{NONE, Slot, Target};
 use crate::step::Step;
 use smallvec::SmallVec;
 
-/// Targets, or cells of a path, that are looked at for the work of one execution of an effect.
-const LOOKS: usize = 16;
-
 /// Directions to choose among; a direction that several targets ask for is there several times.
 type Options = SmallVec<[Direction; 8]>;
 
@@ -109,7 +106,7 @@ fn own_or_related(step: &mut Step<'_>, stype: SpriteType) -> SmallVec<[Slot; 8]>
         _ => &own,
     };
     let targets: SmallVec<[Slot; 8]> = types.iter().flat_map(|&stype| step.state.slots(stype)).collect();
-    step.work(targets.len() / LOOKS);
+    step.work(types.len() + targets.len());
     targets
 }
 
@@ -154,8 +151,9 @@ fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Directi
         step.stop(Limit::NoPaths);
         return None;
     }
-    step.work(step.state.obstacles.len() / LOOKS);
-    step.state.first_step((from.x, from.y), to)
+    let (way, looked) = step.state.first_step((from.x, from.y), to);
+    step.work(looked);
+    way
 }
 
 /// The targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself among them, so
@@ -179,7 +177,7 @@ fn alternate_targets(step: &mut Step<'_>, slot: Slot) -> SmallVec<[Slot; 8]> {
     let related = rules.types[chosen.index()].tree.iter().copied();
     let listed = std::iter::once(chosen).chain(related);
     let targets: SmallVec<[Slot; 8]> = listed.flat_map(|stype| step.state.slots(stype)).collect();
-    step.work(targets.len() / LOOKS);
+    step.work(stypes.len() + targets.len());
     targets
 }
 

@@ -1,0 +1,129 @@
+//! Which parameters an effect takes: asked of [`build`] itself, so that there is no second table to keep.
+
+use super::build::{Arguments, Undeclared, build};
+use crate::game::SpriteType;
+
+/// What the value of an effect's parameter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParameterKind {
+    /// A whole number.
+    Int,
+    /// A number.
+    Number,
+    /// `True` or `False`.
+    Flag,
+    /// A list of scores, one a player.
+    Scores,
+    /// The name of a sprite type, which must be given.
+    Sprite,
+    /// The name of a sprite type.
+    OptionalSprite,
+    /// A list of names of sprite types.
+    Sprites,
+    /// A sprite type by its number in the registry.
+    TypeNumber,
+    /// The keyword of an effect, which must be given.
+    Effect,
+    /// The keyword of an effect to be planned, which must be given; the parameters of that effect come with it.
+    Planned,
+}
+
+/// The parameters that an effect has beyond those of every effect; none for an unknown keyword.
+pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
+    let mut recorder = Recorder::default();
+    build(keyword, &mut recorder);
+    recorder.asked
+}
+
+/// Notes what is asked for, and answers with defaults.
+#[derive(Default)]
+struct Recorder {
+    asked: Vec<(&'static str, ParameterKind)>,
+}
+
+impl Arguments for Recorder {
+    fn int(&mut self, key: &'static str, default: i32) -> i32 {
+        self.asked.push((key, ParameterKind::Int));
+        default
+    }
+
+    fn number(&mut self, key: &'static str, default: f64) -> f64 {
+        self.asked.push((key, ParameterKind::Number));
+        default
+    }
+
+    fn flag(&mut self, key: &'static str, default: bool) -> bool {
+        self.asked.push((key, ParameterKind::Flag));
+        default
+    }
+
+    fn score(&mut self, key: &'static str) -> i32 {
+        self.asked.push((key, ParameterKind::Scores));
+        0
+    }
+
+    fn sprite(&mut self, key: &'static str) -> SpriteType {
+        self.asked.push((key, ParameterKind::Sprite));
+        SpriteType::NONE
+    }
+
+    fn sprite_or_none(&mut self, key: &'static str) -> SpriteType {
+        self.sprite(key)
+    }
+
+    fn numbered(&mut self, key: &'static str) -> Option<SpriteType> {
+        self.asked.push((key, ParameterKind::TypeNumber));
+        None
+    }
+
+    fn optional_sprite(&mut self, key: &'static str, _: Undeclared) -> Option<SpriteType> {
+        self.asked.push((key, ParameterKind::OptionalSprite));
+        None
+    }
+
+    fn sprites(&mut self, key: &'static str) -> Vec<SpriteType> {
+        self.asked.push((key, ParameterKind::Sprites));
+        Vec::new()
+    }
+
+    fn keyword(&mut self, key: &'static str) -> u16 {
+        self.asked.push((key, ParameterKind::Effect));
+        0
+    }
+
+    fn timed(&mut self) -> u16 {
+        self.asked.push(("ftype", ParameterKind::Planned));
+        0
+    }
+
+    fn relatives(&self, _: SpriteType) -> Box<[SpriteType]> {
+        Box::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::NAMES;
+    use super::*;
+
+    #[test]
+    fn every_keyword_builds_an_effect() {
+        assert!(NAMES.is_sorted());
+        assert!(NAMES.iter().all(|keyword| build(keyword, &mut Recorder::default()).is_some()));
+        assert_eq!(NAMES.len(), 58);
+    }
+
+    #[test]
+    fn parameters_are_those_that_the_effect_reads() {
+        assert_eq!(effect_parameters("killSprite"), []);
+        assert_eq!(
+            effect_parameters("killIfOtherHasMore"),
+            [
+                ("resource", ParameterKind::Sprite),
+                ("limit", ParameterKind::Int),
+                ("subtract", ParameterKind::Flag)
+            ]
+        );
+        assert_eq!(effect_parameters("killsprite"), []);
+    }
+}

@@ -1,0 +1,132 @@
+//! What a state keeps incrementally, counted again: chains, cells, counts and lists. For tests and fuzzing.
+
+use crate::game::Game;
+use crate::state::{Group, NONE, Slot, State, flag};
+
+impl State {
+    /// Compares everything that is kept as sprites move with a count from nothing. Returns how many sprites there are of
+    /// each type. Cost: O(sprites + cells).
+    ///
+    /// # Errors
+    /// The first difference, in words.
+    #[doc(hidden)]
+    pub fn recount(&self, game: &Game) -> Result<Vec<usize>, String> {
+        let mut alive = vec![false; self.sprites.len()];
+        let mut counts = Vec::new();
+        for stype in game.sprite_types() {
+            let counted = self.recount_group(game, stype, &mut alive)?;
+            let kept = self.group(stype);
+            if (counted.count, counted.disabled, counted.loose) != (kept.count, kept.disabled, kept.loose) {
+                return Err(format!("`{}`: counted {counted:?}, kept {kept:?}", game.name(stype)));
+            }
+            counts.push(usize::from(counted.count));
+        }
+        self.recount_cells(&alive)?;
+        self.recount_lists(game, &alive)?;
+        Ok(counts)
+    }
+
+    /// Walks the chain of a type.
+    fn recount_group(
+        &self,
+        game: &Game,
+        stype: crate::SpriteType,
+        alive: &mut [bool],
+    ) -> Result<Group, String> {
+        let kept = self.group(stype);
+        let mut counted = Group { head: kept.head, ..Group::EMPTY };
+        for slot in self.slots(stype) {
+            let sprite = self.sprite(slot);
+            let name = game.name(stype);
+            if std::mem::replace(&mut alive[usize::from(slot)], true) || sprite.is(flag::GONE) {
+                return Err(format!("slot {slot} of `{name}` is in two chains, or free"));
+            }
+            let ordered = counted.tail == NONE || self.sprite(counted.tail).id < sprite.id;
+            if sprite.previous != counted.tail || sprite.stype != stype || !ordered {
+                return Err(format!("slot {slot} is out of place in the chain of `{name}`"));
+            }
+            counted.tail = slot;
+            counted.count += 1;
+            counted.disabled += u16::from(sprite.is(flag::DISABLED));
+            counted.loose += u16::from(sprite.is(flag::LOOSE));
+        }
+        if counted.tail != kept.tail {
+            return Err(format!(
+                "`{}`: the chain ends at {}, not {}",
+                game.name(stype),
+                counted.tail,
+                kept.tail
+            ));
+        }
+        Ok(counted)
+    }
+
+    /// Walks the chain of every cell: each sprite stands once in the cell of its corner.
+    fn recount_cells(&self, alive: &[bool]) -> Result<(), String> {
+        let mut seen = vec![false; alive.len()];
+        for (cell, &head) in self.cells.iter().enumerate() {
+            let (mut slot, mut previous) = (head, NONE);
+            while slot != NONE {
+                let sprite = self.sprite(slot);
+                if std::mem::replace(&mut seen[usize::from(slot)], true) || sprite.cell_previous != previous {
+                    return Err(format!("slot {slot} is out of place in the chain of cell {cell}"));
+                }
+                let column = sprite.rect.x.div_euclid(self.block).clamp(-1, self.columns) + 1;
+                let row = sprite.rect.y.div_euclid(self.block).clamp(-1, self.rows) + 1;
+                let place = (i32::from(sprite.column), i32::from(sprite.row));
+                if place != (column, row) || (row * (self.columns + 2) + column) as usize != cell {
+                    return Err(format!("slot {slot} stands in ({column}, {row}), not in cell {cell}"));
+                }
+                (slot, previous) = (sprite.cell_next, slot);
+            }
+        }
+        if seen != alive { Err("the cells hold other sprites than the types".to_owned()) } else { Ok(()) }
+    }
+
+    /// The free list, the list of those that moved, resources and extras.
+    fn recount_lists(&self, game: &Game, alive: &[bool]) -> Result<(), String> {
+        let mut free = self.free;
+        let mut holes = 0;
+        while free != NONE {
+            if alive[usize::from(free)] || holes > self.sprites.len() {
+                return Err(format!("slot {free} is in the free list and in use, or the list is a ring"));
+            }
+            (holes, free) = (holes + 1, self.sprite(free).next);
+        }
+        let used = alive.iter().filter(|&&alive| alive).count();
+        if used + holes != self.sprites.len() {
+            return Err(format!("{used} slots in use and {holes} free ones make not {}", self.sprites.len()));
+        }
+        let mut moved: Vec<Slot> = self.moved.clone();
+        moved.sort_unstable();
+        let marked = (0..self.sprites.len()).filter(|&at| alive[at] && self.sprites[at].is(flag::MOVED));
+        if !marked.map(|at| at as Slot).eq(moved.iter().copied()) {
+            return Err(format!("the list of those that moved is {moved:?}"));
+        }
+        for (at, sprite) in self.sprites.iter().enumerate().filter(|&(at, _)| alive[at]) {
+            if sprite.last != sprite.rect && !sprite.is(flag::MOVED) {
+                return Err(format!("slot {at} moved and is not in the list"));
+            }
+            let is_avatar = game.class(sprite.stype).is_some_and(crate::SpriteClass::is_avatar);
+            if is_avatar && !sprite.is(flag::FROZEN) && at != usize::from(self.avatar) {
+                return Err(format!("slot {at} is an avatar that nobody controls and still updated"));
+            }
+            if sprite.is(flag::STALE | flag::KILLED) {
+                return Err(format!("slot {at} was left half-way by the last step"));
+            }
+            let extra = self.extras.get(usize::from(sprite.extra)).map(|extra| usize::from(extra.holder));
+            if extra != (sprite.extra != NONE).then_some(at) {
+                return Err(format!("the extra of slot {at} is that of {extra:?}"));
+            }
+        }
+        if !self.held.is_sorted_by_key(|held| (held.holder, held.resource)) {
+            return Err("what is held is out of order".to_owned());
+        }
+        let mut holders =
+            self.held.iter().map(|held| held.holder).chain(self.extras.iter().map(|e| e.holder));
+        match holders.find(|&slot| !alive[usize::from(slot)]) {
+            Some(slot) => Err(format!("slot {slot} is gone and still holds something")),
+            None => Ok(()),
+        }
+    }
+}

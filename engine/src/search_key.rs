@@ -1,0 +1,157 @@
+//! The key of a state's live behaviour: what transposition tables of planners use.
+
+use crate::SpriteClass;
+use crate::game::{Game, Rules, TypeInfo};
+use crate::hash::{Mixer, SearchKey, bits, two};
+use crate::limits::MAX_TICKS;
+use crate::ontology::avatars::BLOCK_PAUSE;
+use crate::state::{Extra, Replaced, Slot, Sprite, State, Target, flag, memory};
+
+/// Flags that a later step can read; all others say what the type says already, or where the sprite came from.
+const LIVE: u16 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
+
+impl State {
+    /// The hash of live behaviour only. For states of one game and level, equal keys mean equal keys, outcomes and gains of
+    /// score after any same actions; short of the reference's limit of ticks and our limit of work, which planners do not
+    /// search to. (Gains apart where removeScore takes all there is.)
+    ///
+    /// Left out: the score, the counters and the tick unless a termination reads them (spawners read the remainder of the
+    /// tick only); chance unless something can draw; what is remembered and never read again. Ages count up to the cooldown, timers from now on, and
+    /// sprites are told apart by their order, not by their ids. Cost: O(sprites).
+    pub fn search_key(&self, game: &Game) -> SearchKey {
+        let rules: &Rules = &game.0;
+        let mut mixer = Mixer::new(0x4B65_7900);
+        mixer.pair(self.outcome_code(), u64::from(self.messages) << 1 | u64::from(self.can_end));
+        if self.is_over() {
+            return SearchKey(mixer.finish());
+        }
+        mixer.pair(if rules.reads_tick { self.tick as u64 } else { 0 }, self.population as u64);
+        if rules.reads_score {
+            mixer.pair(2, self.score as u64);
+        }
+        for &counter in self.counters.iter().filter(|_| rules.reads_counters) {
+            mixer.pair(3, counter as u64);
+        }
+        for &clock in &rules.clocks {
+            mixer.pair(clock as u64, self.tick.rem_euclid(clock) as u64);
+        }
+        for &first in &rules.wizard_ticks {
+            mixer.pair(1, self.wait(first));
+        }
+        if rules.draws {
+            mixer.pair(self.chance.state(), self.jumps.state());
+        }
+        mixer.pair(self.rank(self.avatar), self.timers.len() as u64);
+        for timer in &self.timers {
+            mixer.pair(u64::from(timer.timed), timer.due.saturating_sub(self.tick) as u64);
+        }
+        for stype in game.sprite_types() {
+            if self.group(stype).count > 0 {
+                mixer.pair(u64::from(stype.0), u64::from(self.group(stype).count));
+            }
+            for slot in self.slots(stype) {
+                self.live_words(rules, slot, &mut mixer);
+            }
+        }
+        self.remembered_words(rules, &mut mixer);
+        SearchKey(mixer.finish())
+    }
+
+    /// A sprite by its type and its place among those of its type.
+    fn rank(&self, slot: Slot) -> u64 {
+        let Some(sprite) = self.sprites.get(usize::from(slot)) else { return u64::MAX };
+        let place = self.slots(sprite.stype).position(|other| other == slot);
+        u64::from(sprite.stype.0) << 32 | place.map_or(u64::from(u32::MAX), |place| place as u64)
+    }
+
+    fn live_words(&self, rules: &Rules, slot: Slot, mixer: &mut Mixer) {
+        let sprite = self.sprite(slot);
+        let info = &rules.types[sprite.stype.index()];
+        let extra = self.extras.get(usize::from(sprite.extra));
+        let held = self.held_by(slot).iter().filter(|held| held.amount != 0);
+        // What follows for this sprite is told apart by this word.
+        let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
+        mixer.pair(two(i32::from(sprite.flags & LIVE), follows), two(sprite.health, sprite.max_health));
+        mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
+        mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
+        mixer.pair(bits(sprite.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));
+        mixer.pair(
+            two(sprite.count, i32::from(sprite.heading)),
+            two(sprite.time_to_live, i32::from(sprite.spawns.0)),
+        );
+        if sprite.is(flag::FROZEN) {
+            // All others forget their last rectangle at the start of the next step.
+            mixer.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
+        }
+        for held in held {
+            mixer.pair(u64::from(held.resource.0), held.amount as u64);
+        }
+        let is_other = |one: &&Replaced| one.stype != info.traits.stypes[usize::from(one.place)];
+        for one in self.replaced_by(slot).iter().filter(is_other) {
+            mixer.pair(u64::from(one.place) | 1 << 32, u64::from(one.stype.0));
+        }
+        if let Some(extra) = extra {
+            self.extra_words(extra, info, mixer);
+        }
+    }
+
+    /// The age as the next update or event reads it; beyond the cooldown all are the same.
+    fn live_age(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
+        let age = if sprite.is(flag::FROZEN) {
+            sprite.moved_at
+        } else {
+            self.tick.wrapping_sub(sprite.moved_at).wrapping_add(1)
+        };
+        // The reference counts on beyond the largest number, to the smallest: then an old sprite is young again.
+        if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) }
+    }
+
+    /// Spawners fire when their start and the tick together are a multiple of the cooldown. (A start so large that the sum
+    /// overflows makes the game one that reads the tick.)
+    fn phase(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
+        match sprite.start {
+            // The first update will set it.
+            -1 => -1,
+            start if info.class.is_some_and(SpriteClass::is_spawner) => {
+                start.wrapping_add(self.tick).rem_euclid(info.traits.cooldown)
+            }
+            _ => 0,
+        }
+    }
+
+    /// Ticks until a tick is reached; those that the next step reaches are all alike.
+    fn wait(&self, until: i32) -> u64 {
+        (i64::from(until) - i64::from(self.tick)).max(1) as u64
+    }
+
+    fn extra_words(&self, extra: &Extra, info: &TypeInfo, mixer: &mut Mixer) {
+        mixer.pair(bits(extra.rotation), bits(extra.gravity));
+        mixer.pair(bits(extra.facing.x), bits(extra.facing.y));
+        let makes_blocks = info.class == Some(SpriteClass::WizardAvatar);
+        let wait = if makes_blocks { self.wait(extra.block_time.wrapping_add(BLOCK_PAUSE)) } else { 0 };
+        let (kind, target) = match extra.target {
+            Target::None => (0, (0, 0)),
+            Target::Sprite(slot) => (1, (self.rank(slot), 0)),
+            Target::Gone(rect) => (2, (two(rect.x, rect.y), two(rect.w, rect.h))),
+        };
+        let known = extra.last_known.map_or(0, |_| 4);
+        mixer.pair(wait, kind | known);
+        mixer.pair(target.0, target.1);
+        let (x, y) = extra.last_known.unwrap_or_default();
+        mixer.pair(two(x, y), 0);
+    }
+
+    /// What effects remember and read before they write it, and which types' next sprite is their first, where that makes a
+    /// difference.
+    fn remembered_words(&self, rules: &Rules, mixer: &mut Mixer) {
+        let credits = memory::APPLY_SCORE | memory::NO_COUNT | memory::NO_COUNT_ELSE;
+        for &effect in &rules.remembering {
+            mixer.pair(u64::from(effect), u64::from(self.memory[usize::from(effect)] & credits));
+        }
+        for (stype, info) in rules.types.iter().enumerate() {
+            if info.first_differs && self.templates[stype] {
+                mixer.pair(stype as u64, 2);
+            }
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Bytes as decisions: how a fuzzer's input becomes a game.
+
+use engine::Sampler;
+
+/// Decisions read from bytes. Small ones come from the front; [`Choices::from_end`] gives bytes from the back, so that a
+/// change of one kind of decision does not shift the other. Past the end every decision is the first option, which is
+/// always the simplest: shorter inputs are simpler ones.
+#[derive(Clone, Debug)]
+pub struct Choices<'a> {
+    bytes: &'a [u8],
+}
+
+impl<'a> Choices<'a> {
+    /// All decisions that `bytes` hold.
+    pub fn new(bytes: &'a [u8]) -> Choices<'a> {
+        Choices { bytes }
+    }
+
+    /// Whether all bytes have been used.
+    pub fn is_empty(&self) -> bool {
+        self.bytes.is_empty()
+    }
+
+    /// The bytes that are left.
+    pub fn rest(&self) -> &'a [u8] {
+        self.bytes
+    }
+
+    /// The next byte, or 0.
+    pub fn byte(&mut self) -> u8 {
+        let Some((&first, rest)) = self.bytes.split_first() else { return 0 };
+        self.bytes = rest;
+        first
+    }
+
+    /// The last byte, or 0.
+    pub fn from_end(&mut self) -> u8 {
+        let Some((&last, rest)) = self.bytes.split_last() else { return 0 };
+        self.bytes = rest;
+        last
+    }
+
+    /// A number below `bound`, which is at least 1 and at most 65536.
+    pub fn below(&mut self, bound: usize) -> usize {
+        let high = if bound > 256 { usize::from(self.byte()) << 8 } else { 0 };
+        (high | usize::from(self.byte())) % bound
+    }
+
+    /// True once in `times`.
+    pub fn once_in(&mut self, times: usize) -> bool {
+        self.below(times) == times - 1
+    }
+
+    /// One of the options.
+    pub fn pick<T: Copy>(&mut self, options: &[T]) -> T {
+        options[self.below(options.len())]
+    }
+}
+
+/// Random bytes, for tests without a fuzzer.
+pub fn random_bytes(sampler: &mut Sampler, length: usize) -> Vec<u8> {
+    (0..length).map(|_| sampler.below(256) as u8).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decisions_from_both_ends() {
+        let mut choices = Choices::new(&[7, 1, 2, 9]);
+        assert_eq!((choices.below(4), choices.from_end()), (3, 9));
+        assert_eq!(choices.below(1000), 258);
+        assert!(choices.is_empty() && !choices.once_in(3));
+        assert_eq!(choices.pick(&["first", "second"]), "first");
+    }
+}

@@ -1,0 +1,418 @@
+//! What must hold of any input whatever. Each check takes bytes, whoever chose them: the fuzz targets in `fuzz/` and the
+//! short runs in `tests/tests/robustness.rs` are one call each.
+//!
+//! - [`text`]: any text parses, compiles or says why not, and prints canonically.
+//! - [`level`]: any text is a level of a valid game or says why not.
+//! - [`play`]: any actions on any valid game and level leave a sound state behind, tick after tick.
+
+use crate::any_game::any_game;
+use crate::choices::{Choices, random_bytes};
+use crate::{read, workspace_root};
+use engine::syntax::{self, Description, InteractionLine, Param, Section, SpriteLine, Word};
+use engine::{
+    Action, Description as Tree, Diagnostic, Diagnostics, EFFECTS, Episode, Game, Level, MAX_TICKS, Outcome,
+    Sampler, SearchKey, Seed, Severity, Span, SpriteClass, State, Watch,
+};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// What a check came across: how far it reached.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seen {
+    /// Ticks played.
+    pub ticks: usize,
+    /// Different states with one search key, whose futures were compared.
+    pub merged: usize,
+    /// Effects executed, a bit each, in the order of [`EFFECTS`].
+    pub effects: u64,
+    /// Classes of sprites that were there, a bit each, in the order of [`SpriteClass::ALL`].
+    pub classes: u64,
+}
+
+impl Seen {
+    /// Both together.
+    pub fn and(self, other: Seen) -> Seen {
+        Seen {
+            ticks: self.ticks + other.ticks,
+            merged: self.merged + other.merged,
+            effects: self.effects | other.effects,
+            classes: self.classes | other.classes,
+        }
+    }
+}
+
+/// Corpus games: the text, and the texts of the levels.
+static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
+    let folders = workspace_root().join("corpora").read_dir().expect("the corpus can be read");
+    let mut folders: Vec<_> = folders.map(|entry| entry.expect("the corpus can be read").path()).collect();
+    folders.sort();
+    let load = |folder: &std::path::PathBuf| {
+        let levels =
+            (0..).map(|number| folder.join(format!("lvl{number}.txt"))).take_while(|file| file.exists());
+        (read(folder.join("game.vgdl")), levels.map(read).collect())
+    };
+    folders.iter().map(load).collect()
+});
+
+/// Any text parses and compiles, strictly and as the reference does; what is wrong is said in diagnostics that point into
+/// the text; what is not wrong prints canonically.
+pub fn text(bytes: &[u8]) {
+    let source = String::from_utf8_lossy(bytes);
+    let (description, problems) = syntax::parse(&source);
+    check_diagnostics(&source, &problems);
+    let _ = Game::compile(&description);
+    if !Diagnostics::has_errors(&problems) {
+        check_print(&source, &description);
+    }
+    for loaded in [Game::from_source(&source), Game::from_source_as_reference(&source)] {
+        match loaded {
+            Err(problems) => {
+                assert!(Diagnostics::has_errors(&problems.0), "refused without an error");
+                check_diagnostics(&source, &problems.0);
+            }
+            Ok(game) => {
+                check_diagnostics(&source, game.warnings());
+                // All that a level can place, in one row.
+                let everything: String =
+                    (33..127u8).filter(|&c| !game.places(c).is_empty()).map(char::from).collect();
+                for level in [everything.as_str(), "A"] {
+                    if let Ok(level) = game.level(level) {
+                        Walk::new(&game, &level, Seed::from_text("text")).stroll(3);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Spans lie in the text and split no character; problems are sorted by place, and say something.
+fn check_diagnostics(source: &str, problems: &[Diagnostic]) {
+    for Diagnostic { code, message, span, severity, .. } in problems {
+        let Span { start, end } = *span;
+        assert!(source.get(start..end).is_some(), "{code} at {start}..{end} of {}", source.len());
+        assert!(!code.is_empty() && !message.is_empty(), "{code}: {message}");
+        assert!(matches!(severity, Severity::Error | Severity::Warning));
+    }
+    assert!(problems.is_sorted_by_key(|problem| problem.span), "sorted by place: {problems:?}");
+}
+
+/// Print and parse are inverse, printing again changes nothing, and no comment is lost.
+fn check_print(source: &str, description: &Description) {
+    let printed = syntax::print(description);
+    if printed.len() > engine::MAX_SOURCE {
+        return;
+    }
+    let (again, problems) = syntax::parse(&printed);
+    assert!(!Diagnostics::has_errors(&problems), "{problems:?}\n{printed}");
+    assert_eq!(bare(again.clone()), bare(description.clone()), "\n{printed}");
+    assert_eq!(syntax::print(&again), printed);
+    assert_eq!(comments(&printed), comments(source));
+}
+
+/// The comments of a text, sorted: sections may change places.
+fn comments(text: &str) -> Vec<&str> {
+    let lines = text.split(['\n', '\r']).filter_map(|line| line.split_once('#'));
+    let mut comments: Vec<&str> = lines.map(|(_, comment)| comment.trim()).collect();
+    comments.sort_unstable();
+    comments
+}
+
+/// A description without its places, and with its sections in canonical order.
+fn bare(mut description: Description) -> Description {
+    fn word(word: &mut Word) {
+        word.span = Span::default();
+    }
+    fn params(params: &mut [Param]) {
+        for param in params {
+            word(&mut param.key);
+            word(&mut param.value);
+        }
+    }
+    fn sprites(lines: &mut [SpriteLine]) {
+        for line in lines {
+            word(&mut line.name);
+            line.class.iter_mut().for_each(word);
+            params(&mut line.params);
+            sprites(&mut line.children);
+        }
+    }
+    let Tree { header, sprites: forest, mapping, interactions, terminations, order, .. } = &mut description;
+    word(&mut header.class);
+    params(&mut header.params);
+    sprites(forest);
+    for line in mapping {
+        line.span = Span::default();
+        line.names.iter_mut().for_each(word);
+    }
+    for InteractionLine { first, second, effect, params: given, .. } in interactions {
+        word(first);
+        second.iter_mut().for_each(word);
+        word(effect);
+        params(given);
+    }
+    for line in terminations {
+        word(&mut line.class);
+        params(&mut line.params);
+    }
+    order.sort_by_key(|section| Section::ALL.iter().position(|other| other == section));
+    description
+}
+
+/// Any bytes are a level of a valid game, or are refused with reasons; what is a level prints as itself and plays.
+pub fn level(bytes: &[u8]) -> Seen {
+    let mut choices = Choices::new(bytes);
+    let which = choices.below(2 * CORPUS.len());
+    let source = match CORPUS.get(which) {
+        Some((source, _)) => source.clone(),
+        None => {
+            let mut sampler = Seed::from_text("level").child("game", choices.below(1 << 16) as u64).sampler();
+            any_game(&mut Choices::new(&random_bytes(&mut sampler, 300))).source
+        }
+    };
+    let text = String::from_utf8_lossy(choices.rest());
+    let mut seen = Seen::default();
+    for game in [Game::from_source(&source), Game::from_source_as_reference(&source)].into_iter().flatten() {
+        match game.level(&text) {
+            Err(problems) => {
+                assert!(Diagnostics::has_errors(&problems.0), "refused without an error");
+                check_diagnostics(&text, &problems.0);
+            }
+            Ok(level) => {
+                check_diagnostics(&text, level.warnings());
+                let printed = level.to_string();
+                let again = game.level(&printed).expect("a canonical level is a level");
+                assert_eq!((again.digest(), again.cells()), (level.digest(), level.cells()), "\n{printed}");
+                let mut walk = Walk::new(&game, &level, Seed::from_text("level"));
+                walk.stroll(8);
+                seen = seen.and(walk.seen);
+            }
+        }
+    }
+    seen
+}
+
+/// Any actions on a valid game: after every tick the state is sound; episodes replay; the end is the end; states with one
+/// search key have one future.
+pub fn play(bytes: &[u8]) -> Seen {
+    let mut choices = Choices::new(bytes);
+    let seed = Seed::from_text("play").child("chance", u64::from(choices.from_end()));
+    let prefers_reference = choices.from_end() % 4 == 3;
+    let (source, text) = if choices.once_in(8) {
+        let (source, levels) = &CORPUS[choices.below(CORPUS.len())];
+        (source.clone(), levels[choices.below(levels.len())].clone())
+    } else {
+        let made = any_game(&mut choices);
+        (made.source, made.level)
+    };
+    let strict = Game::from_source(&source).ok().filter(|_| !prefers_reference);
+    let Some(game) = strict.or_else(|| Game::from_source_as_reference(&source).ok()) else {
+        return Seen::default();
+    };
+    let Ok(level) = game.level(&text) else { return Seen::default() };
+    let mut walk = Walk::new(&game, &level, seed);
+    walk.episode(&mut choices);
+    walk.explore(&mut choices);
+    walk.seen
+}
+
+/// Ticks of the episode that is recorded and replayed.
+const EPISODE: usize = 24;
+/// Ways tried from states already seen, and ticks of each at most.
+const WAYS: usize = 24;
+const WAY: usize = 4;
+/// Pairs of states with one search key that are played on, and for how long.
+const TWINS: usize = 4;
+const FUTURE: usize = 50;
+/// Work of all ticks together, what it takes to check a sprite included: what a check may cost.
+const COST: usize = 300_000;
+/// What it costs to check a sprite.
+const CHECK: usize = 8;
+
+/// A walk through the states of one level, each step of which is checked.
+struct Walk<'g> {
+    game: &'g Game,
+    level: &'g Level,
+    seed: Seed,
+    /// Decides where the input does not.
+    sampler: Sampler,
+    cost: usize,
+    seen: Seen,
+}
+
+/// Notes which effects are executed, and how much work a step was.
+struct Executed<'g> {
+    description: &'g Description,
+    effects: u64,
+    work: usize,
+}
+
+impl Watch for Executed<'_> {
+    fn interaction(&mut self, line: usize) {
+        let effect = self.description.interactions[line].effect.text.as_str();
+        self.effects |= 1 << EFFECTS.binary_search(&effect).expect("an effect of the list");
+    }
+
+    fn worked(&mut self, work: usize) {
+        self.work += work;
+    }
+}
+
+impl<'g> Walk<'g> {
+    fn new(game: &'g Game, level: &'g Level, seed: Seed) -> Walk<'g> {
+        let sampler = seed.child("actions", 0).sampler();
+        Walk { game, level, seed, sampler, cost: 0, seen: Seen::default() }
+    }
+
+    /// Some random ticks.
+    fn stroll(&mut self, ticks: usize) {
+        let mut state = self.start();
+        for _ in 0..ticks {
+            let action = *self.sampler.choose(&Action::ALL);
+            self.step(&mut state, action);
+        }
+    }
+
+    fn start(&mut self) -> State {
+        let state = self.game.start(self.level, self.seed);
+        self.check(&state);
+        state
+    }
+
+    fn action(&mut self, choices: &mut Choices<'_>) -> Action {
+        if choices.is_empty() {
+            *self.sampler.choose(&Action::ALL)
+        } else {
+            Action::ALL[usize::from(choices.from_end()) % Action::ALL.len()]
+        }
+    }
+
+    /// One tick, checked: a copy taken before stays as it was, and another one goes the same way.
+    fn step(&mut self, state: &mut State, action: Action) {
+        let before = state.clone();
+        let (hash, over) = (state.state_hash(), state.is_over());
+        let mut executed = Executed { description: self.game.description(), effects: 0, work: 0 };
+        let outcome = self.game.step_watched(state, action, &mut executed);
+        self.cost += 2 * executed.work;
+        self.seen.effects |= executed.effects;
+        self.seen.ticks += 1;
+        self.check(state);
+        assert_eq!(outcome, state.outcome());
+        assert_eq!(before.state_hash(), hash, "stepping a state changes no copy of it");
+        if over {
+            assert_eq!(state.state_hash(), hash, "what is over stays as it is");
+        }
+        let mut copy = before;
+        self.game.step(&mut copy, action);
+        assert_eq!(copy.state_hash(), state.state_hash(), "a copy goes the same way");
+        assert_eq!((copy.outcome(), copy.score()), (state.outcome(), state.score()));
+    }
+
+    /// What is kept incrementally is what there is.
+    fn check(&mut self, state: &State) {
+        assert_eq!(state.state_hash(), state.state_hash_from_scratch(self.game), "tick {}", state.tick());
+        let counts =
+            state.recount(self.game).unwrap_or_else(|found| panic!("tick {}: {found}", state.tick()));
+        self.cost += CHECK * (1 + counts.iter().sum::<usize>());
+        for (stype, count) in self.game.sprite_types().zip(counts) {
+            if count > 0 {
+                let class = self.game.class(stype).expect("sprites have a class");
+                let at = SpriteClass::ALL.iter().position(|&other| other == class);
+                self.seen.classes |= 1 << at.expect("a class of the list");
+            }
+        }
+        assert!(!self.game.actions(state).is_empty());
+    }
+
+    /// An episode that replays bit for bit.
+    fn episode(&mut self, choices: &mut Choices<'_>) {
+        let (mut episode, mut state) = Episode::begin(self.game, self.level, self.seed);
+        self.check(&state);
+        for _ in 0..EPISODE {
+            let action = self.action(choices);
+            let mut next = state.clone();
+            self.step(&mut next, action);
+            episode.play(self.game, &mut state, action);
+            assert_eq!(state.state_hash(), next.state_hash());
+            if self.cost > COST / 4 {
+                break;
+            }
+        }
+        let observation = self.game.observe(&state);
+        assert_eq!(observation.cells.len(), self.level.columns() * self.level.rows());
+        let replayed =
+            episode.replay(self.game, self.level).unwrap_or_else(|divergence| panic!("{divergence}"));
+        // As text, because some speeds are no numbers.
+        let written = |state: &State| format!("{:?}", self.game.records(state));
+        assert_eq!(written(&replayed), written(&state));
+        if state.is_over() && self.cost < COST / 2 {
+            Action::ALL.into_iter().for_each(|action| self.step(&mut state, action));
+        }
+    }
+
+    /// Goes many short ways from states already reached. Where two ways lead to states with one search key but different
+    /// histories, the two are played on side by side.
+    fn explore(&mut self, choices: &mut Choices<'_>) {
+        let start = self.start();
+        let mut reached = vec![start.clone()];
+        let mut table: BTreeMap<SearchKey, State> = BTreeMap::from([(start.search_key(self.game), start)]);
+        for _ in 0..WAYS {
+            let from = if choices.is_empty() {
+                self.sampler.bits() as usize
+            } else {
+                usize::from(choices.from_end())
+            };
+            let mut state = reached[from % reached.len()].clone();
+            for _ in 0..1 + from / reached.len() % WAY {
+                if state.is_over() || self.cost > COST {
+                    break;
+                }
+                let action = self.action(choices);
+                self.step(&mut state, action);
+                let key = state.search_key(self.game);
+                match table.get(&key) {
+                    None => drop(table.insert(key, state.clone())),
+                    Some(twin) if twin.state_hash() != state.state_hash() && self.seen.merged < TWINS => {
+                        let twin = twin.clone();
+                        self.compare_futures(&twin, &state);
+                    }
+                    Some(_) => {}
+                }
+            }
+            reached.push(state);
+        }
+    }
+
+    /// Equal keys ⇒ equal keys, outcomes and gains after the same actions. Where nothing draws, chance is no part of the
+    /// key: then it must not matter either.
+    fn compare_futures(&mut self, one: &State, two: &State) {
+        self.seen.merged += 1;
+        let (mut one, mut two) = (one.clone(), two.clone());
+        if self.game.is_deterministic() {
+            two = two.fork(self.seed.child("fork", 0));
+        }
+        let forgets =
+            self.game.description().interactions.iter().any(|line| line.effect.text == "removeScore");
+        for ahead in 1..=FUTURE {
+            let latest = one.tick().max(two.tick());
+            if one.is_over() || self.cost > 2 * COST || latest >= MAX_TICKS - 1 {
+                return;
+            }
+            let scores = (one.score(), two.score());
+            assert_eq!(self.game.actions(&one), self.game.actions(&two), "{ahead} ticks on");
+            let action = *self.sampler.choose(&Action::ALL);
+            let mut executed = Executed { description: self.game.description(), effects: 0, work: 0 };
+            let outcomes =
+                (self.game.step_watched(&mut one, action, &mut executed), self.game.step(&mut two, action));
+            self.cost += 2 * executed.work;
+            let place = || {
+                let (one, two) = (self.game.records(&one), self.game.records(&two));
+                format!("{ahead} ticks on, after {action}\n{one:#?}\n{two:#?}")
+            };
+            assert_eq!(outcomes.0, outcomes.1, "{}", place());
+            if !matches!(outcomes.0, Outcome::Stopped(_)) && !forgets {
+                assert_eq!(one.score() - scores.0, two.score() - scores.1, "gains, {}", place());
+            }
+            assert_eq!(one.search_key(self.game), two.search_key(self.game), "keys, {}", place());
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! What the values of VGDL's parameters are, and values for them: mostly such as people write, some beyond all measure.
+
+use crate::choices::Choices;
+
+/// What the value of a sprite's parameter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A whole number.
+    Int,
+    /// A number of ticks: seldom 0.
+    Ticks,
+    /// A number.
+    Number,
+    /// Between 0 and 1.
+    Probability,
+    /// A size in cells.
+    Size,
+    /// `True` or `False`.
+    Flag,
+    /// A direction.
+    Direction,
+    /// GRID or CONT.
+    Physics,
+    /// The name of a colour.
+    Color,
+    /// The name of a sprite type.
+    Sprite,
+    /// Names of sprite types.
+    Sprites,
+    /// A text that means nothing to the rules.
+    Text,
+    /// Says what the class says already: any other value is an error.
+    Fixed,
+}
+
+/// The kind of a sprite parameter; None if there is no such parameter.
+pub fn sprite_parameter(key: &str) -> Option<Kind> {
+    Some(match key {
+        "cooldown" | "timeToLive" | "cons" | "age" | "limit" | "total" => Kind::Ticks,
+        "healthPoints" | "maxHealthPoints" | "limitHealthPoints" | "value" | "maxDistance" | "start"
+        | "counter" | "lastmove" | "minAmmo" | "ammoCost" | "last_block_time" | "frameRate" => Kind::Int,
+        "speed"
+        | "mass"
+        | "gravity"
+        | "friction"
+        | "max_speed"
+        | "jump_strength"
+        | "rotation"
+        | "angle_diff"
+        | "facing"
+        | "ground_speedup_factor"
+        | "air_slowdown_factor"
+        | "shrinkfactor"
+        | "randomtiling" => Kind::Number,
+        "spreadprob" | "prob" | "probability" | "epsilon" => Kind::Probability,
+        "wMult" | "hMult" => Kind::Size,
+        "is_oriented" | "rotateInPlace" | "is_static" | "only_active" | "stationary" | "solid"
+        | "singleton" | "portal" | "is_npc" | "hidden" | "invisible" | "is_stochastic" | "draw_arrow"
+        | "autotiling" | "is_from_avatar" | "isFirstTick" | "on_ground" | "airsteering" | "fleeing"
+        | "randomTarget" => Kind::Flag,
+        "orientation" | "spawnorientation" | "facing_dir" => Kind::Direction,
+        "physicstype" => Kind::Physics,
+        "color" => Kind::Color,
+        "stype" | "spawnBehind" | "stypeMissile" | "resource_name" => Kind::Sprite,
+        "stype1" | "stype2" | "stypes" | "ammo" => Kind::Sprites,
+        "img" | "orientedImg" => Kind::Text,
+        "is_resource" | "is_avatar" => Kind::Fixed,
+        _ => return None,
+    })
+}
+
+/// A whole number, one in eight beyond all measure.
+pub fn int(choices: &mut Choices<'_>) -> i32 {
+    const TAME: [i32; 12] = [0, 1, 2, 3, 4, 5, 6, 8, 10, -1, -2, 20];
+    const WILD: [i32; 6] = [i32::MAX, i32::MIN, i32::MAX - 1, -1000, 1_000_000, 1 << 16];
+    if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
+}
+
+/// A number of ticks that matters in a short episode, or one that does not.
+pub fn ticks(choices: &mut Choices<'_>) -> i32 {
+    if choices.once_in(8) { int(choices) } else { choices.below(8) as i32 + 1 }
+}
+
+/// A number as text: some are no float at all, some are infinite.
+pub fn number(choices: &mut Choices<'_>) -> &'static str {
+    const TAME: [&str; 12] = ["1", "0.5", "0", "2", "0.25", "0.1", "-1", "3.5", "10", "0.75", "5", "-0.5"];
+    const WILD: [&str; 8] = ["1e300", "-1e300", "1e999", "1e-320", "-0.0", "2147483648", "1e9", "0.000001"];
+    if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
+}
+
+/// A probability, seldom one that is none.
+pub fn probability(choices: &mut Choices<'_>) -> &'static str {
+    choices.pick(&["1", "0.5", "0.1", "0.9", "0", "1.0", "0.3", "2"])
+}
+
+/// The value of a parameter that names no sprite; None for kinds that do, and for [`Kind::Fixed`].
+pub fn value(kind: Kind, choices: &mut Choices<'_>) -> Option<String> {
+    Some(match kind {
+        Kind::Int => int(choices).to_string(),
+        Kind::Ticks => ticks(choices).to_string(),
+        Kind::Number => number(choices).to_owned(),
+        Kind::Probability => probability(choices).to_owned(),
+        Kind::Size => choices.pick(&["1", "2", "0.5", "1.5", "0.1", "3", "0.01", "16"]).to_owned(),
+        Kind::Flag => choices.pick(&["True", "False"]).to_owned(),
+        Kind::Direction => {
+            let names = ["RIGHT", "LEFT", "UP", "DOWN", "NONE", "NIL", "DUP"];
+            choices.pick(&names).to_owned()
+        }
+        Kind::Physics => choices.pick(&["CONT", "GRID"]).to_owned(),
+        Kind::Color => choices.pick(&["RED", "LIGHTBLUE", "GOLD"]).to_owned(),
+        Kind::Text => choices.pick(&["dot", "a/b"]).to_owned(),
+        Kind::Sprite | Kind::Sprites | Kind::Fixed => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::{SPRITE_PARAMETERS, SpriteClass};
+
+    #[test]
+    fn every_sprite_parameter_has_a_kind() {
+        let own = SpriteClass::ALL.iter().flat_map(|class| class.parameters());
+        let missing: Vec<&str> = SPRITE_PARAMETERS
+            .iter()
+            .copied()
+            .chain(own)
+            .filter(|key| sprite_parameter(key).is_none())
+            .collect();
+        assert_eq!(missing, Vec::<&str>::new());
+    }
+}
