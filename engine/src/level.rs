@@ -3,13 +3,11 @@
 use crate::Digest;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::game::{Game, SpriteType};
-use crate::limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
+use crate::limits::{MAX_ATTEMPTS, MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
 use crate::syntax::BYTE_ORDER_MARK;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Sprites at most that a level may try to place, where the surplus is refused one by one.
-const MAX_ATTEMPTS: usize = 1 << 20;
 /// Problems of one kind that are reported one by one.
 const MAX_REPEATS: usize = 10;
 /// In levels that are loaded as the reference does: a character without a mapping.

@@ -20,6 +20,10 @@ pub const MAX_LIST: usize = 64;
 pub const MAX_INTERACTIONS: usize = 20_000;
 /// Cells that the largest sprite may cover along one side: the most that `wMult` and `hMult` may be.
 pub const MAX_REACH: i32 = 16;
+/// Counters of a game.
+pub const MAX_COUNTERS: i32 = 64;
+/// Pixels of a cell.
+pub const MAX_SQUARE: i32 = 10_000;
 /// Problems of a file that are reported before the rest is summed up in one.
 pub const MAX_PROBLEMS: usize = 100;
 
@@ -31,6 +35,8 @@ pub const MAX_SIDE: usize = 512;
 pub const MAX_CELLS: usize = 1 << 16;
 /// Sprites that a level may place, and sprites alive: the reference refuses to make more, with a message each.
 pub const MAX_SPRITES: usize = 10_000;
+/// Sprites that a level may try to place where it is loaded as the reference does: the surplus is refused one by one.
+pub const MAX_ATTEMPTS: usize = 1 << 20;
 
 /// The tick at which the reference ends every game.
 pub const MAX_TICKS: i32 = 2000;

@@ -4,7 +4,8 @@
 use crate::choices::Choices;
 use crate::vocabulary::{self, Kind};
 use engine::syntax::{
-    self, Description, Header, InteractionLine, MappingLine, Param, SpriteLine, TerminationLine, Word,
+    self, Description, Header, InteractionLine, MappingLine, Param, ParameterLine, SpriteLine,
+    TerminationLine, Word,
 };
 use engine::{EFFECTS, ParameterKind, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS, effect_parameters};
 
@@ -21,14 +22,15 @@ pub struct AnyGame {
 pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     let leaves = vec![("wall".to_owned(), SpriteClass::Immovable)];
     let has_ground = choices.once_in(6);
-    let mut author = Author { choices, leaves, groups: Vec::new(), has_ground };
+    let counters = if choices.once_in(6) { 1 + choices.below(3) } else { 0 };
+    let mut author = Author { choices, leaves, groups: Vec::new(), has_ground, counters };
     let mut sprites = author.forest(None, 0);
     let avatar = author.avatar();
     sprites.insert(author.choices.below(sprites.len() + 1), avatar);
     author.parameters(&mut sprites, None);
     author.weight(&mut sprites);
     let (mapping, symbols) = author.mapping();
-    let description = Description {
+    let mut description = Description {
         header: author.header(),
         interactions: author.interactions(),
         terminations: author.terminations(),
@@ -37,6 +39,7 @@ pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
         has: [true; 4],
         ..Description::default()
     };
+    author.space(&mut description);
     AnyGame { source: syntax::print(&description), level: author.level(&symbols) }
 }
 
@@ -53,6 +56,8 @@ struct Author<'c, 'b> {
     groups: Vec<String>,
     /// The lowest row is ground, on which avatars and walkers stand.
     has_ground: bool,
+    /// How many counters the game has.
+    counters: usize,
 }
 
 impl Author<'_, '_> {
@@ -214,7 +219,35 @@ impl Author<'_, '_> {
         if self.leaves.iter().any(|(_, class)| seeks(*class)) && !self.choices.once_in(8) {
             params.push(Param::new("obs", self.family()));
         }
+        if self.counters > 0 {
+            params.push(Param::new("no_counters", self.counters));
+        }
         Header { class: "BasicGame".into(), params, ..Header::default() }
+    }
+
+    /// Seldom, numbers of the rules are a parameter of a GameSpace.
+    fn space(&mut self, description: &mut Description) {
+        if !self.choices.once_in(10) {
+            return;
+        }
+        description.header.class = "GameSpace".into();
+        let values = self.choices.pick(&["0:1:4", "-3:2:9", "2:0:2"]);
+        let mut params = vec![Param::new("values", values), Param::new("value", self.choices.below(4))];
+        params.truncate(if values == "2:0:2" { 1 } else { 2 });
+        let name: Word = "NUMBER".into();
+        description.parameters = vec![ParameterLine { name: name.clone(), params, ..Default::default() }];
+        let lines = description.interactions.iter_mut().flat_map(|line| &mut line.params);
+        for param in lines.filter(|param| param.value.text.parse::<i32>().is_ok()) {
+            if self.choices.once_in(2) {
+                param.value = name.clone();
+            }
+        }
+    }
+
+    /// An amount for each counter: a list, even of one.
+    fn amounts(&mut self) -> String {
+        let entries: Vec<String> = (0..2).map(|_| vocabulary::int(self.choices).to_string()).collect();
+        entries.join(",")
     }
 
     /// A character for each type that sprites are of, and those that place no avatar.
@@ -280,6 +313,13 @@ impl Author<'_, '_> {
         if self.choices.once_in(12) {
             params.push(Param::new("applyScore", "False"));
         }
+        if self.counters > 0 {
+            params.push(Param::new("counter", self.amounts()));
+            if self.choices.once_in(3) {
+                params.push(Param::new("counterElse", self.amounts()));
+                params.push(Param::new("count", self.choices.pick(&["True", "False"])));
+            }
+        }
         if self.choices.once_in(12) && place < 8 {
             params.push(Param::new("repeat", self.choices.below(4)));
         }
@@ -311,6 +351,9 @@ impl Author<'_, '_> {
                 ParameterKind::Flag => "True".to_owned(),
                 ParameterKind::Sprite | ParameterKind::OptionalSprite => self.effect_sprite(key),
                 ParameterKind::Sprites => format!("{},{}", self.family(), self.family()),
+                // Only the reference knows this one.
+                ParameterKind::TypeNumber if !self.choices.once_in(8) => continue,
+                ParameterKind::TypeNumber => self.choices.below(self.leaves.len()).to_string(),
                 ParameterKind::Effect => self.choices.pick(EFFECTS).to_owned(),
                 ParameterKind::Planned => {
                     let others: Vec<&str> =
@@ -348,7 +391,12 @@ impl Author<'_, '_> {
         };
         match name {
             "SpriteCounter" | "SpriteCounterMore" => params.push(Param::new("stype", self.family())),
-            "Timeout" => {}
+            "Timeout" if self.counters == 0 => {}
+            "Timeout" => {
+                params.push(Param::new("use_counter", "True"));
+                params.push(Param::new("compare", self.choices.pick(&["True", "False"])));
+                params.push(Param::new("limits", self.amounts()));
+            }
             _ => {
                 params.push(Param::new("stype1", self.family()));
                 if name == "MultiSpriteCounterSubTypes" {
@@ -358,6 +406,9 @@ impl Author<'_, '_> {
                     params.push(Param::new("min", self.choices.pick(&["True", "False"])));
                 }
             }
+        }
+        if self.choices.once_in(12) {
+            params.push(Param::new(self.choices.pick(&["count_score", "canEnd"]), "True"));
         }
         params.push(Param::new("limit", limit));
         params.push(Param::new("win", self.choices.pick(&["True", "False"])));
@@ -440,10 +491,11 @@ mod tests {
         let parameters = parameters.chain(SPRITE_PARAMETERS.iter().copied()).chain(
             EFFECTS.iter().flat_map(|effect| effect_parameters(effect).into_iter().map(|(key, _)| key)),
         );
+        let all = all.chain(["counter", "counterElse", "GameSpace", "use_counter", "count_score"]);
         let missing: Vec<&str> = all
             .chain(parameters)
             .chain(TERMINATIONS.iter().copied())
-            .filter(|word| !words.contains(word))
+            .filter(|word| !words.contains(word) && *word != "itype")
             .collect();
         assert_eq!(missing, Vec::<&str>::new());
     }

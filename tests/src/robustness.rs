@@ -136,9 +136,14 @@ fn bare(mut description: Description) -> Description {
             sprites(&mut line.children);
         }
     }
-    let Tree { header, sprites: forest, mapping, interactions, terminations, order, .. } = &mut description;
+    let Tree { header, parameters, sprites: forest, mapping, interactions, terminations, order, .. } =
+        &mut description;
     word(&mut header.class);
     params(&mut header.params);
+    for line in parameters {
+        word(&mut line.name);
+        params(&mut line.params);
+    }
     sprites(forest);
     for line in mapping {
         line.span = Span::default();
@@ -154,7 +159,7 @@ fn bare(mut description: Description) -> Description {
         word(&mut line.class);
         params(&mut line.params);
     }
-    order.sort_by_key(|section| Section::ALL.iter().position(|other| other == section));
+    order.sort_by_key(|(section, _)| Section::ALL.iter().position(|other| other == section));
     description
 }
 

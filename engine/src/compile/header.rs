@@ -2,12 +2,8 @@
 
 use super::params::{Expected, Value, convert, wrong_type};
 use crate::diagnostic::Diagnostic;
+use crate::limits::{MAX_COUNTERS, MAX_SQUARE};
 use crate::syntax::{Description, Param, Word};
-
-/// Counters at most.
-const MAX_COUNTERS: i32 = 64;
-/// Pixels of a cell at most.
-const MAX_SQUARE: i32 = 10_000;
 
 const KEYS: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counters", "obs"];
 
