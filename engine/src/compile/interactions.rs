@@ -143,7 +143,7 @@ pub(super) fn program(
         }
     }
     if total > MAX_INTERACTIONS {
-        problems.push(too_many(description, "interactions, repeats counted,", total, MAX_INTERACTIONS));
+        problems.push(too_many(description, "interactions with their repeats", total, MAX_INTERACTIONS));
     }
     for ((first, second), effects) in pairs {
         let (one, two) = (&names.types[first.index()], &names.types[second.index()]);

@@ -244,7 +244,10 @@ fn type_info<'a>(
         for param in &sprite.params {
             if !takes(class, &param.key.text) {
                 unknown_parameters += 1;
-                rejected.refused.push((class, param));
+                // Of a class that is overruled, that has been told.
+                if !sprite.line.is_some_and(|line| is_of_own_class(line, param)) {
+                    rejected.refused.push((class, param));
+                }
                 continue;
             }
             match set_trait(class, &mut traits, param) {
