@@ -1,7 +1,7 @@
 //! What a sprite type is by itself: how it moves, what it makes, whether it can occur.
 
 use super::encounter::{Encounter, Provided};
-use super::prospect::Prospect;
+use super::prospect::{Prospect, Start};
 use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
@@ -127,18 +127,13 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
         fact.symbols.sort_by_key(|&symbol| (rules.mapping[usize::from(symbol)].len(), symbol));
     }
     let placed = (0u16..).map(SpriteType).zip(&facts).filter(|(_, fact)| !fact.symbols.is_empty());
-    let placed: Vec<SpriteType> = placed.map(|(stype, _)| stype).collect();
-    let possible = Prospect::of(rules, &facts, encounters, placed, planned(rules), None).there;
+    let there = placed.map(|(stype, _)| stype).collect();
+    let start = Start { there, planned: Start::planned(rules), ..Start::default() };
+    let possible = Prospect::of(rules, &facts, encounters, start).there;
     for (fact, possible) in facts.iter_mut().zip(possible) {
         fact.possible = possible;
     }
     facts
-}
-
-/// The timed effects that are planned when an episode starts.
-pub(super) fn planned(rules: &Rules) -> impl Iterator<Item = u16> {
-    let timed = (0u16..).zip(&rules.timed);
-    timed.filter(|(_, timed)| timed.first_due.is_some()).map(|(number, _)| number)
 }
 
 /// Whether the character has a meaning only because every game maps `w` and `A`, and this game does without it: it has

@@ -3,6 +3,7 @@
 use super::encounter::{Deed, Encounter, Provided, Side};
 use super::facts::{Avatar, Facts, Motion, Steering};
 use super::pairs::Pairs;
+use super::prospect::Prospect;
 use super::touch::{Harm, Removal, Touch};
 use crate::game::{Rules, SpriteType};
 
@@ -48,8 +49,12 @@ pub struct Resource {
     pub limit: i32,
     /// Types that give it on contact, and how much each.
     pub givers: Vec<(SpriteType, i32)>,
+    /// Types that use it up on contact, and the most that one takes.
+    pub takers: Vec<(SpriteType, i32)>,
     /// The most that an interaction asks for at once; 0 if none asks.
     pub needed: i32,
+    /// Whether some sprite can ever hold that many.
+    pub obtainable: bool,
     /// Whether shots cost it.
     pub is_ammunition: bool,
 }
@@ -169,21 +174,26 @@ pub(super) fn resources(
     rules: &Rules,
     encounters: &[Encounter],
     facts: &[Facts],
-    avatars: &[Avatar],
+    (avatars, touches): (&[Avatar], &Touches),
     givers: &Givers,
+    prospect: &Prospect<'_>,
 ) -> Vec<Resource> {
     let types = (0u16..).map(SpriteType).zip(facts);
+    let mut takers = changes(facts, touches, |by| by.saturating_neg());
     let resources = types.filter(|(_, fact)| fact.is_resource).map(|(stype, _)| {
         let asks = encounters.iter().map(|encounter| match encounter.provided {
             Provided::Holds(_, resource, amount) if resource == stype => amount,
             Provided::HoldsAtMost(_, resource, amount) if resource == stype => amount.saturating_add(1),
             _ => 0,
         });
+        let needed = asks.max().unwrap_or(0);
         Resource {
             stype,
             limit: rules.types[stype.index()].resource_limit,
             givers: givers[stype.index()].clone(),
-            needed: asks.max().unwrap_or(0),
+            takers: std::mem::take(&mut takers[stype.index()]),
+            needed,
+            obtainable: prospect.can_hold(stype, needed),
             is_ammunition: avatars.iter().any(|avatar| avatar.ammo.contains(&stype)),
         }
     });
@@ -196,9 +206,15 @@ pub(super) fn resources(
 pub(super) type Givers = Vec<Vec<(SpriteType, i32)>>;
 
 pub(super) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
+    changes(facts, touches, |by| by)
+}
+
+/// By resource: the types whose touch changes it by an amount whose `share` is positive, with the largest share.
+fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
     for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {
-        for &(resource, amount) in touches.iter().flat_map(|row| &row[stype.index()].gives) {
+        for &(resource, by) in touches.iter().flat_map(|row| &row[stype.index()].gives) {
+            let amount = share(by);
             let list = &mut givers[resource.index()];
             match list.last_mut() {
                 Some((giver, most)) if *giver == stype => *most = amount.max(*most),

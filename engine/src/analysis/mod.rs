@@ -4,17 +4,20 @@
 //! turns, makes and pushes; resources and how many are needed; and one [`Role`] for every type. A rule that names a
 //! parent holds for all its subtypes; every answer here is already spelled out for them.
 
+mod attain;
 mod encounter;
 mod facts;
 mod goal;
 mod lock;
 mod marks;
+mod outlook;
 mod pairs;
 mod prospect;
 mod requirement;
 mod role;
 mod touch;
 
+pub use attain::Attainable;
 pub use encounter::{Deed, Encounter, Provided, Side};
 pub use facts::{Avatar, Facts, Motion, Steering};
 pub use goal::{Aims, Condition, Goal};
@@ -28,6 +31,7 @@ use crate::game::{Game, SpriteType};
 use crate::geometry::Direction;
 use lock::Touches;
 use pairs::Pairs;
+use prospect::{Prospect, Start};
 use role::Basis;
 use std::collections::BTreeSet;
 
@@ -48,6 +52,8 @@ pub struct Analysis {
     locks: Vec<Lock>,
     roles: Vec<Role>,
     requirements: Vec<Requirement>,
+    chance_decides: bool,
+    unseen: Vec<SpriteType>,
 }
 
 impl Analysis {
@@ -57,7 +63,9 @@ impl Analysis {
         let rules = &*game.0;
         let encounters = encounter::encounters(rules);
         let facts = facts::facts(rules, &encounters);
-        let goals = goal::goals(rules);
+        let mut goals = goal::goals(rules);
+        let prospect = Prospect::of(rules, &facts, &encounters, Start::of_any_level(rules));
+        attain::judge(rules, &facts, &prospect, &mut goals);
         let aims = goal::aims(rules, &goals);
         let avatars = facts::avatars(rules, &facts);
         let types = || game.sprite_types();
@@ -70,7 +78,7 @@ impl Analysis {
         let harm: Vec<Harm> = types().map(worst).collect();
         let givers = lock::givers(&facts, &touches);
         let pushables = lock::pushables(&pairs, &facts, &avatars, &touches);
-        let resources = lock::resources(rules, &encounters, &facts, &avatars, &givers);
+        let resources = lock::resources(rules, &encounters, &facts, (&avatars, &touches), &givers, &prospect);
         let locks = lock::locks(&facts, &avatars, &touches, &pushables, &givers);
         let threat = marks::threats(rules, &encounters, &facts, &aims);
         let bad = |stype: SpriteType| {
@@ -93,8 +101,12 @@ impl Analysis {
             source: &source,
         };
         let roles: Vec<Role> = types().map(|stype| basis.role(stype)).collect();
+        let chance_decides = outlook::draws(rules, &prospect, None);
+        let unseen = outlook::unseen(rules, &facts, &prospect, &goals);
         let mut analysis = Analysis {
             game: game.clone(),
+            chance_decides,
+            unseen,
             encounters,
             facts,
             goals,
@@ -250,7 +262,7 @@ impl Analysis {
         &self.requirements
     }
 
-    /// Whether chance plays no part.
+    /// Whether nothing draws from the chance; see also [`Analysis::chance_decides`].
     pub fn is_deterministic(&self) -> bool {
         self.game.is_deterministic()
     }
@@ -281,18 +293,6 @@ impl Analysis {
         // What the clock does by itself moves something too.
         let clock = self.game.0.timed.iter().any(|timed| timed.first_due.is_some());
         !clock && self.game.sprite_types().all(idle)
-    }
-
-    /// Whether the player sees everything that takes part in an interaction.
-    pub fn is_fully_observable(&self) -> bool {
-        self.game.sprite_types().all(|stype| {
-            let facts = self.facts(stype);
-            let takes_part = |encounter: &Encounter| {
-                self.applies(encounter.first, stype)
-                    || encounter.second.is_some_and(|second| self.applies(second, stype))
-            };
-            !facts.possible || !facts.hidden || !self.encounters.iter().any(takes_part)
-        })
     }
 }
 

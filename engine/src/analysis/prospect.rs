@@ -1,8 +1,9 @@
 //! What can still come: a fixed point over what is there, what that makes, and what happens when it meets.
 
-use super::encounter::{Deed, Encounter, Provided, clockwork};
+use super::encounter::{Deed, Encounter, Provided, Side, clockwork};
 use super::facts::Facts;
 use crate::game::{Rules, SpriteType};
+use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 
 /// What can be there, be held and happen, from some start on; too much rather than too little: any two types that can
@@ -26,16 +27,41 @@ pub(super) struct Prospect<'a> {
     alive: Vec<bool>,
 }
 
+/// What a prospect starts from.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Start {
+    /// Types of sprites that are there.
+    pub(super) there: Vec<SpriteType>,
+    /// Types that are made by what is there, besides what their types make.
+    pub(super) making: Vec<SpriteType>,
+    /// Timed effects that are planned.
+    pub(super) planned: Vec<u16>,
+    /// By type: somebody holds one as a resource. None: whatever is asked for can be held.
+    pub(super) held: Option<Vec<bool>>,
+}
+
+impl Start {
+    /// Everything that levels can place, at the start of an episode, with empty hands.
+    pub(super) fn of_any_level(rules: &Rules) -> Start {
+        let there = rules.mapping.iter().flatten().copied().collect();
+        let held = Some(vec![false; rules.types.len()]);
+        Start { there, making: Vec::new(), planned: Start::planned(rules), held }
+    }
+
+    /// The timed effects that are planned when an episode starts.
+    pub(super) fn planned(rules: &Rules) -> Vec<u16> {
+        let timed = (0u16..).zip(&rules.timed);
+        timed.filter(|(_, timed)| timed.first_due.is_some()).map(|(number, _)| number).collect()
+    }
+}
+
 impl<'a> Prospect<'a> {
-    /// From a start at which types are there, effects are planned, and resources are held; `held` is None where that
-    /// does not count. Cost: O(rounds × interactions), with at most one round for each type that comes.
+    /// Cost: O(rounds × interactions), with at most one round for each type that comes.
     pub(super) fn of(
         rules: &'a Rules,
         facts: &'a [Facts],
         encounters: &'a [Encounter],
-        start: impl IntoIterator<Item = SpriteType>,
-        planned: impl IntoIterator<Item = u16>,
-        held: Option<Vec<bool>>,
+        Start { there, making, planned, held }: Start,
     ) -> Prospect<'a> {
         let none = vec![false; rules.types.len()];
         let mut prospect = Prospect {
@@ -49,7 +75,10 @@ impl<'a> Prospect<'a> {
             timed: vec![false; rules.timed.len()],
             alive: none,
         };
-        start.into_iter().for_each(|stype| prospect.add(stype));
+        there.into_iter().for_each(|stype| prospect.add(stype));
+        for stype in making {
+            prospect.make(stype);
+        }
         planned.into_iter().for_each(|timed| prospect.timed[usize::from(timed)] = true);
         let clockwork = clockwork(rules);
         while prospect.round(&clockwork) {}
@@ -83,13 +112,13 @@ impl<'a> Prospect<'a> {
         let facts = self.facts;
         for (at, fact) in facts.iter().enumerate().filter(|(at, _)| self.there[*at]).collect::<Vec<_>>() {
             for (kind, &stype) in fact.makes.iter().enumerate() {
-                new |= self.is_loaded(at, kind) && self.make(stype);
+                new |= self.can_make(at, kind) && self.make(stype);
             }
         }
         for (at, encounter) in self.encounters.iter().enumerate() {
             if !self.live[at] {
                 let meets = encounter.second.is_none_or(|second| self.is_alive(second));
-                if !meets || !self.is_alive(encounter.first) || !self.can_hold(encounter.provided) {
+                if !meets || !self.is_alive(encounter.first) || !self.can_happen(encounter.provided) {
                     continue;
                 }
                 self.live[at] = true;
@@ -146,20 +175,35 @@ impl<'a> Prospect<'a> {
         !std::mem::replace(&mut held[resource.index()], true)
     }
 
-    /// Whether some sprite can ever hold what an interaction asks for.
-    fn can_hold(&self, provided: Provided) -> bool {
-        let (Some(held), Provided::Holds(_, resource, amount)) = (&self.held, provided) else { return true };
-        let within = amount <= self.rules.types[resource.index()].resource_limit;
-        amount <= 0 || (held[resource.index()] && within)
+    /// Whether what an interaction asks for can ever be so.
+    fn can_happen(&self, provided: Provided) -> bool {
+        match (&self.held, provided) {
+            (Some(held), Provided::Holds(_, resource, amount)) => {
+                let within = amount <= self.rules.types[resource.index()].resource_limit;
+                amount <= 0 || (held[resource.index()] && within)
+            }
+            (Some(_), Provided::Chance(prob)) => prob > 0.0,
+            _ => true,
+        }
     }
 
-    /// Whether a maker can have the ammunition for its shots of that kind; only avatars need some.
-    fn is_loaded(&self, maker: usize, kind: usize) -> bool {
+    /// Whether a maker can make sprites of its `kind`-th type: avatars need ammunition for their shots.
+    pub(super) fn can_make(&self, maker: usize, kind: usize) -> bool {
         let info = &self.rules.types[maker];
-        let Some(held) = self.held.as_ref().filter(|_| info.class.is_some_and(|class| class.is_avatar()))
-        else {
-            return true;
-        };
-        info.traits.ammo.get(kind).is_none_or(|ammo| held[ammo.index()])
+        let Some(held) = &self.held else { return true };
+        if info.class.is_some_and(|class| class.is_avatar()) {
+            return info.traits.ammo.get(kind).is_none_or(|ammo| held[ammo.index()]);
+        }
+        info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
+    }
+
+    /// The interactions that [`Prospect::live`] is about.
+    pub(super) fn encounters(&self) -> &'a [Encounter] {
+        self.encounters
+    }
+
+    /// Whether some sprite can ever hold so many of a resource.
+    pub(super) fn can_hold(&self, resource: SpriteType, amount: i32) -> bool {
+        self.can_happen(Provided::Holds(Side::First, resource, amount))
     }
 }

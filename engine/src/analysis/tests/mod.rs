@@ -1,6 +1,9 @@
+mod goals;
 mod hostile;
+mod outlook;
 
 use super::*;
+use crate::state::State;
 use std::path::{Path, PathBuf};
 
 fn game(sprites: &str, mapping: &str, interactions: &str, terminations: &str) -> Game {
