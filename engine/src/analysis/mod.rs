@@ -15,7 +15,9 @@ mod pairs;
 mod prospect;
 mod requirement;
 mod role;
+mod taxonomy;
 mod touch;
+mod ways;
 
 pub use attain::Attainable;
 pub use encounter::{Deed, Encounter, Provided, Side};
@@ -25,6 +27,7 @@ pub use lock::{Fate, Key, Lock, Pushable, Resource, Sink};
 pub use pairs::MAX_RULES_PER_PAIR;
 pub use requirement::{MAX_GOALS, Reason, Requirement};
 pub use role::Role;
+pub use taxonomy::{Genre, Spatiality, Taxonomy, Time};
 pub use touch::{Harm, Removal, Touch};
 
 use crate::game::{Game, SpriteType};

@@ -1,6 +1,7 @@
 mod goals;
 mod hostile;
 mod outlook;
+mod taxonomy;
 
 use super::*;
 use crate::state::State;
