@@ -192,9 +192,24 @@ fn rules_are_described() {
     let folder = folder(GAME, LEVEL);
     let output = run(folder.path(), &["describe", "game.vgdl"], 0);
     let said = text(&output.stdout);
-    for words in ["You are the avatar", "You win when no nectar is left", "You die on touching the thorn"] {
+    for words in [
+        "You are the avatar",
+        "You win when no nectar is left",
+        "You die on touching the thorn",
+        "\nWhat kind of game it is:\n  Genre: puzzle and collect.\n  Turn-based:",
+    ] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
+    let output = run(folder.path(), &["describe", "game.vgdl", "--json"], 0);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let taxonomy = serde_json::json!({
+        "time": "turn-based",
+        "spatiality": "grid",
+        "genres": ["puzzle", "collect"],
+        "chance": false,
+        "hidden": false,
+    });
+    assert_eq!(document["taxonomy"], taxonomy);
 }
 
 #[test]

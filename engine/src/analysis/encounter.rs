@@ -13,6 +13,15 @@ pub enum Side {
     Second,
 }
 
+impl Side {
+    pub(super) fn other(self) -> Side {
+        match self {
+            Side::First => Side::Second,
+            Side::Second => Side::First,
+        }
+    }
+}
+
 /// One thing that an interaction does.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Deed {
@@ -115,6 +124,8 @@ pub struct Encounter {
     pub score: i32,
     /// Index of the line in [`Description::interactions`](crate::Description).
     pub line: usize,
+    /// The effect, with its fine print.
+    pub(super) effect: u16,
 }
 
 impl Encounter {
@@ -154,6 +165,9 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let encounter = |(first, second, effect): (SpriteType, Option<SpriteType>, u16)| {
         let info = &rules.effects[usize::from(effect)];
         let (mut deeds, mut provided) = neutral(&info.effect);
+        if let Effect::AddTimer { timed } = info.effect {
+            deeds.extend(later(rules, timed));
+        }
         // What is done to or with undeclared types, in games loaded as the reference does, is never done.
         deeds.retain(|deed| !deed.names(SpriteType::NONE));
         if matches!(provided, Provided::Holds(_, SpriteType::NONE, _)) {
@@ -164,7 +178,7 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
             _ if info.apply_score => info.score_change,
             _ => 0,
         };
-        Encounter { first, second, deeds, provided, score, line: info.line }
+        Encounter { first, second, deeds, provided, score, line: info.line, effect }
     };
     seen.into_iter().map(encounter).collect()
 }
@@ -177,6 +191,20 @@ pub(super) fn clockwork(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[Dee
         deeds
     };
     rules.timed.iter().map(|timed| (timed.target, deeds(timed.effect))).collect()
+}
+
+/// What a planned effect does to whom it may concern: all sprites of a type. (What asks for a sprite of its own finds
+/// none.)
+fn later(rules: &Rules, timed: u16) -> impl Iterator<Item = Deed> {
+    let effect = rules.timed[usize::from(timed)].effect;
+    let (deeds, _) = neutral(&rules.effects[usize::from(effect)].effect);
+    let at_large = |deed: &Deed| {
+        matches!(
+            deed,
+            Deed::KillAll(_) | Deed::BecomeAll(..) | Deed::Speed(Some(_)) | Deed::Health { of: Some(_), .. }
+        )
+    };
+    deeds.into_iter().filter(at_large)
 }
 
 /// What an effect does and when, without its fine print.
@@ -271,7 +299,10 @@ fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
             (smallvec![Deed::Make(stype), Deed::Make(otherwise)], Provided::Way)
         }
         Effect::TransformIfCount(ref rule) => {
-            (with(Deed::Become(rule.stype), rule.kill_second, Deed::Kill(Second)), Provided::Way)
+            let mut deeds: SmallVec<[Deed; 2]> = rule.otherwise.into_iter().map(Deed::Become).collect();
+            deeds.push(Deed::Become(rule.stype));
+            deeds.extend(rule.kill_second.then_some(Deed::Kill(Second)));
+            (deeds, Provided::Way)
         }
         Effect::TransformToSingleton { stype, other, .. } => {
             always(smallvec![Deed::Become(stype), Deed::BecomeAll(stype, other)])
@@ -280,7 +311,7 @@ fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
         Effect::BounceDirection { .. } => always(smallvec![Deed::Turn]),
         Effect::WallStop => always(smallvec![Deed::Stop]),
         Effect::WallBounce | Effect::WallReverse => always(smallvec![Deed::Stop, Deed::Turn]),
-        // What happens, happens later, to whom it may concern.
+        // What happens, happens later: see `later`.
         Effect::AddTimer { .. } => always(smallvec![]),
         Effect::ShieldFrom { stype, keyword } => {
             let keyword =

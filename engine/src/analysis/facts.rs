@@ -1,6 +1,7 @@
 //! What a sprite type is by itself: how it moves, what it makes, whether it can occur.
 
-use super::encounter::{self, Deed, Encounter, Provided};
+use super::encounter::{Encounter, Provided};
+use super::prospect::{Prospect, Start};
 use crate::game::{Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
@@ -125,7 +126,13 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     for fact in &mut facts {
         fact.symbols.sort_by_key(|&symbol| (rules.mapping[usize::from(symbol)].len(), symbol));
     }
-    occur(rules, encounters, &mut facts);
+    let placed = (0u16..).map(SpriteType).zip(&facts).filter(|(_, fact)| !fact.symbols.is_empty());
+    let there = placed.map(|(stype, _)| stype).collect();
+    let start = Start { there, planned: Start::planned(rules), ..Start::default() };
+    let possible = Prospect::of(rules, &facts, encounters, start).there;
+    for (fact, possible) in facts.iter_mut().zip(possible) {
+        fact.possible = possible;
+    }
     facts
 }
 
@@ -185,54 +192,9 @@ fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
     let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
     let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
-    made.iter().copied().chain(traits.spawn_behind).filter(|&stype| stype != SpriteType::NONE).collect()
-}
-
-/// Marks what can be on the board: a fixed point over what is placed and what that makes.
-fn occur(rules: &Rules, encounters: &[Encounter], facts: &mut [Facts]) {
-    let clockwork = &encounter::clockwork(rules);
-    for fact in facts.iter_mut() {
-        fact.possible = !fact.symbols.is_empty();
-    }
-    let some = |facts: &[Facts], written: SpriteType| {
-        rules.types[written.index()].tree.iter().any(|stype| facts[stype.index()].possible)
-    };
-    loop {
-        let mut new: Vec<SpriteType> = Vec::new();
-        for fact in facts.iter().filter(|fact| fact.possible) {
-            new.extend(&fact.makes);
-        }
-        for encounter in encounters {
-            if !some(facts, encounter.first) || encounter.second.is_some_and(|second| !some(facts, second)) {
-                continue;
-            }
-            appear(&encounter.deeds, facts, &mut new);
-        }
-        for (target, deeds) in clockwork {
-            if target.is_none_or(|target| some(facts, target)) {
-                appear(deeds, facts, &mut new);
-            }
-        }
-        new.retain(|stype| facts[stype.index()].concrete && !facts[stype.index()].possible);
-        if new.is_empty() {
-            return;
-        }
-        for stype in new {
-            facts[stype.index()].possible = true;
-        }
-    }
-}
-
-/// Adds what deeds bring about.
-fn appear(deeds: &[Deed], facts: &[Facts], new: &mut Vec<SpriteType>) {
-    for deed in deeds {
-        match deed {
-            Deed::Become(to) | Deed::Make(to) => new.push(*to),
-            Deed::BecomeAll(from, to) if facts[from.index()].possible => new.push(*to),
-            Deed::BecomeAny(options) => new.extend(options.iter()),
-            _ => {}
-        }
-    }
+    // Walls, unless it names something else.
+    let behind = traits.spawn_behind.or((class == C::OngoingTurningAvatar).then_some(SpriteType(0)));
+    made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }
 
 /// The avatar types that can occur: those that levels place first, then by type.

@@ -1,6 +1,7 @@
 //! Goals with a sign: what wins, what loses, in terms of counts of sprite types.
 
 use super::Analysis;
+use super::attain::Attainable;
 use crate::game::{Rules, SpriteType};
 use crate::ontology::terminations::Condition as Written;
 use crate::state::State;
@@ -40,6 +41,18 @@ impl Condition {
             Condition::Tick(limit) => tick >= *limit,
         }
     }
+
+    /// How far it is from holding with these counts at this tick: sprites that must go or come, or ticks that must pass.
+    pub fn missing(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> u32 {
+        let sum = || self.types().iter().map(|&stype| i64::from(count(stype))).sum::<i64>();
+        let missing = match self {
+            Condition::AtMost(_, limit) => sum() - i64::from(*limit),
+            Condition::AtLeast(_, limit) => i64::from(*limit) - sum(),
+            Condition::Exactly(_, limit) => (sum() - i64::from(*limit)).abs(),
+            Condition::Tick(limit) => i64::from(*limit) - i64::from(tick),
+        };
+        u32::try_from(missing.max(0)).unwrap_or(u32::MAX)
+    }
 }
 
 /// A termination, in order of priority: the first one that holds at the end of a tick ends the game.
@@ -51,6 +64,8 @@ pub struct Goal {
     pub condition: Condition,
     /// Index of the line in [`Description::terminations`](crate::Description).
     pub line: usize,
+    /// Whether the rules can bring it about.
+    pub attainable: Attainable,
 }
 
 /// What the terminations ask of the player, sorted by type.
@@ -87,7 +102,8 @@ pub(super) fn goals(rules: &Rules) -> Vec<Goal> {
             Written::StopCounter { .. } => return None,
             Written::Timeout { limit } => Condition::Tick(*limit),
         };
-        Some(Goal { win: termination.win, condition, line })
+        // `attain::judge` says more.
+        Some(Goal { win: termination.win, condition, line, attainable: Attainable::InPlay })
     };
     rules.terminations.iter().enumerate().filter_map(goal).collect()
 }
@@ -149,5 +165,14 @@ impl Analysis {
     pub fn goal_met(&self, state: &State) -> Option<&Goal> {
         let rules = &*self.game.0;
         self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, state))
+    }
+
+    /// How far a goal is from being met in this state: see [`Condition::missing`]. Cost: O(types).
+    pub fn missing(&self, goal: &Goal, state: &State) -> u32 {
+        let live = |stype: SpriteType| {
+            let group = state.group(stype);
+            i32::from(group.count - group.disabled)
+        };
+        goal.condition.missing(live, state.tick())
     }
 }

@@ -2,6 +2,8 @@
 
 use super::encounter::{Deed, Encounter, Provided, Side};
 use super::facts::{Avatar, Facts, Motion, Steering};
+use super::pairs::Pairs;
+use super::prospect::Prospect;
 use super::touch::{Harm, Removal, Touch};
 use crate::game::{Rules, SpriteType};
 
@@ -47,8 +49,12 @@ pub struct Resource {
     pub limit: i32,
     /// Types that give it on contact, and how much each.
     pub givers: Vec<(SpriteType, i32)>,
+    /// Types that use it up on contact, and the most that one takes.
+    pub takers: Vec<(SpriteType, i32)>,
     /// The most that an interaction asks for at once; 0 if none asks.
     pub needed: i32,
+    /// Whether some sprite can ever hold that many.
+    pub obtainable: bool,
     /// Whether shots cost it.
     pub is_ammunition: bool,
 }
@@ -92,8 +98,7 @@ pub struct Pushable {
 pub(super) type Touches = Vec<Vec<Touch>>;
 
 pub(super) fn pushables(
-    rules: &Rules,
-    encounters: &[Encounter],
+    pairs: &Pairs<'_>,
     facts: &[Facts],
     avatars: &[Avatar],
     touches: &Touches,
@@ -104,11 +109,12 @@ pub(super) fn pushables(
     let mut list = Vec::new();
     for (stype, _) in types().filter(|&(stype, _)| pushed(stype)) {
         let mut pushable = Pushable { stype, blocked_by: Vec::new(), sinks: Vec::new() };
+        let mut meetings = meetings(pairs, facts.len(), stype);
         for (partner, _) in types().filter(|&(partner, _)| !is_avatar(partner)) {
-            match meeting(rules, encounters, stype, partner) {
-                Meeting::Nothing => {}
+            match std::mem::replace(&mut meetings[partner.index()], Meeting::Blocked) {
                 Meeting::Blocked => pushable.blocked_by.push(partner),
-                Meeting::Sink(sink) => pushable.sinks.push(sink),
+                Meeting::Free(sink) if sink.is_idle() => {}
+                Meeting::Free(sink) => pushable.sinks.push(sink),
             }
         }
         list.push(pushable);
@@ -118,23 +124,28 @@ pub(super) fn pushables(
 
 /// What happens when a pushed sprite comes to a partner.
 enum Meeting {
-    Nothing,
     Blocked,
-    Sink(Sink),
+    Free(Sink),
 }
 
-fn meeting(rules: &Rules, encounters: &[Encounter], stype: SpriteType, partner: SpriteType) -> Meeting {
-    let is = |stype: SpriteType, written: SpriteType| rules.types[written.index()].in_tree(stype);
-    let mut sink = Sink { partner, fate: Fate::Stays, fills: false, opens: Vec::new() };
-    for encounter in encounters {
-        let Some(second) = encounter.second else { continue };
-        let (own, theirs) = if is(stype, encounter.first) && is(partner, second) {
-            (Side::First, Side::Second)
-        } else if is(partner, encounter.first) && is(stype, second) {
-            (Side::Second, Side::First)
-        } else {
-            continue;
-        };
+impl Sink {
+    fn is_idle(&self) -> bool {
+        self.fate == Fate::Stays && !self.fills && self.opens.is_empty()
+    }
+}
+
+/// What happens when a pushed sprite comes to each type, by type.
+fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> {
+    let sink = |partner: u16| Sink {
+        partner: SpriteType(partner),
+        fate: Fate::Stays,
+        fills: false,
+        opens: Vec::new(),
+    };
+    let mut meetings: Vec<Meeting> = (0..types).map(|partner| Meeting::Free(sink(partner as u16))).collect();
+    pairs.with(stype, |partner, own, encounter| {
+        let meeting = &mut meetings[partner.index()];
+        let Meeting::Free(sink) = meeting else { return };
         let stops = encounter.does(|deed| match deed {
             Deed::Stop => own == Side::First,
             Deed::Undo(spare) => !spare.contains(&stype),
@@ -143,9 +154,10 @@ fn meeting(rules: &Rules, encounters: &[Encounter], stype: SpriteType, partner: 
             _ => false,
         });
         if stops {
-            return Meeting::Blocked;
+            *meeting = Meeting::Blocked;
+            return;
         }
-        sink.fills |= encounter.ends(theirs);
+        sink.fills |= encounter.ends(own.other());
         for deed in &encounter.deeds {
             match deed {
                 Deed::Become(to) if own == Side::First => sink.fate = Fate::Becomes(*to),
@@ -154,30 +166,34 @@ fn meeting(rules: &Rules, encounters: &[Encounter], stype: SpriteType, partner: 
                 _ => {}
             }
         }
-    }
-    let idle = sink.fate == Fate::Stays && !sink.fills && sink.opens.is_empty();
-    if idle { Meeting::Nothing } else { Meeting::Sink(sink) }
+    });
+    meetings
 }
 
 pub(super) fn resources(
     rules: &Rules,
     encounters: &[Encounter],
     facts: &[Facts],
-    avatars: &[Avatar],
-    touches: &Touches,
+    (avatars, touches): (&[Avatar], &Touches),
+    givers: &Givers,
+    prospect: &Prospect<'_>,
 ) -> Vec<Resource> {
     let types = (0u16..).map(SpriteType).zip(facts);
+    let mut takers = changes(facts, touches, |by| by.saturating_neg());
     let resources = types.filter(|(_, fact)| fact.is_resource).map(|(stype, _)| {
         let asks = encounters.iter().map(|encounter| match encounter.provided {
             Provided::Holds(_, resource, amount) if resource == stype => amount,
             Provided::HoldsAtMost(_, resource, amount) if resource == stype => amount.saturating_add(1),
             _ => 0,
         });
+        let needed = asks.max().unwrap_or(0);
         Resource {
             stype,
             limit: rules.types[stype.index()].resource_limit,
-            givers: givers(facts, touches, stype),
-            needed: asks.max().unwrap_or(0),
+            givers: givers[stype.index()].clone(),
+            takers: std::mem::take(&mut takers[stype.index()]),
+            needed,
+            obtainable: prospect.can_hold(stype, needed),
             is_ammunition: avatars.iter().any(|avatar| avatar.ammo.contains(&stype)),
         }
     });
@@ -186,17 +202,28 @@ pub(super) fn resources(
         .collect()
 }
 
-/// The types whose touch gives a resource, with the largest amount that one gives.
-fn givers(facts: &[Facts], touches: &Touches, resource: SpriteType) -> Vec<(SpriteType, i32)> {
-    let mut list = Vec::new();
-    for (stype, fact) in (0u16..).map(SpriteType).zip(facts) {
-        let gives = touches.iter().flat_map(|row| &row[stype.index()].gives);
-        let amount = gives.filter(|(given, _)| *given == resource).map(|&(_, amount)| amount).max();
-        if let Some(amount) = amount.filter(|&amount| amount > 0 && fact.possible) {
-            list.push((stype, amount));
+/// By resource: the types whose touch gives it, with the largest amount that one gives.
+pub(super) type Givers = Vec<Vec<(SpriteType, i32)>>;
+
+pub(super) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
+    changes(facts, touches, |by| by)
+}
+
+/// By resource: the types whose touch changes it by an amount whose `share` is positive, with the largest share.
+fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
+    let mut givers: Givers = vec![Vec::new(); facts.len()];
+    for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {
+        for &(resource, by) in touches.iter().flat_map(|row| &row[stype.index()].gives) {
+            let amount = share(by);
+            let list = &mut givers[resource.index()];
+            match list.last_mut() {
+                Some((giver, most)) if *giver == stype => *most = amount.max(*most),
+                _ if amount > 0 => list.push((stype, amount)),
+                _ => {}
+            }
         }
     }
-    list
+    givers
 }
 
 /// The types whose touch turns some avatar into another one.
@@ -206,15 +233,17 @@ fn turners(facts: &[Facts], touches: &Touches, avatar: SpriteType) -> Vec<(Sprit
     types.filter(|&(stype, _)| turns(stype)).map(|(stype, _)| (stype, 1)).collect()
 }
 
-/// Everything that starts locked. Cost: O(types × avatars).
+/// Everything that starts locked. Cost: O(types × types × avatars).
 pub(super) fn locks(
     facts: &[Facts],
     avatars: &[Avatar],
     touches: &Touches,
     pushables: &[Pushable],
+    givers: &Givers,
 ) -> Vec<Lock> {
     let mut locks = Vec::new();
     let Some(start) = avatars.iter().position(|avatar| avatar.starts) else { return locks };
+    let switches = switches(facts.len(), touches, pushables);
     for (stype, fact) in (0u16..).map(SpriteType).zip(facts) {
         let still = fact.motion == Motion::Still;
         if !fact.possible || avatars.iter().any(|avatar| avatar.stype == stype) {
@@ -226,11 +255,11 @@ pub(super) fn locks(
             let spends = |&(given, by): &(SpriteType, i32)| given == resource && by < 0;
             let spent = first.gives.iter().any(spends);
             let key = Key::Resource { resource, amount, spent };
-            let givers = givers(facts, touches, resource);
+            let givers = givers[resource.index()].clone();
             locks.push(Lock { stype, key, guards, vanishes: true, givers });
         } else if let (Some((resource, amount)), true, false) = (first.safe_with, still, first.blocks) {
             let key = Key::Resource { resource, amount, spent: false };
-            let givers = givers(facts, touches, resource);
+            let givers = givers[resource.index()].clone();
             locks.push(Lock { stype, key, guards: true, vanishes: false, givers });
         } else if still {
             let later = avatars.iter().zip(touches).skip(1).find_map(|(avatar, row)| {
@@ -244,12 +273,8 @@ pub(super) fn locks(
             let lock = later
                 .map(|(avatar, vanishes)| (Key::Avatar(avatar), vanishes, turners(facts, touches, avatar)));
             let lock = lock.filter(|(_, _, givers)| !givers.is_empty());
-            let switched = || {
-                switch(stype, touches, pushables).map(|key| {
-                    let Key::Switch(by, _) = key else { return (key, true, Vec::new()) };
-                    (key, true, vec![(by, 1)])
-                })
-            };
+            let switched =
+                || switches[stype.index()].map(|(by, pushed)| (Key::Switch(by, pushed), true, vec![(by, 1)]));
             if let Some((key, vanishes, givers)) = lock.or_else(|| guards.then(switched).flatten()) {
                 locks.push(Lock { stype, key, guards, vanishes, givers });
             }
@@ -258,12 +283,26 @@ pub(super) fn locks(
     locks
 }
 
-/// What, touched or filled, removes a type everywhere.
-fn switch(stype: SpriteType, touches: &Touches, pushables: &[Pushable]) -> Option<Key> {
-    let filled = pushables.iter().find_map(|pushable| {
-        let sink = pushable.sinks.iter().find(|sink| sink.opens.contains(&stype))?;
-        Some(Key::Switch(sink.partner, Some(pushable.stype)))
-    });
-    let touched = touches.iter().find_map(|row| row.iter().position(|touch| touch.opens.contains(&stype)));
-    filled.or(touched.map(|at| Key::Switch(SpriteType(at as u16), None)))
+/// By type: what, touched or filled with a pushed thing, removes it everywhere; what is filled comes first.
+fn switches(
+    types: usize,
+    touches: &Touches,
+    pushables: &[Pushable],
+) -> Vec<Option<(SpriteType, Option<SpriteType>)>> {
+    let mut switches = vec![None; types];
+    for pushable in pushables {
+        for sink in &pushable.sinks {
+            for opened in &sink.opens {
+                switches[opened.index()].get_or_insert((sink.partner, Some(pushable.stype)));
+            }
+        }
+    }
+    for row in touches {
+        for (at, touch) in (0u16..).zip(row) {
+            for opened in &touch.opens {
+                switches[opened.index()].get_or_insert((SpriteType(at), None));
+            }
+        }
+    }
+    switches
 }

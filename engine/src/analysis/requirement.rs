@@ -1,7 +1,7 @@
 //! What a level must hold so that playing it makes sense.
 
 use super::Analysis;
-use super::encounter::Deed;
+use super::encounter::{Deed, Encounter};
 use super::goal::Condition;
 use super::lock::{Fate, Key, Sink};
 use super::role::Role;
@@ -21,6 +21,9 @@ pub enum Reason {
     /// Portals of this type need somewhere to lead to.
     Portal(SpriteType),
 }
+
+/// Terminations that requirements are derived from: the first ones. Real games have a handful.
+pub const MAX_GOALS: usize = 64;
 
 /// How many sprites of some types, together, a level should place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,10 +47,11 @@ pub(super) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
         types.dedup();
         types
     };
+    let makers = makers(analysis);
     let starts: Vec<SpriteType> = analysis.avatars.iter().map(|avatar| avatar.stype).collect();
     let (types, reason) = (placeable(&starts), Reason::Avatar);
     list.push(Requirement { types, at_least: 1, at_most: Some(1), reason });
-    for (at, goal) in analysis.goals.iter().enumerate() {
+    for (at, goal) in analysis.goals.iter().enumerate().take(MAX_GOALS) {
         let types = placeable(goal.condition.types());
         let only_avatars = types.iter().all(|&stype| analysis.role(stype) == Role::Avatar);
         if only_avatars && !types.is_empty() {
@@ -65,7 +69,7 @@ pub(super) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
             list.push(Requirement { types, at_least, at_most, reason: Reason::Goal(at) });
         }
         if goal.win {
-            list.extend(means(analysis, at));
+            list.extend(means(analysis, at, &makers));
         }
     }
     list.extend(keys(analysis));
@@ -84,8 +88,21 @@ fn count(number: i32) -> u32 {
     u32::try_from(number).unwrap_or(0)
 }
 
+/// By type: the first interaction that brings such sprites about.
+fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
+    let mut makers = vec![None; analysis.facts.len()];
+    for encounter in &analysis.encounters {
+        for deed in &encounter.deeds {
+            if let Deed::Become(to) | Deed::Make(to) = deed {
+                makers[to.index()].get_or_insert(encounter);
+            }
+        }
+    }
+    makers
+}
+
 /// What makes the sprites that a win asks for, or ends those that it wants gone where the avatar's touch does not.
-fn means(analysis: &Analysis, at: usize) -> Vec<Requirement> {
+fn means(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
     let condition = &analysis.goals[at].condition;
     let wants_more = match condition {
         Condition::AtLeast(_, limit) => *limit > 0,
@@ -99,10 +116,7 @@ fn means(analysis: &Analysis, at: usize) -> Vec<Requirement> {
     };
     if wants_more {
         for &wanted in condition.types() {
-            let makes = |deed: &Deed| matches!(deed, Deed::Become(to) | Deed::Make(to) if *to == wanted);
-            let Some(encounter) = analysis.encounters.iter().find(|encounter| encounter.does(makes)) else {
-                continue;
-            };
+            let Some(encounter) = makers[wanted.index()] else { continue };
             for written in [Some(encounter.first), encounter.second].into_iter().flatten() {
                 let tree = &analysis.game.0.types[written.index()].tree;
                 let placed = |stype: &&SpriteType| {

@@ -1,9 +1,9 @@
 //! One role for every sprite type: what it is for in a level.
 
-use super::encounter::{Deed, Encounter, Side};
-use super::facts::{Avatar, Facts, Motion, is_certain};
+use super::facts::{Avatar, Facts, Motion};
 use super::goal::Aims;
 use super::lock::{Fate, Lock, Pushable, Touches};
+use super::marks::Marks;
 use super::touch::{Harm, Removal};
 use crate::game::{Rules, SpriteType};
 use crate::ontology::class::SpriteClass;
@@ -67,7 +67,6 @@ pub enum Role {
 /// What the roles are derived from.
 pub(super) struct Basis<'a> {
     pub(super) rules: &'a Rules,
-    pub(super) encounters: &'a [Encounter],
     pub(super) facts: &'a [Facts],
     pub(super) avatars: &'a [Avatar],
     pub(super) aims: &'a Aims,
@@ -76,14 +75,14 @@ pub(super) struct Basis<'a> {
     pub(super) locks: &'a [Lock],
     /// By type: what contact with it does to some avatar, at worst.
     pub(super) harm: &'a [Harm],
-    /// By type: others end what must be protected, or make what must not appear, when they meet it.
-    pub(super) threat: &'a [bool],
+    /// By type: what interactions with others say of it.
+    pub(super) marks: &'a [Marks],
     /// By type: it makes, by itself and perhaps in several steps, what harms the avatar or a goal.
     pub(super) source: &'a [bool],
 }
 
 impl Basis<'_> {
-    /// The role of a type. Cost: O(avatars + encounters).
+    /// The role of a type. Cost: O(types × avatars).
     pub(super) fn role(&self, stype: SpriteType) -> Role {
         let at = stype.index();
         let fact = &self.facts[at];
@@ -120,7 +119,7 @@ impl Basis<'_> {
         }
         let takes = touches().any(|touch| touch.gives.iter().any(|&(_, by)| by < 0));
         let caught = wanted && harm == Harm::None && touches().any(|touch| touch.removal == Removal::Always);
-        let hostile = harm != Harm::None || self.source[at] || self.threat[at] || takes;
+        let hostile = harm != Harm::None || self.source[at] || self.marks[at].threat || takes;
         if !still && hostile && !caught {
             return Role::Enemy;
         }
@@ -153,12 +152,12 @@ impl Basis<'_> {
             return Role::Collectable;
         }
         if still && blocks {
-            return if self.is_breakable(stype) { Role::Breakable } else { Role::Wall };
+            return if self.marks[at].breakable { Role::Breakable } else { Role::Wall };
         }
-        if still && self.is_spoilt(stype) && !self.beside_avatar(stype) {
+        if still && self.marks[at].spoilt && !self.beside_avatar(stype) {
             return Role::Ward;
         }
-        if still && self.meets_shots(stype) && !self.beside_avatar(stype) {
+        if still && self.marks[at].meets_shots && !self.beside_avatar(stype) {
             return Role::Cover;
         }
         if still && self.holds_up_enemies(stype) {
@@ -169,10 +168,6 @@ impl Basis<'_> {
             return Role::Floor;
         }
         Role::Neutral
-    }
-
-    fn is(&self, stype: SpriteType, written: SpriteType) -> bool {
-        self.rules.types[written.index()].in_tree(stype)
     }
 
     fn is_shot(&self, stype: SpriteType) -> bool {
@@ -219,51 +214,13 @@ impl Basis<'_> {
             let touch = &row[stype.index()];
             touch.score == 0 && touch.makes.is_empty() && touch.gives.is_empty() && touch.changes.is_none()
         });
-        worthless
-            && self.encounters.iter().any(|encounter| {
-                let avatar = self.avatars.iter().any(|avatar| self.is(avatar.stype, encounter.first));
-                encounter.blocks() && !avatar && encounter.second.is_some_and(|second| self.is(stype, second))
-            })
-    }
-
-    fn is_breakable(&self, stype: SpriteType) -> bool {
-        self.encounters.iter().any(|encounter| {
-            let Some(second) = encounter.second else { return false };
-            let by_other = |other: SpriteType| {
-                let tree = self.rules.types[other.index()].tree.iter();
-                tree.clone().any(|&other| self.is_shot(other) || self.harm[other.index()] != Harm::None)
-            };
-            is_certain(encounter)
-                && ((self.is(stype, encounter.first) && encounter.ends(Side::First) && by_other(second))
-                    || (self.is(stype, second) && encounter.ends(Side::Second) && by_other(encounter.first)))
-        })
-    }
-
-    /// What moves makes, on meeting it, what must not appear.
-    fn is_spoilt(&self, stype: SpriteType) -> bool {
-        self.encounters.iter().any(|encounter| {
-            let spoils = encounter.does(|deed| match deed {
-                Deed::Become(to) | Deed::Make(to) => self.aims.prevent.contains(to),
-                _ => false,
-            });
-            spoils && encounter.second.is_some_and(|second| self.is(stype, second))
-        })
+        worthless && self.marks[stype.index()].holds_up
     }
 
     fn holds_up_enemies(&self, stype: SpriteType) -> bool {
-        self.encounters.iter().any(|encounter| {
-            let hostile = |other: &SpriteType| {
-                let at = other.index();
-                self.facts[at].motion != Motion::Still
-                    && self.facts[at].possible
-                    && (self.harm[at] != Harm::None || self.source[at] || self.threat[at])
-            };
-            encounter.blocks()
-                && encounter.second.is_some_and(|second| self.is(stype, second))
-                && self.rules.types[encounter.first.index()].tree.iter().any(hostile)
-                && self.touches.iter().all(|row| !row[stype.index()].blocks)
-                && !self.beside_avatar(stype)
-        })
+        self.marks[stype.index()].holds_up_enemies
+            && self.touches.iter().all(|row| !row[stype.index()].blocks)
+            && !self.beside_avatar(stype)
     }
 
     /// A character places it together with an avatar.
@@ -276,55 +233,8 @@ impl Basis<'_> {
     }
 
     fn lies_under(&self, stype: SpriteType) -> bool {
-        let takes_part = |encounter: &Encounter| {
-            self.is(stype, encounter.first) || encounter.second.is_some_and(|second| self.is(stype, second))
-        };
-        self.beside_avatar(stype) || !self.encounters.iter().any(takes_part)
+        self.beside_avatar(stype) || !self.marks[stype.index()].takes_part
     }
-
-    /// Shots, the avatar's or others', end on it, or it ends by them.
-    fn meets_shots(&self, stype: SpriteType) -> bool {
-        let shot = |other: SpriteType| {
-            let straight = matches!(self.facts[other.index()].motion, Motion::Straight(_));
-            let made = |maker: &Facts| maker.possible && maker.makes.contains(&other);
-            self.is_shot(other) || (straight && self.facts.iter().any(made))
-        };
-        let flies = |other: SpriteType| self.rules.types[other.index()].tree.iter().any(|&other| shot(other));
-        self.encounters.iter().any(|encounter| {
-            let Some(second) = encounter.second else { return false };
-            let ends = encounter.ends(Side::First) || encounter.ends(Side::Second);
-            ends && ((self.is(stype, encounter.first) && flies(second))
-                || (self.is(stype, second) && flies(encounter.first)))
-        })
-    }
-}
-
-/// Whether others end what must be protected, or make what must not appear, when they meet a type. Of two, the one that
-/// moves is to blame; of two that move, the second.
-pub(super) fn is_threat(
-    rules: &Rules,
-    encounters: &[Encounter],
-    facts: &[Facts],
-    aims: &Aims,
-    stype: SpriteType,
-) -> bool {
-    let is = |stype: SpriteType, written: SpriteType| rules.types[written.index()].in_tree(stype);
-    let moving = |written: SpriteType| {
-        rules.types[written.index()].tree.iter().any(|stype| facts[stype.index()].motion != Motion::Still)
-    };
-    let guarded = |written: SpriteType| aims.protect.iter().any(|&ward| is(ward, written));
-    encounters.iter().any(|encounter| {
-        let Some(second) = encounter.second else { return false };
-        let (one, two) = (is(stype, encounter.first), is(stype, second));
-        let spoils = encounter.does(|deed| match deed {
-            Deed::Become(to) | Deed::Make(to) => aims.prevent.contains(to),
-            _ => false,
-        });
-        let blamed = if two { moving(second) } else { one && !moving(second) };
-        (two && encounter.ends(Side::First) && guarded(encounter.first))
-            || (one && encounter.ends(Side::Second) && guarded(second))
-            || (spoils && blamed)
-    })
 }
 
 /// A touch of which the avatar notices nothing.

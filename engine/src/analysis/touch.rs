@@ -2,6 +2,7 @@
 
 use super::encounter::{Deed, Encounter, Provided, Side};
 use super::goal::Aims;
+use super::pairs::Pairs;
 use crate::game::{Rules, SpriteType};
 
 /// How badly contact ends for the avatar, from best to worst.
@@ -77,28 +78,20 @@ impl Touch {
     }
 }
 
-/// Which interactions concern an avatar type and another type. Cost: O(encounters).
-pub(super) fn touch(
-    rules: &Rules,
-    encounters: &[Encounter],
-    aims: &Aims,
-    avatar: SpriteType,
-    other: SpriteType,
-) -> Touch {
-    let is = |stype: SpriteType, written: SpriteType| rules.types[written.index()].in_tree(stype);
-    let mut touch = Touch::default();
-    for encounter in encounters {
-        let Some(second) = encounter.second else { continue };
-        if is(avatar, encounter.first) && is(other, second) {
-            add(rules, aims, avatar, other, encounter, Side::First, &mut touch);
-        } else if is(other, encounter.first) && is(avatar, second) {
-            add(rules, aims, avatar, other, encounter, Side::Second, &mut touch);
+/// What happens between an avatar type and each type, by type. Cost: O(interactions of the avatar × relatives).
+pub(super) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: SpriteType) -> Vec<Touch> {
+    let mut row = vec![Touch::default(); rules.types.len()];
+    pairs.with(avatar, |other, side, encounter| {
+        add(rules, aims, avatar, other, encounter, side, &mut row[other.index()]);
+    });
+    // Something else at the same place can keep the avatar from what a type does to it.
+    for from in pairs.shields(avatar) {
+        for other in &rules.types[from.index()].tree {
+            let touch = &mut row[other.index()];
+            touch.harm = if touch.harm == Harm::None { Harm::None } else { Harm::Conditional };
         }
     }
-    if touch.harm != Harm::None && is_shielded(rules, encounters, avatar, other) {
-        touch.harm = Harm::Conditional;
-    }
-    touch
+    row
 }
 
 /// Adds what an interaction does in which the avatar is on the side `own`.
@@ -143,7 +136,7 @@ fn add(
             Deed::Become(to) if own == Side::First => {
                 if is_avatar(*to) {
                     touch.becomes = Some(*to);
-                } else if aims.create.contains(to) {
+                } else if aims.create.binary_search(to).is_ok() {
                     touch.makes.push(*to);
                 } else {
                     hurt(touch, Harm::Kills);
@@ -152,9 +145,13 @@ fn add(
             Deed::Become(to) => touch.changes = Some(*to),
             Deed::BecomeAny(options) if own == Side::First => {
                 touch.becomes = options.iter().copied().find(|&to| is_avatar(to));
+                if options.iter().any(|&to| !is_avatar(to)) {
+                    touch.harm = touch.harm.max(Harm::Conditional);
+                }
             }
             Deed::BecomeAny(options) => touch.changes = options.first().copied(),
             Deed::KillAll(stype) if is_avatar(*stype) => hurt(touch, Harm::Kills),
+            Deed::BecomeAll(stype, to) if is_avatar(*stype) && !is_avatar(*to) => hurt(touch, Harm::Kills),
             Deed::KillAll(stype) | Deed::BecomeAll(stype, _) => touch.opens.push(*stype),
             Deed::Stop => touch.blocks |= own == Side::First,
             Deed::Undo(spare) => touch.blocks |= !spare.contains(&avatar),
@@ -200,13 +197,4 @@ fn stronger(one: Removal, two: Removal) -> Removal {
         Removal::Always => 3,
     };
     if rank(two) > rank(one) { two } else { one }
-}
-
-/// Whether something else at the same place can keep the avatar from what `other` does to it.
-fn is_shielded(rules: &Rules, encounters: &[Encounter], avatar: SpriteType, other: SpriteType) -> bool {
-    let is = |stype: SpriteType, written: SpriteType| rules.types[written.index()].in_tree(stype);
-    encounters.iter().any(|encounter| {
-        is(avatar, encounter.first)
-            && encounter.does(|deed| matches!(deed, Deed::Shield { from, .. } if is(other, *from)))
-    })
 }

@@ -2,6 +2,7 @@
 //!
 //! This is the only place that puts rules into words: prompts, cards and `arcade describe` all read it.
 
+mod kind;
 mod rules;
 mod sprites;
 mod words;
@@ -29,6 +30,9 @@ pub struct Guide {
     pub meetings: Vec<String>,
     /// What each level character places, by character.
     pub legend: Vec<String>,
+    /// What kind of game it is, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). Not among the sections that
+    /// are printed: it is a judgement on the rules rather than one of them, and a player may be meant to find out.
+    pub kind: Vec<String>,
 }
 
 impl Guide {
@@ -48,12 +52,13 @@ impl Guide {
             clockwork: rules::clockwork(analysis),
             meetings: rules::meetings(analysis),
             legend: sprites::legend(analysis),
+            kind: kind::kind(&analysis.taxonomy()),
         }
     }
 }
 
 impl fmt::Display for Guide {
-    /// All sections, each with a heading; empty ones are left out.
+    /// All sections of the rules, each with a heading; empty ones are left out.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sections = [
             ("How you play", &self.controls),
@@ -77,7 +82,7 @@ impl fmt::Display for Guide {
     }
 }
 
-/// The rules of a game in plain English: all sections of its [`Guide`].
+/// The rules of a game in plain English: all sections of its [`Guide`], its kind apart.
 pub fn describe(game: &Game) -> String {
     Guide::of(game).to_string()
 }

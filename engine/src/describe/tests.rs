@@ -94,6 +94,16 @@ What the level's characters stand for:
 ";
     let game = Game::from_source(ORCHARD).unwrap();
     assert_eq!(describe(&game), expected);
+    assert_eq!(
+        Guide::of(&game).kind,
+        [
+            "Genre: puzzle, shooter, collect and escape.",
+            "Real-time: things happen while you do nothing.",
+            "Space: you move on a grid.",
+            "Chance plays a part.",
+            "Everything that matters is shown.",
+        ]
+    );
 }
 
 #[test]

@@ -1,4 +1,10 @@
+mod goals;
+mod hostile;
+mod outlook;
+mod taxonomy;
+
 use super::*;
+use crate::state::State;
 use std::path::{Path, PathBuf};
 
 fn game(sprites: &str, mapping: &str, interactions: &str, terminations: &str) -> Game {
@@ -184,6 +190,32 @@ fn conditions_switches_and_portals() {
     assert_eq!(analysis.harm(named(&analysis, "rat")), Harm::Wounds);
     assert_eq!(analysis.harm(named(&analysis, "lava")), Harm::Conditional);
     assert_eq!(analysis.leads_to(named(&analysis, "hole")), Some(named(&analysis, "exit")));
+}
+
+/// What the reference's own analysis overlooks: `spec/05` A2.
+#[test]
+fn harm_has_many_ways() {
+    let analysis = Analysis::of(&game(
+        "moth > Passive\nember > Passive\nfrost > Passive\ncurse > Immovable\nfuse > Immovable\nveil > Immovable\n\
+         dust > Immovable\nnest > SpawnPoint stype=hatch\nhatch > SpawnPoint stype=ember\n\
+         form >\n  owl > MovingAvatar\n  stone > Immovable\nwraith > Passive",
+        "m > moth\ne > ember\nf > frost\nc > curse\nu > fuse\nv > veil\nd > dust\nn > nest\nA > owl",
+        "ember owl > killBoth\nowl frost > transformTo stype=dust\nowl curse > transformToRandomChild stype=form\n\
+         fuse owl > addTimer timer=3 ftype=killAll stype=owl\nveil owl > transformToAll stype=owl stypeTo=stone\n\
+         moth dust > transformIfCount stype=dust stypeCount=moth geq=3 estype=wraith",
+        "SpriteCounter stype=moth win=True",
+    ));
+    let harm = |name: &str| analysis.harm(named(&analysis, name));
+    assert_eq!(
+        (harm("ember"), harm("frost"), harm("fuse"), harm("veil")),
+        (Harm::Kills, Harm::Kills, Harm::Kills, Harm::Kills)
+    );
+    assert_eq!((harm("curse"), harm("moth")), (Harm::Conditional, Harm::None));
+    // Through two spawners.
+    assert!(
+        analysis.makes_harm(named(&analysis, "nest")) && analysis.facts(named(&analysis, "ember")).possible
+    );
+    assert!(analysis.facts(named(&analysis, "wraith")).possible, "what a count below the limit brings about");
 }
 
 #[test]

@@ -1,0 +1,209 @@
+//! Whether the rules can bring a termination about at all.
+
+use super::Analysis;
+use super::encounter::{Deed, Side, clockwork};
+use super::facts::Facts;
+use super::goal::{Condition, Goal};
+use super::prospect::Prospect;
+use super::requirement::MAX_GOALS;
+use crate::game::{Rules, SpriteType};
+use crate::limits::MAX_TICKS;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::terminations::Condition as Written;
+use serde::Serialize;
+
+/// Whether the rules can bring a termination about. Every answer but [`Attainable::InPlay`] is proved; that one means
+/// that nothing in the rules alone forbids it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Attainable {
+    /// It holds at the end of the first tick, whatever the level.
+    AtOnce,
+    /// Play may bring it about.
+    InPlay,
+    /// It holds from the start of a level or never: nothing changes what it counts in its direction.
+    FromStart,
+    /// It never holds, whatever the level.
+    Never,
+}
+
+/// How the numbers of sprites can change in play.
+struct Flux {
+    /// By type: such sprites can be there.
+    there: Vec<bool>,
+    /// By type: a sprite can go away, with nothing in its place.
+    goes: Vec<bool>,
+    /// By type: a sprite can appear, out of nothing.
+    appears: Vec<bool>,
+    /// Types that can turn into others.
+    turns: Vec<(SpriteType, SpriteType)>,
+}
+
+/// Fills in how each goal can be attained. Cost: that of a [`Prospect`], and O(types × types) for each of the first
+/// [`MAX_GOALS`]; the others are taken for [`Attainable::InPlay`].
+pub(super) fn judge(rules: &Rules, facts: &[Facts], prospect: &Prospect<'_>, goals: &mut [Goal]) {
+    let flux = Flux::of(rules, facts, prospect);
+    let stops =
+        rules.terminations.iter().any(|written| matches!(written.condition, Written::StopCounter { .. }));
+    for goal in goals.iter_mut().take(MAX_GOALS) {
+        let kinds = match rules.terminations[goal.line].condition {
+            Written::MultiSpriteCounterSubTypes { kinds, .. } => Some(kinds),
+            _ => None,
+        };
+        goal.attainable = match flux.judge(&goal.condition, kinds) {
+            // A StopCounter may forbid it for a while.
+            Attainable::AtOnce if stops && !matches!(goal.condition, Condition::Tick(_)) => {
+                Attainable::InPlay
+            }
+            judged => judged,
+        };
+    }
+}
+
+impl Flux {
+    fn of(rules: &Rules, facts: &[Facts], prospect: &Prospect<'_>) -> Flux {
+        let none = vec![false; facts.len()];
+        let there = prospect.there.clone();
+        let mut flux = Flux { there, goes: none.clone(), appears: none, turns: Vec::new() };
+        for at in (0..facts.len()).filter(|&at| prospect.there[at]) {
+            flux.goes[at] = is_mortal(rules, SpriteType(at as u16));
+            for (kind, made) in facts[at].makes.iter().enumerate() {
+                flux.appears[made.index()] |= prospect.can_make(at, kind);
+            }
+        }
+        let mut turns = vec![false; facts.len() * facts.len()];
+        for (encounter, _) in prospect.encounters().iter().zip(&prospect.live).filter(|(_, live)| **live) {
+            let sides = [Some(encounter.first), encounter.second];
+            let sides = sides.map(|written| written.map_or(&[][..], |w| &*rules.types[w.index()].tree));
+            flux.add(rules, sides, &encounter.deeds, &mut turns);
+        }
+        for ((target, deeds), _) in clockwork(rules).iter().zip(&prospect.timed).filter(|(_, live)| **live) {
+            let tree = target.map_or(&[][..], |target| &*rules.types[target.index()].tree);
+            flux.add(rules, [tree, &[]], deeds, &mut turns);
+        }
+        let types = facts.len();
+        let pairs = (0..turns.len()).filter(|&at| turns[at]);
+        let pair = |at: usize| (SpriteType((at / types) as u16), SpriteType((at % types) as u16));
+        flux.turns = pairs.map(pair).filter(|(from, _)| flux.there[from.index()]).collect();
+        flux
+    }
+
+    /// Adds what deeds do to the sprites on both sides.
+    fn add(&mut self, rules: &Rules, sides: [&[SpriteType]; 2], deeds: &[Deed], turns: &mut [bool]) {
+        let types = self.there.len();
+        let mut turn = |from: SpriteType, to: SpriteType| turns[from.index() * types + to.index()] = true;
+        for deed in deeds {
+            let gone: &[SpriteType] = match deed {
+                Deed::Kill(Side::Second) => sides[1],
+                Deed::KillAll(stype) => std::slice::from_ref(stype),
+                // Where there is no exit, the sprite dies.
+                Deed::Kill(Side::First) | Deed::Teleport => sides[0],
+                Deed::Health { of, dies_at, .. } if *dies_at > i32::MIN => {
+                    let other = of.map_or(&[][..], |of| &*rules.types[of.index()].tree);
+                    other.iter().for_each(|stype| self.goes[stype.index()] = true);
+                    sides[0]
+                }
+                Deed::Become(to) => {
+                    sides[0].iter().for_each(|&from| turn(from, *to));
+                    &[]
+                }
+                Deed::BecomeAny(options) => {
+                    for &from in sides[0] {
+                        options.iter().for_each(|&to| turn(from, to));
+                    }
+                    &[]
+                }
+                Deed::BecomeAll(from, to) => {
+                    turn(*from, *to);
+                    &[]
+                }
+                Deed::Make(stype) => {
+                    self.appears[stype.index()] = true;
+                    &[]
+                }
+                Deed::Clone => {
+                    sides[0].iter().for_each(|stype| self.appears[stype.index()] = true);
+                    &[]
+                }
+                _ => &[],
+            };
+            gone.iter().for_each(|stype| self.goes[stype.index()] = true);
+        }
+    }
+
+    /// `kinds`: the number of kinds that must be alive, where the termination asks for one.
+    fn judge(&self, condition: &Condition, kinds: Option<i32>) -> Attainable {
+        let mut weights = vec![0u32; self.there.len()];
+        for stype in condition.types().iter().filter(|stype| self.there[stype.index()]) {
+            weights[stype.index()] += 1;
+        }
+        let counted = || (0..weights.len()).filter(|&at| weights[at] > 0);
+        let turns = || self.turns.iter().map(|(from, to)| (weights[from.index()], weights[to.index()]));
+        let empty = counted().next().is_none();
+        let falls = counted().any(|at| self.goes[at]) || turns().any(|(from, to)| from > to);
+        let rises = counted().any(|at| self.appears[at]) || turns().any(|(from, to)| from < to);
+        let when = |possible: bool| if possible { Attainable::InPlay } else { Attainable::FromStart };
+        match (condition, kinds) {
+            (Condition::Tick(limit), _) if *limit <= 0 => Attainable::AtOnce,
+            (Condition::Tick(limit), _) if *limit > MAX_TICKS => Attainable::Never,
+            (Condition::Tick(_), _) => Attainable::InPlay,
+            (Condition::AtMost(_, limit) | Condition::Exactly(_, limit), _) if *limit < 0 => {
+                Attainable::Never
+            }
+            (Condition::AtLeast(_, limit), _) if *limit <= 0 => Attainable::AtOnce,
+            (Condition::AtLeast(..), _) if empty => Attainable::Never,
+            (Condition::Exactly(_, limit), Some(kinds)) if empty => {
+                if *limit == 0 && kinds == 0 {
+                    Attainable::AtOnce
+                } else {
+                    Attainable::Never
+                }
+            }
+            (Condition::Exactly(_, limit), None) if empty && *limit > 0 => Attainable::Never,
+            (Condition::AtMost(..) | Condition::Exactly(..), _) if empty => Attainable::AtOnce,
+            (Condition::AtMost(..), _) => when(falls),
+            (Condition::AtLeast(..), _) => when(rises),
+            (Condition::Exactly(_, 0), None) => when(falls),
+            // One kind may turn into another while their number stays.
+            (Condition::Exactly(..), Some(_)) => {
+                when(falls || rises || turns().any(|(from, to)| from > 0 || to > 0))
+            }
+            (Condition::Exactly(..), None) => when(falls || rises),
+        }
+    }
+}
+
+/// Whether sprites of the type go away by themselves.
+pub(super) fn is_mortal(rules: &Rules, stype: SpriteType) -> bool {
+    let info = &rules.types[stype.index()];
+    let is_a = |class: SpriteClass| info.class.is_some_and(|own| own.is_a(class));
+    let spawner = is_a(SpriteClass::SpawnPoint) || is_a(SpriteClass::SpawnPointMultiSprite);
+    is_a(SpriteClass::Flicker) || info.traits.time_to_live >= 0 || (spawner && info.traits.total > 0)
+}
+
+impl Analysis {
+    /// Whether some level can be won by playing it. False only if it is proved that none can: every termination that wins
+    /// never holds, or holds only where a level starts so, or comes after one that ends every game in its first tick.
+    pub fn can_win(&self) -> bool {
+        self.can_end(true)
+    }
+
+    /// Whether some level can be lost by playing it, the reference's own limit of ticks apart. False only if it is proved
+    /// that none can, as for [`Analysis::can_win`].
+    pub fn can_lose(&self) -> bool {
+        self.can_end(false)
+    }
+
+    fn can_end(&self, win: bool) -> bool {
+        for goal in &self.goals {
+            let holds = matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce);
+            if holds && goal.win == win {
+                return true;
+            }
+            if goal.attainable == Attainable::AtOnce {
+                return false;
+            }
+        }
+        false
+    }
+}

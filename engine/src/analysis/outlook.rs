@@ -1,0 +1,187 @@
+//! Questions about what lies ahead, of a game or of a state: can chance decide anything, is everything that matters
+//! shown.
+
+use super::Analysis;
+use super::encounter::{Deed, Encounter};
+use super::facts::Facts;
+use super::prospect::{Prospect, Start};
+use crate::game::{Rules, SpriteType};
+use crate::geometry::Direction;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::Effect;
+use crate::state::State;
+
+impl Analysis {
+    /// Whether chance can decide anything in some level. Draws whose outcome is certain do not count, so this can be false
+    /// where [`Game::is_deterministic`](crate::Game::is_deterministic) is, too; if this is false, the same actions always
+    /// give the same sprites, scores and outcomes.
+    pub fn chance_decides(&self) -> bool {
+        self.chance_decides
+    }
+
+    /// Whether chance plays no part from here on: with what is there, and all that it can bring about, the same actions
+    /// give the same sprites, scores and outcomes, whatever the seed. True only if that is certain. Cost: O(sprites), and
+    /// that of the rules: O(rounds × interactions).
+    pub fn is_deterministic_from(&self, state: &State) -> bool {
+        state.is_over() || !draws(&self.game.0, &self.prospect(state), Some(state))
+    }
+
+    /// The types that the player does not see, of those that can make a difference in some level: they take part in
+    /// interactions, are counted by terminations or interactions, make others, or are led to or followed by others.
+    pub fn unseen(&self) -> &[SpriteType] {
+        &self.unseen
+    }
+
+    /// Whether the player sees every sprite that can make a difference, in any level: see [`Analysis::unseen`].
+    pub fn is_fully_observable(&self) -> bool {
+        self.unseen.is_empty()
+    }
+
+    /// Whether the player sees every sprite that can make a difference from here on. Cost: as
+    /// [`Analysis::is_deterministic_from`].
+    pub fn is_fully_observable_from(&self, state: &State) -> bool {
+        state.is_over() || unseen(&self.game.0, &self.facts, &self.prospect(state), &self.goals).is_empty()
+    }
+
+    /// What can still come from a state on.
+    fn prospect(&self, state: &State) -> Prospect<'_> {
+        let rules = &*self.game.0;
+        let there: Vec<SpriteType> =
+            self.game.sprite_types().filter(|&stype| state.group(stype).count > 0).collect();
+        // Spawn points may have been given another type to make.
+        let spawning = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
+        let spawners = there.iter().filter(|stype| rules.types[stype.index()].class.is_some_and(spawning));
+        let making = spawners.flat_map(|&stype| state.slots(stype)).map(|slot| state.sprite(slot).spawns);
+        let making = making.filter(|&stype| stype != SpriteType::NONE).collect();
+        let mut held = vec![false; rules.types.len()];
+        for holding in state.held.iter().filter(|holding| holding.amount > 0) {
+            held[holding.resource.index()] = true;
+        }
+        let planned = state.timers.iter().map(|timer| timer.timed).collect();
+        let start = Start { there, making, planned, held: Some(held) };
+        Prospect::of(rules, &self.facts, &self.encounters, start)
+    }
+}
+
+/// Whether a probability leaves the outcome open.
+fn is_open(prob: f64) -> bool {
+    prob > 0.0 && prob < 1.0
+}
+
+/// Whether anything that can happen can draw from the chance with an open outcome; without a state, in any level.
+pub(super) fn draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>) -> bool {
+    let types = (0..rules.types.len()).map(|at| SpriteType(at as u16));
+    let mut types = types.filter(|stype| prospect.there[stype.index()]);
+    let live = prospect.encounters().iter().zip(&prospect.live).filter(|(_, live)| **live);
+    let mut met = live.map(|(encounter, _)| (encounter.second, encounter.effect));
+    let timed = rules.timed.iter().zip(&prospect.timed).filter(|(_, live)| **live);
+    let mut timed = timed.map(|(timed, _)| (None, timed.effect));
+    let mut open = |(second, effect): (Option<SpriteType>, u16)| {
+        effect_draws(rules, prospect, state, &rules.effects[usize::from(effect)].effect, second)
+    };
+    types.any(|stype| update_draws(rules, prospect, state, stype)) || met.any(&mut open) || timed.any(open)
+}
+
+/// Whether sprites of the type draw, with an open outcome, in their own updates.
+fn update_draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>, stype: SpriteType) -> bool {
+    use SpriteClass as C;
+    let info = &rules.types[stype.index()];
+    let traits = &info.traits;
+    // Only leaves of the SpriteSet are updated.
+    let (Some(class), Some(_)) = (info.class, info.order) else { return false };
+    match class {
+        C::RandomMissile => {
+            let unset = |state: &State| {
+                state.slots(stype).any(|slot| state.sprite(slot).orientation == Direction::NIL)
+            };
+            let new = traits.orientation == Direction::NIL && prospect.made[stype.index()];
+            new || state.map_or(traits.orientation == Direction::NIL, unset)
+        }
+        C::Spreader => is_open(traits.spread_probability),
+        C::WalkerJumper => is_open(traits.probability),
+        C::RandomBomber => true,
+        C::BomberRandomMissile => {
+            let first = traits.stypes.first();
+            is_open(traits.prob) || traits.stypes.iter().any(|stype| Some(stype) != first)
+        }
+        class if class.is_a(C::SpawnPoint) || class == C::SpawnPointMultiSprite => is_open(traits.prob),
+        class => class.is_a(C::RandomNPC) || class.is_a(C::Walker),
+    }
+}
+
+/// Whether an effect draws with an open outcome.
+fn effect_draws(
+    rules: &Rules,
+    prospect: &Prospect<'_>,
+    state: Option<&State>,
+    effect: &Effect,
+    second: Option<SpriteType>,
+) -> bool {
+    match effect {
+        Effect::FlipDirection => true,
+        Effect::AttractGaze { prob, .. }
+        | Effect::Spawn { prob, .. }
+        | Effect::SpawnIf { prob, .. }
+        | Effect::SpawnBeside { prob, .. }
+        | Effect::SpawnBehind { prob, .. } => is_open(*prob),
+        Effect::TransformToRandomChild { options, .. } => options.len() > 1,
+        Effect::TeleportToExit => {
+            // Of one exit there is no choice.
+            let single = |exit: SpriteType| {
+                let few = state.is_some_and(|state| state.group(exit).count <= 1);
+                few && !prospect.made[exit.index()]
+            };
+            let portals = second.map_or(&[][..], |second| &*rules.types[second.index()].tree);
+            let portals = portals.iter().filter(|portal| prospect.there[portal.index()]);
+            portals.filter_map(|portal| rules.types[portal.index()].leads_to()).any(|exit| !single(exit))
+        }
+        _ => false,
+    }
+}
+
+/// The types that the player does not see, of those that can be there and make a difference.
+pub(super) fn unseen(
+    rules: &Rules,
+    facts: &[Facts],
+    prospect: &Prospect<'_>,
+    goals: &[super::Goal],
+) -> Vec<SpriteType> {
+    let hidden = |at: &usize| prospect.there[*at] && facts[*at].hidden;
+    let hidden: Vec<usize> = (0..facts.len()).filter(hidden).collect();
+    if hidden.is_empty() {
+        return Vec::new();
+    }
+    let mut matters: Vec<bool> = facts.iter().map(|fact| !fact.makes.is_empty()).collect();
+    let mut mark = |stypes: &[SpriteType]| {
+        stypes.iter().for_each(|stype| matters[stype.index()] = true);
+    };
+    goals.iter().for_each(|goal| mark(goal.condition.types()));
+    let family = |stype: SpriteType| &*rules.types[stype.index()].tree;
+    for (info, _) in rules.types.iter().zip(&prospect.there).filter(|(_, there)| **there) {
+        // What it chases, flees from, or leads to.
+        info.traits
+            .stypes
+            .iter()
+            .filter(|&&stype| stype != SpriteType::NONE)
+            .for_each(|&stype| mark(family(stype)));
+    }
+    let live = prospect.encounters().iter().zip(&prospect.live).filter(|(_, live)| **live);
+    for (encounter, _) in live {
+        let Encounter { first, second, effect, .. } = encounter;
+        mark(family(*first));
+        second.iter().for_each(|second| mark(family(*second)));
+        match &rules.effects[usize::from(*effect)].effect {
+            Effect::TransformIfCount(rule) => mark(family(rule.counted)),
+            Effect::SpawnIfCounterSubTypes { counted, .. } => mark(family(*counted)),
+            _ => {}
+        }
+        for deed in &encounter.deeds {
+            if let Deed::BecomeAll(from, _) = deed {
+                mark(&[*from]);
+            }
+        }
+    }
+    let timed = rules.timed.iter().zip(&prospect.timed).filter(|(_, live)| **live);
+    timed.filter_map(|(timed, _)| timed.target).for_each(|target| mark(family(target)));
+    hidden.into_iter().filter(|&at| matters[at]).map(|at| SpriteType(at as u16)).collect()
+}

@@ -1,0 +1,209 @@
+//! What can still come: a fixed point over what is there, what that makes, and what happens when it meets.
+
+use super::encounter::{Deed, Encounter, Provided, Side, clockwork};
+use super::facts::Facts;
+use crate::game::{Rules, SpriteType};
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::Effect;
+
+/// What can be there, be held and happen, from some start on; too much rather than too little: any two types that can
+/// be there at all can meet.
+#[derive(Clone, Debug)]
+pub(super) struct Prospect<'a> {
+    rules: &'a Rules,
+    facts: &'a [Facts],
+    encounters: &'a [Encounter],
+    /// By type: such sprites can be there.
+    pub(super) there: Vec<bool>,
+    /// By type: such sprites can appear from now on.
+    pub(super) made: Vec<bool>,
+    /// By type: some sprite can hold one as a resource. None: whatever is asked for can be held.
+    held: Option<Vec<bool>>,
+    /// By interaction: it can happen.
+    pub(super) live: Vec<bool>,
+    /// By number of the timed effect: it is planned, or can be.
+    pub(super) timed: Vec<bool>,
+    /// By type: it or a relative can be there, so that rules on it apply.
+    alive: Vec<bool>,
+}
+
+/// What a prospect starts from.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Start {
+    /// Types of sprites that are there.
+    pub(super) there: Vec<SpriteType>,
+    /// Types that are made by what is there, besides what their types make.
+    pub(super) making: Vec<SpriteType>,
+    /// Timed effects that are planned.
+    pub(super) planned: Vec<u16>,
+    /// By type: somebody holds one as a resource. None: whatever is asked for can be held.
+    pub(super) held: Option<Vec<bool>>,
+}
+
+impl Start {
+    /// Everything that levels can place, at the start of an episode, with empty hands.
+    pub(super) fn of_any_level(rules: &Rules) -> Start {
+        let there = rules.mapping.iter().flatten().copied().collect();
+        let held = Some(vec![false; rules.types.len()]);
+        Start { there, making: Vec::new(), planned: Start::planned(rules), held }
+    }
+
+    /// The timed effects that are planned when an episode starts.
+    pub(super) fn planned(rules: &Rules) -> Vec<u16> {
+        let timed = (0u16..).zip(&rules.timed);
+        timed.filter(|(_, timed)| timed.first_due.is_some()).map(|(number, _)| number).collect()
+    }
+}
+
+impl<'a> Prospect<'a> {
+    /// Cost: O(rounds × interactions), with at most one round for each type that comes.
+    pub(super) fn of(
+        rules: &'a Rules,
+        facts: &'a [Facts],
+        encounters: &'a [Encounter],
+        Start { there, making, planned, held }: Start,
+    ) -> Prospect<'a> {
+        let none = vec![false; rules.types.len()];
+        let mut prospect = Prospect {
+            rules,
+            facts,
+            encounters,
+            there: none.clone(),
+            made: none.clone(),
+            held,
+            live: vec![false; encounters.len()],
+            timed: vec![false; rules.timed.len()],
+            alive: none,
+        };
+        there.into_iter().for_each(|stype| prospect.add(stype));
+        for stype in making {
+            prospect.make(stype);
+        }
+        planned.into_iter().for_each(|timed| prospect.timed[usize::from(timed)] = true);
+        let clockwork = clockwork(rules);
+        while prospect.round(&clockwork) {}
+        prospect
+    }
+
+    /// Whether the rules written for a type can apply to some sprite.
+    pub(super) fn is_alive(&self, written: SpriteType) -> bool {
+        self.alive[written.index()]
+    }
+
+    fn add(&mut self, stype: SpriteType) {
+        let info = &self.rules.types[stype.index()];
+        if info.class.is_some() && !std::mem::replace(&mut self.there[stype.index()], true) {
+            info.tree.iter().for_each(|relative| self.alive[relative.index()] = true);
+        }
+    }
+
+    fn make(&mut self, stype: SpriteType) -> bool {
+        let new = self.rules.types[stype.index()].class.is_some() && !self.made[stype.index()];
+        if new {
+            self.made[stype.index()] = true;
+            self.add(stype);
+        }
+        new
+    }
+
+    /// Goes through everything once; whether that brought something new.
+    fn round(&mut self, clockwork: &[(Option<SpriteType>, smallvec::SmallVec<[Deed; 2]>)]) -> bool {
+        let mut new = false;
+        let facts = self.facts;
+        for (at, fact) in facts.iter().enumerate().filter(|(at, _)| self.there[*at]).collect::<Vec<_>>() {
+            for (kind, &stype) in fact.makes.iter().enumerate() {
+                new |= self.can_make(at, kind) && self.make(stype);
+            }
+        }
+        for (at, encounter) in self.encounters.iter().enumerate() {
+            if !self.live[at] {
+                let meets = encounter.second.is_none_or(|second| self.is_alive(second));
+                if !meets || !self.is_alive(encounter.first) || !self.can_happen(encounter.provided) {
+                    continue;
+                }
+                self.live[at] = true;
+                new = true;
+            }
+            new |= self.happen(Some(encounter.first), &encounter.deeds);
+            if let Effect::AddTimer { timed } = self.rules.effects[usize::from(encounter.effect)].effect {
+                new |= !std::mem::replace(&mut self.timed[usize::from(timed)], true);
+            }
+        }
+        for (timed, (target, deeds)) in clockwork.iter().enumerate() {
+            if self.timed[timed] && target.is_none_or(|target| self.is_alive(target)) {
+                new |= self.happen(*target, deeds);
+                let effect = self.rules.timed[timed].effect;
+                if let Effect::AddTimer { timed } = self.rules.effects[usize::from(effect)].effect {
+                    new |= !std::mem::replace(&mut self.timed[usize::from(timed)], true);
+                }
+            }
+        }
+        new
+    }
+
+    fn happen(&mut self, first: Option<SpriteType>, deeds: &[Deed]) -> bool {
+        let mut new = false;
+        for deed in deeds {
+            match deed {
+                Deed::Become(to) | Deed::Make(to) => new |= self.make(*to),
+                Deed::BecomeAll(from, to) if self.there[from.index()] => new |= self.make(*to),
+                Deed::BecomeAny(options) => options.iter().for_each(|to| new |= self.make(*to)),
+                Deed::Clone | Deed::Collect => {
+                    let rules = self.rules;
+                    let tree = first.map_or(&[][..], |first| &rules.types[first.index()].tree);
+                    for &stype in tree.iter().filter(|stype| self.there[stype.index()]).collect::<Vec<_>>() {
+                        new |= match deed {
+                            Deed::Clone => self.make(stype),
+                            _ => {
+                                let traits = &rules.types[stype.index()].traits;
+                                traits.is_resource && traits.value > 0 && self.hold(stype, 1)
+                            }
+                        };
+                    }
+                }
+                Deed::Change { resource, by, .. } if *by > 0 => new |= self.hold(*resource, *by),
+                _ => {}
+            }
+        }
+        new
+    }
+
+    /// Somebody comes to hold so many of a resource, if its limit allows.
+    fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
+        let fits = amount <= self.rules.types[resource.index()].resource_limit;
+        let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };
+        !std::mem::replace(&mut held[resource.index()], true)
+    }
+
+    /// Whether what an interaction asks for can ever be so.
+    fn can_happen(&self, provided: Provided) -> bool {
+        match (&self.held, provided) {
+            (Some(held), Provided::Holds(_, resource, amount)) => {
+                let within = amount <= self.rules.types[resource.index()].resource_limit;
+                amount <= 0 || (held[resource.index()] && within)
+            }
+            (Some(_), Provided::Chance(prob)) => prob > 0.0,
+            _ => true,
+        }
+    }
+
+    /// Whether a maker can make sprites of its `kind`-th type: avatars need ammunition for their shots.
+    pub(super) fn can_make(&self, maker: usize, kind: usize) -> bool {
+        let info = &self.rules.types[maker];
+        let Some(held) = &self.held else { return true };
+        if info.class.is_some_and(|class| class.is_avatar()) {
+            return info.traits.ammo.get(kind).is_none_or(|ammo| held[ammo.index()]);
+        }
+        info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
+    }
+
+    /// The interactions that [`Prospect::live`] is about.
+    pub(super) fn encounters(&self) -> &'a [Encounter] {
+        self.encounters
+    }
+
+    /// Whether some sprite can ever hold so many of a resource.
+    pub(super) fn can_hold(&self, resource: SpriteType, amount: i32) -> bool {
+        self.can_happen(Provided::Holds(Side::First, resource, amount))
+    }
+}

@@ -1,0 +1,296 @@
+//! What kind of game it is: time, space and genre, by rules that look at nothing but the rules of the game.
+//!
+//! Every term has one definition, below, and no name counts: a game whose sprites are renamed has the same taxonomy.
+
+use super::encounter::{Deed, Encounter};
+use super::facts::{Motion, Steering};
+use super::lock::{Key, Sink};
+use super::role::Role;
+use super::touch::Touch;
+use super::ways::{Means, Ways};
+use super::{Analysis, attain};
+use crate::game::SpriteType;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::{Effect, SpeedChange};
+use serde::{Deserialize, Serialize};
+
+/// How many of one resource an exit must ask for, for the game to be about collecting rather than about a key.
+const MANY: i32 = 3;
+
+/// What kind of game it is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Taxonomy {
+    /// Whether the game waits for the player.
+    pub time: Time,
+    /// How the player moves in space: the widest over all avatar types that can occur, in the order of the variants.
+    pub spatiality: Spatiality,
+    /// What it is about, the main thing first; empty if none of the genres fits.
+    pub genres: Vec<Genre>,
+    /// Whether chance can decide anything: see [`Analysis::chance_decides`].
+    pub chance: bool,
+    /// Whether sprites that the player does not see can make a difference: see [`Analysis::unseen`].
+    pub hidden: bool,
+}
+
+/// Whether the game waits for the player.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Time {
+    /// Nothing moves, appears or goes away unless the player acts, apart from what an action sets off for a moment (a
+    /// shot, a puff of smoke), what takes part in nothing, and a limit of ticks.
+    TurnBased,
+    /// Something does.
+    RealTime,
+}
+
+/// How the player moves in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Spatiality {
+    /// The avatar stays where it is.
+    Fixed,
+    /// The avatar moves along one axis only, in steps or drifting.
+    Line,
+    /// The avatar moves along both axes, up, left, down and right, in steps: whole cells, or parts of them.
+    Grid,
+    /// The avatar has a velocity that the keys change, and nothing pulls it down.
+    Continuous,
+    /// The avatar has a velocity that the keys change, and it falls.
+    Gravity,
+}
+
+/// What a game is about. Where several fit, they are named in this order; but shooting that is not what wins, where
+/// something else than waiting does, comes last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Genre {
+    /// The avatar falls, walks and jumps.
+    Platformer,
+    /// The player and others make for the same goal: its touch wins or loses, depending on who comes first.
+    Race,
+    /// Pushing things to where they belong wins or opens the way; or winning takes more than waiting, on a grid, with an
+    /// avatar that can stop, where chance plays no part and nothing hostile moves.
+    Puzzle,
+    /// The avatar, on a grid, has to mind traffic that it cannot shoot: what moves straight ahead without end, comes in
+    /// again at the opposite edge, and harms.
+    Crossing,
+    /// The avatar's shots end what moves and must go for a win; or they fly, and end what is hostile.
+    Shooter,
+    /// What moves by itself must be caught by touch.
+    Hunt,
+    /// Things that lie about must be taken: all of a type, or many of a resource that an exit asks for.
+    Collect,
+    /// Something is locked, and its key has to be got.
+    Adventure,
+    /// Touching an exit wins: a door, something that is dangerous to touch, or the one kind of thing that must be touched
+    /// where others are there for mere gain.
+    Escape,
+    /// Others must be brought together with something: not the player's touch, shots or pushes win, but what others do.
+    Guide,
+    /// Something other than the avatar must be kept from harm.
+    Defence,
+    /// Living up to some tick wins.
+    Survive,
+}
+
+impl Time {
+    /// As in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            Time::TurnBased => "turn-based",
+            Time::RealTime => "real-time",
+        }
+    }
+}
+
+impl Spatiality {
+    /// As in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            Spatiality::Fixed => "fixed",
+            Spatiality::Line => "line",
+            Spatiality::Grid => "grid",
+            Spatiality::Continuous => "continuous",
+            Spatiality::Gravity => "gravity",
+        }
+    }
+}
+
+impl Genre {
+    /// As in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            Genre::Platformer => "platformer",
+            Genre::Race => "race",
+            Genre::Puzzle => "puzzle",
+            Genre::Crossing => "crossing",
+            Genre::Shooter => "shooter",
+            Genre::Hunt => "hunt",
+            Genre::Collect => "collect",
+            Genre::Adventure => "adventure",
+            Genre::Escape => "escape",
+            Genre::Guide => "guide",
+            Genre::Defence => "defence",
+            Genre::Survive => "survive",
+        }
+    }
+}
+
+impl Analysis {
+    /// What kind of game it is. Cost: O(types × avatars + interactions).
+    pub fn taxonomy(&self) -> Taxonomy {
+        Taxonomy {
+            time: self.time(),
+            spatiality: self.spatiality(),
+            genres: self.genres(),
+            chance: self.chance_decides,
+            hidden: !self.unseen.is_empty(),
+        }
+    }
+
+    fn time(&self) -> Time {
+        let rules = &*self.game.0;
+        let drifts = |stype: SpriteType| rules.types[stype.index()].traits.continuous;
+        let drifting = self.avatars.iter().any(|avatar| drifts(avatar.stype));
+        let fades = |stype: SpriteType| {
+            let fact = self.facts(stype);
+            let placed = fact.possible && !fact.symbols.is_empty();
+            placed && attain::is_mortal(rules, stype) && self.takes_part(stype)
+        };
+        // What stands still until an interaction gives it a speed.
+        let sets_off = |encounter: &Encounter| {
+            use SpeedChange as How;
+            let effect = &rules.effects[usize::from(encounter.effect)].effect;
+            let Effect::ChangeSpeed { stype, value, how: How::Set | How::Increase } = effect else {
+                return false;
+            };
+            let starts = |stype: &SpriteType| {
+                let info = &rules.types[stype.index()];
+                let avatar = info.class.is_none_or(|class| class.is_avatar());
+                !avatar && info.traits.is_oriented && !info.traits.is_static
+            };
+            *value > 0.0 && rules.types[stype.index()].tree.iter().any(starts)
+        };
+        let idle = self.is_turn_based() && !drifting && !self.encounters.iter().any(sets_off);
+        if idle && !self.game.sprite_types().any(fades) { Time::TurnBased } else { Time::RealTime }
+    }
+
+    /// Whether some interaction or termination is about the type.
+    fn takes_part(&self, stype: SpriteType) -> bool {
+        let meets = self.encounters.iter().any(|encounter| {
+            self.applies(encounter.first, stype)
+                || encounter.second.is_some_and(|second| self.applies(second, stype))
+        });
+        meets || self.goals.iter().any(|goal| goal.condition.types().contains(&stype))
+    }
+
+    fn spatiality(&self) -> Spatiality {
+        let of = |avatar: &super::Avatar| {
+            let traits = &self.game.0.types[avatar.stype.index()].traits;
+            let falls = traits.gravity > 0.0 || avatar.steering == Steering::Jumping;
+            match avatar.steering {
+                _ if traits.continuous && falls => Spatiality::Gravity,
+                Steering::Fixed => Spatiality::Fixed,
+                Steering::Horizontal | Steering::Vertical => Spatiality::Line,
+                _ if traits.continuous => Spatiality::Continuous,
+                _ if traits.stationary => Spatiality::Fixed,
+                _ => Spatiality::Grid,
+            }
+        };
+        self.avatars.iter().map(of).max().unwrap_or(Spatiality::Fixed)
+    }
+
+    fn genres(&self) -> Vec<Genre> {
+        use Genre as G;
+        let ways = Ways::of(self);
+        let means = ways.means();
+        let has = |wanted: Means| means.contains(&wanted);
+        let waits = means.iter().all(|&means| means == Means::Wait);
+        let exit = has(Means::Exit);
+        let calm = !self.chance_decides && self.of_role(Role::Enemy).next().is_none();
+        let on_grid = self.spatiality() == Spatiality::Grid;
+        let stops = self.start_avatar().is_some_and(|avatar| avatar.steering == Steering::FourWay);
+        let guarded = |stype: SpriteType| {
+            let protected = self.aims.protect.binary_search(&stype).is_ok() && self.facts(stype).possible;
+            protected && self.role(stype) == Role::Ward
+        };
+        let amounts = self.locks.iter().map(|lock| match lock.key {
+            Key::Resource { amount, .. } => amount,
+            Key::Avatar(_) | Key::Switch(..) => 1,
+        });
+        let amounts: Vec<i32> = amounts.collect();
+        let shoots = ways.shoots();
+        let fits = [
+            (G::Platformer, self.has_class(SpriteClass::PlatformerAvatar)),
+            (G::Race, self.is_race()),
+            (G::Puzzle, has(Means::Push) || self.bridges() || (calm && on_grid && stops && !waits)),
+            (G::Crossing, on_grid && self.has_traffic(&ways)),
+            (G::Shooter, has(Means::Shoot) || (shoots && waits)),
+            (G::Hunt, has(Means::Catch)),
+            (G::Collect, has(Means::Take) || (exit && amounts.iter().any(|&amount| amount >= MANY))),
+            (G::Adventure, amounts.iter().any(|&amount| amount < MANY)),
+            (G::Escape, exit),
+            (G::Guide, has(Means::Others)),
+            (G::Defence, self.game.sprite_types().any(guarded)),
+            (G::Survive, has(Means::Wait)),
+            (G::Shooter, shoots && !waits && !has(Means::Shoot)),
+        ];
+        fits.into_iter().filter(|(_, fits)| *fits).map(|(genre, _)| genre).collect()
+    }
+
+    fn has_class(&self, class: SpriteClass) -> bool {
+        let of = |avatar: &super::Avatar| self.game.class(avatar.stype);
+        self.avatars.iter().filter_map(of).any(|own| own.is_a(class))
+    }
+
+    /// Whether something that is pushed opens a way: it fills what blocks the avatar or harms it.
+    fn bridges(&self) -> bool {
+        let bars = |stype: SpriteType| {
+            let blocks = self.touches.iter().any(|row| row[stype.index()].blocks);
+            blocks || self.harm(stype) != super::Harm::None
+        };
+        let fills = |sink: &Sink| {
+            let lies = self.facts(sink.partner).motion == Motion::Still;
+            sink.fills && lies && bars(sink.partner)
+        };
+        self.pushables.iter().any(|pushable| pushable.sinks.iter().any(fills))
+    }
+
+    /// Whether what harms, and is not shot down, moves straight ahead and comes in again at the opposite edge.
+    fn has_traffic(&self, ways: &Ways<'_>) -> bool {
+        self.of_role(Role::Enemy).any(|stype| {
+            let wraps = self.at_edge(stype).any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
+            let straight = matches!(self.facts(stype).motion, Motion::Straight(_));
+            wraps && straight && !ways.is_shot_down(stype)
+        })
+    }
+
+    /// Whether it decides who comes to something first: what moves by itself loses by its touch, and the avatar wins by
+    /// its own; or what such a touch brings about wins or loses.
+    fn is_race(&self) -> bool {
+        let (wins, losses) = (&self.aims.create, &self.aims.prevent);
+        let runs = |stype: &SpriteType| {
+            let fact = self.facts(*stype);
+            fact.possible && !matches!(fact.motion, Motion::Still | Motion::Steered)
+        };
+        let brought = |encounter: &Encounter, list: &[SpriteType]| {
+            encounter.does(|deed| match deed {
+                Deed::Become(to) | Deed::Make(to) => list.binary_search(to).is_ok(),
+                _ => false,
+            })
+        };
+        let finish = self.encounters.iter().filter(|encounter| {
+            let tree = &self.game.0.types[encounter.first.index()].tree;
+            tree.iter().any(runs) && brought(encounter, losses)
+        });
+        finish.filter_map(|encounter| Some((encounter, encounter.second?))).any(|(encounter, goal)| {
+            let thing = self.facts(goal).motion != Motion::Steered;
+            let won = |row: &Vec<Touch>| {
+                let touch = &row[goal.index()];
+                touch.makes.iter().chain(&touch.changes).any(|made| wins.binary_search(made).is_ok())
+            };
+            thing && (brought(encounter, wins) || self.touches.iter().any(won))
+        })
+    }
+}

@@ -1,0 +1,76 @@
+//! Chance and hidden things, of a game and of a state.
+
+use super::*;
+
+fn state(analysis: &Analysis, level: &str) -> State {
+    let game = analysis.game();
+    game.start(&game.level(level).unwrap(), crate::Seed::from_text("outlook"))
+}
+
+/// A fair: a bird flies at random, hatches of an egg that only a nest lays, and a trap that is not seen kills.
+fn fair() -> Analysis {
+    Analysis::of(&game(
+        "bird > RandomNPC\negg > Immovable\nnest > SpawnPoint stype=egg cooldown=3\ntrap > Immovable hidden=True\n\
+         mist > Immovable hidden=True\nlair > SpawnPoint stype=crow hidden=True cooldown=9\ncrow > Missile orientation=LEFT\n\
+         hole > Portal stype=exit\nexit > Immovable\nfog > Immovable\ncoin > Resource limit=2\nhero > MovingAvatar",
+        "b > bird\ne > egg\nn > nest\nt > trap\nm > mist\nl > lair\nh > hole\nx > exit\nf > fog\nc > coin\nA > hero",
+        "egg hero > transformTo stype=bird\ntrap hero > killBoth\nbird EOS > stepBack\nhero hole > teleportToExit\n\
+         fog hero > spawnIfHasMore resource=coin limit=2 stype=bird\ncoin hero > collectResource",
+        "SpriteCounter stype=hero win=False\nSpriteCounter stype=exit win=True",
+    ))
+}
+
+#[test]
+fn chance_from_here() {
+    let analysis = fair();
+    assert!(analysis.chance_decides() && !analysis.is_deterministic());
+    for (level, certain) in [
+        ("A..\n", true),
+        ("Ab.\n", false),
+        // The egg may hatch; so may what the nest lays.
+        ("Ae.\n", false),
+        ("An.\n", false),
+        // One exit is no choice, two are.
+        ("Ahx\n", true),
+        ("Ahxx\n", false),
+        // A bird costs two coins; nobody counts how many there are.
+        ("Af.\n", true),
+        ("Afc\n", false),
+    ] {
+        let level = level.replace('.', " ");
+        assert_eq!(analysis.is_deterministic_from(&state(&analysis, &level)), certain, "{level}");
+    }
+    // The egg is gone, and with it all chance.
+    let game = analysis.game();
+    let mut after = state(&analysis, "A  t\n");
+    assert!(analysis.is_deterministic_from(&after));
+    game.step(&mut after, crate::Action::Right);
+    assert!(analysis.is_deterministic_from(&after));
+}
+
+#[test]
+fn a_draw_without_a_choice_is_no_chance() {
+    let sprites = "egg > Immovable\nnest > SpawnPoint stype=egg cooldown=3 prob=PROB\nhero > MovingAvatar";
+    let analysis = |prob: &str| {
+        let rules = "egg hero > killSprite\nhero nest > spawn stype=egg";
+        Analysis::of(&game(
+            &sprites.replace("PROB", prob),
+            "n > nest\nA > hero",
+            rules,
+            "Timeout limit=9 win=True",
+        ))
+    };
+    assert!(!analysis("1").chance_decides() && !analysis("1").is_deterministic());
+    assert!(analysis("0.5").chance_decides());
+}
+
+#[test]
+fn what_is_not_shown() {
+    let analysis = fair();
+    // The mist makes no difference, the lair does.
+    assert_eq!(names(&analysis, analysis.unseen()), "trap lair");
+    assert!(!analysis.is_fully_observable());
+    for (level, shown) in [("Am\n", true), ("At\n", false), ("Al\n", false), ("Ax\n", true)] {
+        assert_eq!(analysis.is_fully_observable_from(&state(&analysis, level)), shown, "{level}");
+    }
+}

@@ -1,0 +1,213 @@
+//! How wins come about: by what the player does, or by what others do.
+
+use super::encounter::{Deed, Encounter, Side};
+use super::facts::Motion;
+use super::goal::Condition;
+use super::lock::{Fate, Sink};
+use super::role::Role;
+use super::touch::{Harm, Touch};
+use super::{Analysis, Attainable};
+use crate::game::SpriteType;
+use std::collections::BTreeSet;
+
+/// How a win comes about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Means {
+    /// The avatar touches what leads out.
+    Exit,
+    /// The avatar touches things that lie about.
+    Take,
+    /// The avatar touches what moves.
+    Catch,
+    /// The avatar's shots end what moves, or fly.
+    Shoot,
+    /// What the avatar puts somewhere, and what stays there, ends what stands there.
+    Tool,
+    /// What the avatar pushes comes to where it belongs.
+    Push,
+    /// Others do it.
+    Others,
+    /// Time passes.
+    Wait,
+}
+
+/// For each type, how its sprites can come to an end, or come about.
+pub(super) struct Ways<'a> {
+    analysis: &'a Analysis,
+    /// By type: a shot ends it, or turns it into something harmless.
+    shot: Vec<bool>,
+    /// By type: a shot that flies does.
+    flown: Vec<bool>,
+    /// By type: some touch ends all of it.
+    opened: Vec<bool>,
+    /// By type: it ends, or fills, where something is pushed.
+    pushed: Vec<bool>,
+    /// By type: it ends by meeting something.
+    met: Vec<bool>,
+    /// By type: how the player makes one.
+    made: Vec<BTreeSet<Means>>,
+}
+
+impl Ways<'_> {
+    /// Cost: O(types × avatars + interactions × relatives).
+    pub(super) fn of(analysis: &Analysis) -> Ways<'_> {
+        let none = vec![false; analysis.facts.len()];
+        let shots = projectiles(analysis);
+        let flies = |shot: &SpriteType| analysis.facts(*shot).motion != Motion::Still;
+        let flying: BTreeSet<SpriteType> = shots.iter().copied().filter(flies).collect();
+        let mut ways = Ways {
+            analysis,
+            shot: shot_down(analysis, &shots),
+            flown: shot_down(analysis, &flying),
+            opened: none.clone(),
+            pushed: none.clone(),
+            met: none,
+            made: vec![BTreeSet::new(); analysis.facts.len()],
+        };
+        for (at, touch) in analysis.touches.iter().flat_map(|row| row.iter().enumerate()) {
+            touch.opens.iter().for_each(|stype| ways.opened[stype.index()] = true);
+            let means = match analysis.roles[at] {
+                Role::Exit => Means::Exit,
+                _ if analysis.facts[at].motion != Motion::Still => Means::Catch,
+                _ => Means::Take,
+            };
+            for stype in touch.makes.iter().chain(&touch.changes) {
+                ways.made[stype.index()].insert(means);
+            }
+        }
+        for pushable in &analysis.pushables {
+            for Sink { partner, fate, fills, .. } in &pushable.sinks {
+                ways.pushed[partner.index()] |= *fills;
+                ways.pushed[pushable.stype.index()] |= *fate != Fate::Stays;
+                if let Fate::Becomes(to) = fate {
+                    ways.made[to.index()].insert(Means::Push);
+                }
+            }
+        }
+        for encounter in &analysis.encounters {
+            let ends = |side: Side| encounter.ends(side);
+            for (side, written) in [(Side::First, Some(encounter.first)), (Side::Second, encounter.second)] {
+                if let (Some(written), true) = (written, ends(side) && encounter.second.is_some()) {
+                    let tree = &analysis.game.0.types[written.index()].tree;
+                    tree.iter().for_each(|stype| ways.met[stype.index()] = true);
+                }
+            }
+        }
+        ways
+    }
+
+    /// How the wins come about that play can bring about.
+    pub(super) fn means(&self) -> BTreeSet<Means> {
+        let mut means = BTreeSet::new();
+        let goals = self.analysis.goals.iter();
+        for goal in goals.filter(|goal| goal.win && goal.attainable == Attainable::InPlay) {
+            let types = goal.condition.types().iter();
+            let types = types.filter(|stype| self.analysis.facts(**stype).possible);
+            match goal.condition {
+                Condition::Tick(_) => means.extend([Means::Wait]),
+                Condition::AtMost(..) | Condition::Exactly(_, 0) => {
+                    types.for_each(|&stype| means.extend(self.means_to_end(stype)));
+                }
+                Condition::AtLeast(..) | Condition::Exactly(..) => {
+                    types.for_each(|stype| means.extend(&self.made[stype.index()]));
+                }
+            }
+        }
+        means
+    }
+
+    fn means_to_end(&self, stype: SpriteType) -> BTreeSet<Means> {
+        let at = stype.index();
+        let mut means = BTreeSet::new();
+        let moves = self.analysis.facts[at].motion != Motion::Still;
+        if self.opened[at] || self.analysis.touches.iter().any(|row| row[at].ends_other()) {
+            means.insert(match self.analysis.role(stype) {
+                Role::Exit => Means::Exit,
+                _ if moves => Means::Catch,
+                _ if self.is_like_an_exit(stype) => Means::Exit,
+                _ => Means::Take,
+            });
+        }
+        if self.shot[at] {
+            means.insert(if moves || self.flown[at] { Means::Shoot } else { Means::Tool });
+        }
+        means.extend(self.pushed[at].then_some(Means::Push));
+        if means.is_empty() && self.met[at] {
+            means.insert(Means::Others);
+        }
+        means
+    }
+
+    /// Whether a still thing that wins by touch is one to get to rather than one of many to take.
+    fn is_like_an_exit(&self, stype: SpriteType) -> bool {
+        let Analysis { game, aims, touches, .. } = self.analysis;
+        let wanted = |stype: SpriteType| {
+            aims.remove.binary_search(&stype).is_ok() && self.analysis.facts(stype).possible
+        };
+        let alone = || game.sprite_types().filter(|&stype| wanted(stype)).count() == 1;
+        let gain = || {
+            self.analysis.of_role(Role::Collectable).any(|other| {
+                let positive = |row: &Vec<Touch>| row[other.index()].score > 0;
+                !wanted(other) && touches.iter().any(positive)
+            })
+        };
+        self.analysis.harm(stype) != Harm::None || (alone() && gain())
+    }
+
+    /// Whether a shot ends such sprites, or turns them into something harmless.
+    pub(super) fn is_shot_down(&self, stype: SpriteType) -> bool {
+        self.shot[stype.index()]
+    }
+
+    /// Whether shots that fly end what is hostile or wanted.
+    pub(super) fn shoots(&self) -> bool {
+        let analysis = self.analysis;
+        analysis.game.sprite_types().any(|stype| {
+            let target =
+                analysis.aims.remove.binary_search(&stype).is_ok() || is_hostile(analysis.role(stype));
+            target && analysis.facts(stype).possible && self.flown[stype.index()]
+        })
+    }
+}
+
+fn is_hostile(role: Role) -> bool {
+    matches!(role, Role::Enemy | Role::Spawner)
+}
+
+/// The avatars' shots, and what moves of all that these turn into or make.
+fn projectiles(analysis: &Analysis) -> BTreeSet<SpriteType> {
+    let shots = analysis.avatars.iter().flat_map(|avatar| avatar.shots.iter().copied());
+    let mut found: BTreeSet<SpriteType> = shots.collect();
+    let mut new: Vec<SpriteType> = found.iter().copied().collect();
+    while let Some(shot) = new.pop() {
+        let turns = analysis.turns(shot).into_iter().map(|(to, _)| to);
+        for stype in analysis.facts(shot).makes.iter().copied().chain(turns) {
+            if analysis.facts(stype).motion != Motion::Still && found.insert(stype) {
+                new.push(stype);
+            }
+        }
+    }
+    found
+}
+
+/// By type: whether one of these shots ends such sprites, or turns them into something harmless.
+fn shot_down(analysis: &Analysis, shots: &BTreeSet<SpriteType>) -> Vec<bool> {
+    let types = &analysis.game.0.types;
+    let fires = |written: SpriteType| types[written.index()].tree.iter().any(|stype| shots.contains(stype));
+    let fires: Vec<bool> = analysis.game.sprite_types().map(fires).collect();
+    let tame = |encounter: &Encounter| {
+        let hostile = |to: &SpriteType| is_hostile(analysis.role(*to));
+        !encounter.does(|deed| matches!(deed, Deed::Become(to) if hostile(to)))
+    };
+    let mut down = vec![false; types.len()];
+    for encounter in &analysis.encounters {
+        let Some(second) = encounter.second else { continue };
+        if fires[second.index()] && encounter.ends(Side::First) && tame(encounter) {
+            types[encounter.first.index()].tree.iter().for_each(|stype| down[stype.index()] = true);
+        }
+        if fires[encounter.first.index()] && encounter.ends(Side::Second) {
+            types[second.index()].tree.iter().for_each(|stype| down[stype.index()] = true);
+        }
+    }
+    down
+}

@@ -1,0 +1,124 @@
+//! What the analysis proves holds in play: on the corpus, and on the reference's games where they are at hand.
+
+use engine::analysis::Attainable;
+use engine::{Action, Analysis, Game, Level, Outcome, Sampler, Seed, State};
+use std::fs;
+use std::path::{Path, PathBuf};
+use tests::workspace_root;
+
+/// A game with its levels.
+struct Case {
+    name: String,
+    game: Game,
+    levels: Vec<Level>,
+}
+
+/// The games in the folders of a folder, those that load; none, with a message, if it is missing.
+#[allow(clippy::print_stderr, reason = "a skipped test says so")]
+fn games(folder: &Path) -> Vec<Case> {
+    let Ok(entries) = fs::read_dir(folder) else {
+        eprintln!("skipped: there is no folder {}", folder.display());
+        return Vec::new();
+    };
+    let mut folders: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    folders.sort();
+    let load = |folder: &PathBuf| {
+        let read = |file: &str| fs::read_to_string(folder.join(file)).ok();
+        let source = ["game.vgdl", "game.txt"].iter().find_map(|file| read(file))?;
+        let game = Game::from_source(&source).or_else(|_| Game::from_source_as_reference(&source)).ok()?;
+        let texts = (0..5).map_while(|number| read(&format!("lvl{number}.txt")));
+        let levels = texts.filter_map(|text| game.level(&text).ok()).collect();
+        Some(Case { name: folder.file_name()?.to_string_lossy().into_owned(), game, levels })
+    };
+    folders.iter().filter_map(load).collect()
+}
+
+fn all_games() -> Vec<Case> {
+    let mut cases = games(&workspace_root().join("corpora"));
+    assert!(cases.len() >= 8, "the corpus");
+    cases.extend(games(&workspace_root().join("../shared/gvgai/games")));
+    cases
+}
+
+/// Random play of some levels of every game; `visit` sees every state, the start included.
+fn wander(
+    levels: usize,
+    ticks: usize,
+    mut visit: impl FnMut(&Case, &Analysis, &Level, &State, &mut Sampler),
+) {
+    for case in all_games() {
+        let analysis = Analysis::of(&case.game);
+        for (number, level) in case.levels.iter().enumerate().take(levels) {
+            let seed = Seed::from_text(&case.name).child("level", number as u64);
+            let mut sampler = seed.child("actions", 0).sampler();
+            let mut state = case.game.start(level, seed.child("chance", 0));
+            visit(&case, &analysis, level, &state, &mut sampler);
+            for _ in 0..ticks {
+                // Now and then one key is held down, as players do.
+                let action = *sampler.choose(case.game.actions(&state));
+                for _ in 0..sampler.between(1, 4) {
+                    case.game.step(&mut state, action);
+                }
+                visit(&case, &analysis, level, &state, &mut sampler);
+                if state.is_over() {
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// Where chance plays no part any more, other seeds with the same actions give the same sprites.
+#[test]
+fn deterministic_states_have_one_future() {
+    let (mut certain, mut turned) = (0, 0);
+    wander(2, 40, |Case { name, game, .. }, analysis, _, state, sampler| {
+        if state.is_over() || !analysis.is_deterministic_from(state) {
+            return;
+        }
+        certain += 1;
+        turned += u32::from(analysis.chance_decides());
+        let seed = Seed::from_text(name).child("futures", certain);
+        let (mut one, mut two) = (state.fork(seed.child("one", 0)), state.fork(seed.child("two", 0)));
+        for _ in 0..12 {
+            let action = *sampler.choose(&Action::ALL);
+            assert_eq!(game.step(&mut one, action), game.step(&mut two, action), "{name}");
+            assert_eq!(game.records(&one), game.records(&two), "{name} tick {}", one.tick());
+            assert_eq!(one.score(), two.score(), "{name}");
+        }
+        if !analysis.chance_decides() && game.is_deterministic() {
+            assert_eq!(one.search_key(game), two.search_key(game), "{name}");
+        }
+    });
+    assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in games of chance");
+}
+
+/// What can only hold from the start does not come to hold, and the other way round.
+#[test]
+fn goals_are_attained_as_proved() {
+    let mut holds: Vec<bool> = Vec::new();
+    wander(5, 60, |Case { name, .. }, analysis, _, state, _| {
+        if matches!(state.outcome(), Outcome::Stopped(_) | Outcome::Ended) {
+            return;
+        }
+        if state.tick() < 0 {
+            holds = analysis.goals().iter().map(|goal| analysis.missing(goal, state) == 0).collect();
+        }
+        for (goal, &held) in analysis.goals().iter().zip(&holds) {
+            let met = analysis.missing(goal, state) == 0;
+            let fits = match goal.attainable {
+                Attainable::AtOnce => met || state.tick() < 0,
+                Attainable::InPlay => true,
+                Attainable::FromStart => held || !met,
+                Attainable::Never => !met,
+            };
+            assert!(fits, "{name} tick {}: {goal:?}", state.tick());
+        }
+        if state.outcome() == Outcome::Won {
+            assert!(analysis.can_win(), "{name}");
+        }
+        if state.outcome() == Outcome::Lost && state.tick() < engine::MAX_TICKS {
+            assert!(analysis.can_lose(), "{name}");
+        }
+    });
+}
