@@ -2,7 +2,7 @@
 
 use crate::game::{Limit, Pass, SpriteType, Timed, TypeInfo};
 use crate::geometry::Rect;
-use crate::occupancy::Hits;
+use crate::occupancy::{Hits, Side};
 use crate::ontology::effects;
 use crate::state::{NONE, Slot, Timer, flag, memory};
 use crate::step::{MAX_EFFECTS, Step, Watch};
@@ -16,19 +16,25 @@ impl Step<'_> {
                 return;
             }
         }
-        for at in 0..self.rules.edge.len() {
-            let (stype, effect) = self.rules.edge[at];
+        for &(stype, effect) in &self.rules.edge {
             self.edge_pass(stype, effect, watch);
             if self.stopped.is_some() {
                 return;
             }
         }
-        for at in 0..self.rules.passes.len() {
-            self.pair_pass(&self.rules.passes[at], watch);
+        let rules = self.rules;
+        let Some(mut number) = self.state.next_possible(0) else { return };
+        self.state.cover(rules);
+        loop {
+            self.pass = number as i32;
+            self.pair_pass(number, &rules.passes[number], watch);
             if self.stopped.is_some() {
-                return;
+                break;
             }
+            let Some(next) = self.state.next_possible(number + 1) else { break };
+            number = next;
         }
+        self.state.uncover();
     }
 
     /// Effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
@@ -97,12 +103,14 @@ impl Step<'_> {
     /// that visit, with a message.
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut impl Watch) {
         let rules = self.rules;
-        let screen = self.screen();
         for &stype in &rules.types[stype.index()].tree {
+            if self.state.group(stype).off == 0 {
+                continue;
+            }
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 let sprite = self.state.sprite(slot);
-                if !sprite.is(flag::KILLED | flag::DISABLED) && !screen.contains(sprite.rect) {
+                if sprite.is(flag::OFF) && !sprite.is(flag::KILLED | flag::DISABLED) {
                     let tail = self.state.group(stype).tail;
                     self.execute(effect, slot, None, watch);
                     if self.stopped.is_some() {
@@ -118,11 +126,13 @@ impl Step<'_> {
         }
     }
 
-    fn pair_pass(&mut self, pass: &Pass, watch: &mut impl Watch) {
+    fn pair_pass(&mut self, number: usize, pass: &Pass, watch: &mut impl Watch) {
         let rules = self.rules;
         let (first, second) = (&rules.types[pass.first.index()], &rules.types[pass.second.index()]);
-        let size = |family: &TypeInfo| {
-            family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
+        let bits = rules.contacts.sides(number);
+        let (first, second) = (Side { family: first, bits: bits.0 }, Side { family: second, bits: bits.1 });
+        let size = |side: Side<'_>| {
+            side.family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
         };
         let (firsts, seconds) = (size(first), size(second));
         if firsts == 0 || seconds == 0 {
@@ -143,14 +153,14 @@ impl Step<'_> {
     fn visit_first_side(
         &mut self,
         pass: &Pass,
-        first: &TypeInfo,
-        second: &TypeInfo,
+        first: Side<'_>,
+        second: Side<'_>,
         newborn: u32,
         watch: &mut impl Watch,
     ) {
         let mut hits = Hits::new();
         let in_batch = self.rules.effects[usize::from(pass.effect)].in_batch;
-        for &stype in &first.tree {
+        for &stype in &first.family.tree {
             let mut slot = self.state.group(stype).head;
             while slot != NONE && self.state.sprite(slot).id < newborn {
                 hits.clear();
@@ -160,7 +170,7 @@ impl Step<'_> {
                     self.state.overlapping(self.rules, second, slot, newborn, &mut hits);
                 }
                 if hits.len() > 1 {
-                    hits.sort_unstable_by_key(|&hit| self.rank(second, hit));
+                    hits.sort_unstable_by_key(|&hit| self.rank(second.family, hit));
                 }
                 if in_batch && !hits.is_empty() {
                     self.execute_batch(pass.effect, slot, &mut hits, watch);
@@ -181,14 +191,14 @@ impl Step<'_> {
     fn visit_second_side(
         &mut self,
         pass: &Pass,
-        first: &TypeInfo,
-        second: &TypeInfo,
+        first: Side<'_>,
+        second: Side<'_>,
         newborn: u32,
         watch: &mut impl Watch,
     ) {
         let mut pairs: SmallVec<[(Slot, Slot); 16]> = SmallVec::new();
         let mut hits = Hits::new();
-        for &stype in &second.tree {
+        for &stype in &second.family.tree {
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 hits.clear();
@@ -201,7 +211,9 @@ impl Step<'_> {
             }
         }
         if pairs.len() > 1 {
-            pairs.sort_unstable_by_key(|&(one, two)| (self.rank(first, one), self.rank(second, two)));
+            pairs.sort_unstable_by_key(|&(one, two)| {
+                (self.rank(first.family, one), self.rank(second.family, two))
+            });
         }
         for (one, two) in pairs {
             self.meet(pass, one, two, watch);
@@ -232,6 +244,9 @@ impl Step<'_> {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
         self.work(1);
+        if self.rests {
+            self.note(&info.effect, info.score_change == 0, one, two);
+        }
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
         self.score(remembered & memory::APPLY_SCORE != 0, effects::score_change(info, remembered));
@@ -247,7 +262,7 @@ impl Step<'_> {
     }
 
     /// The partners of a sprite that notices what it stands on: testing a solid one just below it is what it notices.
-    fn look_down(&mut self, slot: Slot, second: &TypeInfo, newborn: u32, hits: &mut Hits) {
+    fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) {
         let rect = self.state.sprite(slot).rect;
         let around = Rect { h: rect.h.saturating_add(GROUND), ..rect };
         self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);

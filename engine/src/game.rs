@@ -1,6 +1,7 @@
 //! A compiled game: immutable, valid, cheap to clone.
 
 use crate::Digest;
+use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
@@ -159,6 +160,8 @@ pub(crate) struct TypeInfo {
     pub(crate) unknown_parameters: u32,
     /// Notices what it stands on when rules test what it meets.
     pub(crate) ground_aware: bool,
+    /// What the player can do with it; [`Action::Nil`] alone if nothing.
+    pub(crate) actions: &'static [Action],
 }
 
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
@@ -245,6 +248,12 @@ pub(crate) struct Rules {
     /// Edge-of-screen passes, repeats expanded: the type and the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,
     pub(crate) passes: Vec<Pass>,
+    /// Which passes can do something, by what stands together.
+    pub(crate) contacts: Contacts,
+    /// By type: whether its sprites may rest.
+    pub(crate) rests: Vec<bool>,
+    /// Whether one of them may.
+    pub(crate) any_rests: bool,
     pub(crate) timed: Vec<Timed>,
     /// The game has `obs=`, and with it path finding.
     pub(crate) finds_paths: bool,
@@ -331,10 +340,7 @@ impl Game {
 
     /// What the player can do now, besides nothing: sorted; only [`Action::Nil`] without an avatar.
     pub fn actions(&self, state: &State) -> &'static [Action] {
-        match state.avatar_type().and_then(|stype| self.0.types[stype.index()].class) {
-            Some(class) if !class.actions().is_empty() => class.actions(),
-            _ => &[Action::Nil],
-        }
+        state.avatar_type().map_or(&[Action::Nil], |stype| self.0.types[stype.index()].actions)
     }
 
     /// All sprite types, in registry order.

@@ -9,6 +9,7 @@ use crate::ontology::class::SpriteClass;
 use crate::state::{Extra, Sprite, State, Target, flag};
 use crate::step::MAX_TICKS;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use smallvec::SmallVec;
 use std::fmt;
 
 macro_rules! hash_type {
@@ -74,6 +75,24 @@ impl Mixer {
         self.high = fold(self.high ^ b, SECRET[3] ^ a);
     }
 
+    /// Sixteen bytes at a time; the length of the whole is not part of it.
+    fn bytes(&mut self, bytes: &[u8]) {
+        let word = |bytes: &[u8]| {
+            let mut word = [0; 8];
+            word[..bytes.len()].copy_from_slice(bytes);
+            u64::from_le_bytes(word)
+        };
+        let (chunks, rest) = bytes.as_chunks::<16>();
+        for chunk in chunks {
+            let wide = u128::from_le_bytes(*chunk);
+            self.pair(wide as u64, (wide >> 64) as u64);
+        }
+        if !rest.is_empty() {
+            let (low, high) = rest.split_at(rest.len().min(8));
+            self.pair(word(low), word(high));
+        }
+    }
+
     fn finish(self) -> u128 {
         let low = fold(self.low ^ SECRET[3], self.high ^ SECRET[2]);
         let high = fold(self.high ^ SECRET[0], self.low ^ SECRET[1]);
@@ -95,45 +114,89 @@ fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
 
-/// The share of one sprite in the state hash.
-pub(crate) fn sprite_hash(sprite: &Sprite) -> u128 {
-    let mut mixer = Mixer::new(u64::from(sprite.id));
-    let kind = i32::from(sprite.stype.0) << 16 | i32::from(sprite.flags & !flag::TRANSIENT);
-    mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
-    mixer.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
-    mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
-    mixer.pair(bits(sprite.speed), two(sprite.moved_at, kind));
-    mixer.pair(two(sprite.health, sprite.max_health), two(sprite.time_to_live, i32::from(sprite.heading)));
-    mixer.pair(two(sprite.count, sprite.start), u64::from(sprite.spawns.0));
-    mixer.finish()
+/// The share of one sprite in the state hash: a multilinear hash of its fields (Carter and Wegman 1979; Lemire and Kaser
+/// 2014), folded, so that the sum over all sprites does not cancel.
+///
+/// A sprite that keeps moving as it moves has the same share tick after tick: with the tick, which is hashed by itself,
+/// where it would have been at tick 0 says where it is.
+pub(crate) fn sprite_hash(sprite: &Sprite, tick: i32) -> u128 {
+    let Sprite { rect, last, .. } = *sprite;
+    let kind = i32::from(sprite.stype.0) << 16 | (sprite.flags & !flag::TRANSIENT) as i32;
+    // When it moved last matters only where a cooldown may hold it up, or where that is its age.
+    let moved_at = if sprite.is(flag::BRISK) && !sprite.is(flag::FROZEN) { 0 } else { sprite.moved_at };
+    let (dx, dy) = (rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
+    let origin = |at: i32, by: i32| at.wrapping_sub(by.wrapping_mul(tick));
+    let words = [
+        two(origin(rect.x, dx), origin(rect.y, dy)),
+        two(dx, dy),
+        two(rect.w, rect.h),
+        two(last.w, last.h),
+        bits(sprite.orientation.x),
+        bits(sprite.orientation.y),
+        bits(sprite.speed),
+        two(moved_at, kind),
+        two(sprite.health, sprite.max_health),
+        two(sprite.time_to_live, i32::from(sprite.heading)),
+        two(sprite.count, sprite.start),
+        u64::from(sprite.id) << 16 | u64::from(sprite.spawns.0),
+    ];
+    let mut sum = u128::from(SECRET[0]);
+    for (word, key) in words.into_iter().zip(KEYS) {
+        sum = sum.wrapping_add(u128::from(word).wrapping_mul(key));
+    }
+    let (low, high) = (sum as u64, (sum >> 64) as u64);
+    let fine = |a: u64, b: u64| u128::from(fold(a ^ SECRET[2], b ^ SECRET[3]));
+    fine(low, high) << 64 | fine(high.rotate_left(32) ^ SECRET[1], low)
 }
 
+/// One key a word of a sprite: odd, from the digits of π.
+const KEYS: [u128; 12] = [
+    0x243F_6A88_85A3_08D3_1319_8A2E_0370_7345,
+    0xA409_3822_299F_31D0_082E_FA98_EC4E_6C89,
+    0x4528_21E6_38D0_1377_BE54_66CF_34E9_0C6D,
+    0xC0AC_29B7_C97C_50DD_3F84_D5B5_B547_0917,
+    0x9216_D5D9_8979_FB1B_D131_0BA6_98DF_B5AD,
+    0x2FFD_72DB_D01A_DFB7_B8E1_AFED_6A26_7E97,
+    0xBA7C_9045_F12C_7F99_24A1_9947_B391_6CF7,
+    0x0801_F2E2_858E_FC16_6369_20D8_7157_4E69,
+    0xA458_FEA3_F493_3D7E_0D95_748F_728E_B659,
+    0x718B_CD58_8215_4AEE_7B54_A41D_C25A_59B5,
+    0x9C30_D539_2AF2_6013_C5D1_B023_2860_85F1,
+    0xCA41_7918_B8DB_38EF_8E79_DCB0_603A_180F,
+];
+
 impl State {
-    /// The hash of all that can influence the future. Cost: a few numbers; the sprites are kept up to date by `step`.
+    /// The hash of all that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
     pub fn state_hash(&self) -> StateHash {
-        self.with_globals(self.sprite_hash)
+        let mut sum = self.sprite_hash;
+        for &slot in &self.stale {
+            let sprite = self.sprite(slot);
+            let hash = if sprite.is(flag::GONE) { 0 } else { sprite_hash(sprite, self.tick) };
+            sum = sum.wrapping_add(hash).wrapping_sub(self.hashes[usize::from(slot)]);
+        }
+        self.with_globals(sum)
     }
 
     /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).
     pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
         let slots = game.sprite_types().flat_map(|stype| self.slots(stype));
-        let sum = slots.map(|slot| sprite_hash(self.sprite(slot))).fold(0u128, u128::wrapping_add);
+        let sum = slots.map(|slot| sprite_hash(self.sprite(slot), self.tick)).fold(0u128, u128::wrapping_add);
         self.with_globals(sum)
     }
 
     fn with_globals(&self, sprites: u128) -> StateHash {
-        debug_assert!(self.stale.is_empty(), "a state is hashed between steps");
         let mut mixer = Mixer::new(0x5374_6174);
         mixer.pair(sprites as u64, (sprites >> 64) as u64);
         mixer.pair(two(self.tick, self.messages as i32), self.score as u64);
         mixer.pair(self.chance.state(), two(self.next_id as i32, self.population));
         mixer.pair(self.avatar_id().map_or(u64::MAX, u64::from), self.outcome_code());
-        let mut held: Vec<_> = self.held.iter().map(|held| (self.sprite(held.holder).id, *held)).collect();
+        let mut held: SmallVec<[_; 8]> =
+            self.held.iter().map(|held| (self.sprite(held.holder).id, *held)).collect();
         held.sort_unstable_by_key(|(id, held)| (*id, held.resource));
         for (id, held) in held {
             mixer.pair(u64::from(id), two(i32::from(held.resource.0), held.amount));
         }
-        let mut extras: Vec<_> =
+        let mut extras: SmallVec<[_; 4]> =
             self.extras.iter().map(|extra| (self.sprite(extra.holder).id, extra)).collect();
         extras.sort_unstable_by_key(|(id, _)| *id);
         for (id, extra) in extras {
@@ -150,21 +213,9 @@ impl State {
             mixer.pair(u64::from(timer.timed), timer.due as u64);
         }
         mixer.pair(self.jumps.state(), (self.timers.len() as u64) << 1 | u64::from(self.can_end));
-        self.memory_words(&mut mixer);
-        self.template_words(&mut mixer);
+        mixer.bytes(&self.memory);
+        mixer.bytes(&self.templates);
         StateHash(mixer.finish())
-    }
-
-    fn memory_words(&self, mixer: &mut Mixer) {
-        for (chunk, bytes) in self.memory.chunks(8).enumerate() {
-            mixer.pair(chunk as u64, bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
-        }
-    }
-
-    fn template_words(&self, mixer: &mut Mixer) {
-        for (stype, _) in self.templates.iter().enumerate().filter(|(_, made)| **made) {
-            mixer.pair(stype as u64, 1);
-        }
     }
 
     fn extra_words(&self, extra: &Extra, mixer: &mut Mixer) {
@@ -227,9 +278,9 @@ impl State {
                 }
             }
         }
-        self.memory_words(&mut mixer);
+        mixer.bytes(&self.memory);
         if rules.first_differs {
-            self.template_words(&mut mixer);
+            mixer.bytes(&self.templates);
         }
         SearchKey(mixer.finish())
     }
@@ -248,7 +299,7 @@ impl State {
         let age = if frozen { age } else { age.wrapping_add(1) };
         // All ages from the cooldown on are alike, except that the reference's overflow in the end.
         let age = if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) };
-        let kind = i32::from(sprite.flags & !(flag::TRANSIENT | flag::AVATAR | flag::FROM_AVATAR));
+        let kind = (sprite.flags & !(flag::TRANSIENT | flag::AVATAR | flag::FROM_AVATAR)) as i32;
         mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
         mixer.pair(two(age, kind), two(sprite.health, sprite.max_health));
         mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));

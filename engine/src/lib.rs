@@ -29,6 +29,7 @@
 pub mod analysis;
 mod chance;
 mod compile;
+mod contacts;
 pub mod describe;
 mod diagnostic;
 mod digest;
@@ -43,6 +44,7 @@ mod observe;
 mod occupancy;
 mod ontology;
 mod paths;
+mod rest;
 mod sampler;
 mod seed;
 mod state;

@@ -103,7 +103,7 @@ impl Game {
                     orientation: (sprite.orientation.x, sprite.orientation.y),
                     speed: sprite.speed,
                     health: sprite.health,
-                    flags: sprite.flags & flag::RECORDED,
+                    flags: (sprite.flags & flag::RECORDED) as u16,
                     resources,
                     rotation: state.rotation(&self.0, slot),
                 }

@@ -8,6 +8,7 @@ use crate::level::{Level, MAX_SPRITES};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::traits::Traits;
 use crate::ontology::{avatars, sprites};
+use crate::rest::rest;
 use crate::state::{Group, NONE, Slot, Sprite, State, Timer, flag, memory};
 
 /// The tick at which the reference ends every game.
@@ -26,12 +27,17 @@ pub(crate) const MAX_TIMERS: usize = 1 << 16;
 
 /// Learns what happens inside a step: which interaction of the description was executed on which sprites.
 pub trait Watch {
+    /// Whether it is interested at all: if not, interactions that change nothing may be left out.
+    const WATCHES: bool = true;
+
     /// Interaction `line` (index into [`Description::interactions`](crate::Description)) was executed.
     fn interaction(&mut self, line: usize);
 }
 
 /// Watches nothing, costs nothing.
 impl Watch for () {
+    const WATCHES: bool = false;
+
     fn interaction(&mut self, _: usize) {}
 }
 
@@ -45,6 +51,12 @@ pub(crate) struct Step<'a> {
     pub(crate) stopped: Option<Limit>,
     /// Work of effects so far.
     pub(crate) effects: usize,
+    /// The creation number of the sprite that is being updated.
+    pub(crate) updating_id: u32,
+    /// The pass of the event phase; −1 before the first.
+    pub(crate) pass: i32,
+    /// Whether sprites may be at rest in this step.
+    pub(crate) rests: bool,
 }
 
 impl Game {
@@ -75,25 +87,40 @@ impl Game {
             free: NONE,
             can_end: true,
             sprite_hash: 0,
+            loose: 0,
             sprites: Vec::new(),
+            hashes: Vec::new(),
             groups: vec![Group::EMPTY; rules.types.len()],
             cells: vec![NONE; State::cell_count(columns, rows)],
+            masks: Vec::new(),
+            covered: vec![0; State::cell_count(columns, rows)],
+            covered_cells: Vec::new(),
+            vast: 0,
+            meeting: false,
+            together: Vec::new(),
+            reasons: Vec::new(),
+            possible: Vec::new(),
             moved: Vec::new(),
             stale: Vec::new(),
             killed: Vec::new(),
             held: Vec::new(),
             memory: rules.effects.iter().map(|effect| initial(effect.apply_score)).collect(),
-            templates: vec![false; rules.types.len()],
+            templates: vec![0; rules.types.len()],
             shields: Vec::new(),
             pulled: Vec::new(),
             extras: Vec::new(),
+            rests: Vec::new(),
+            watched: vec![0; State::cell_count(columns, rows)],
+            stamps: vec![u16::MAX; State::cell_count(columns, rows)],
+            touched: Vec::new(),
             timers: Vec::new(),
             obstacles: Vec::new(),
             sideways: false,
             replaced: Vec::new(),
             jumps: chance,
         };
-        let mut step = Step { rules, state: &mut state, updating: -1, stopped: None, effects: 0 };
+        state.empty_contacts(&rules.contacts);
+        let mut step = Step { updating: -1, ..Step::new(rules, &mut state) };
         for (at, &symbol) in level.cells().iter().enumerate() {
             let (column, row) = ((at % level.columns()) as i32, (at / level.columns()) as i32);
             for &stype in self.places(symbol) {
@@ -113,7 +140,7 @@ impl Game {
         if rules.finds_paths {
             state.mark_obstacles(rules);
         }
-        state.freshen();
+        state.settle_hash();
         state
     }
 
@@ -125,19 +152,24 @@ impl Game {
     }
 
     /// [`Game::step`], telling `watch` which interactions are executed.
-    pub fn step_watched(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
+    pub fn step_watched<W: Watch>(&self, state: &mut State, action: Action, watch: &mut W) -> Outcome {
         if state.is_over() {
             return state.outcome;
         }
         let allowed = self.actions(state).contains(&action);
-        let mut step = Step { rules: &self.0, state, updating: i32::MAX, stopped: None, effects: 0 };
+        let mut step = Step::new(&self.0, state);
+        step.begin_rest(W::WATCHES);
         step.cycle(if allowed { action } else { Action::Nil }, watch);
-        state.freshen();
         state.outcome
     }
 }
 
-impl Step<'_> {
+impl<'a> Step<'a> {
+    fn new(rules: &'a Rules, state: &'a mut State) -> Step<'a> {
+        let (updating, updating_id, pass) = (i32::MAX, 0, -1);
+        Step { rules, state, updating, updating_id, stopped: None, effects: 0, pass, rests: false }
+    }
+
     fn cycle(&mut self, action: Action, watch: &mut impl Watch) {
         self.state.tick += 1;
         self.state.last_action = action;
@@ -146,7 +178,9 @@ impl Step<'_> {
         if self.stopped.is_none() {
             self.events(watch);
         }
+        self.pass = i32::MAX;
         self.clear();
+        self.settle_down();
         if let Some(limit) = self.stopped {
             self.state.outcome = Outcome::Stopped(limit);
             return;
@@ -174,6 +208,8 @@ impl Step<'_> {
                 sprite.set(flag::MOVED, false);
                 return false;
             }
+            // It goes on as having moved, and its share of the hash with the tick.
+            self.state.edit(slot);
             true
         });
         self.state.moved = moved;
@@ -204,13 +240,23 @@ impl Step<'_> {
             let info = &self.rules.types[stype.index()];
             self.updating = i32::from(info.order.expect("movers are in the update order"));
             let mut slot = self.state.group(stype).head;
+            let may_rest = self.rests && self.rules.may_rest(stype);
             while slot != NONE {
+                let sprite = self.state.sprite(slot);
+                self.updating_id = sprite.id;
+                if sprite.rest & rest::RESTING != 0 {
+                    slot = sprite.next;
+                    continue;
+                }
                 self.turn_picture(&info.traits, slot);
                 sprites::update(self, slot);
                 if self.stopped.is_some() {
                     return;
                 }
-                slot = self.state.sprite(slot).next;
+                let sprite = &mut self.state.sprites[usize::from(slot)];
+                let tried = may_rest && sprite.rect != sprite.last;
+                sprite.rest = if tried { rest::TRIED } else { rest::NOTHING };
+                slot = sprite.next;
             }
         }
         self.updating = -1;
@@ -244,8 +290,7 @@ impl Step<'_> {
         let Some((_, extra @ [_, ..])) = avatars.split_first() else { return };
         self.message();
         for &slot in extra {
-            self.state.release(slot);
-            self.state.stale.retain(|&stale| stale != slot);
+            self.state.release(self.rules, slot);
             self.state.moved.retain(|&moved| moved != slot);
         }
     }
@@ -273,16 +318,20 @@ impl Step<'_> {
             if slot == self.state.avatar {
                 self.state.avatar = NONE;
             }
-            self.state.release(slot);
+            if self.rests {
+                let sprite = *self.state.sprite(slot);
+                self.state.touch(slot);
+                self.note_change(&sprite);
+            }
+            self.state.release(self.rules, slot);
         }
         if !killed.is_empty() {
-            let State { stale, moved, sprites, .. } = &mut *self.state;
-            let gone = |slot: &Slot| sprites[usize::from(*slot)].is(flag::GONE);
-            stale.retain(|slot| !gone(slot));
-            moved.retain(|slot| !gone(slot));
+            let State { moved, sprites, .. } = &mut *self.state;
+            moved.retain(|&slot| !sprites[usize::from(slot)].is(flag::GONE));
             killed.clear();
         }
         self.state.killed = killed;
+        self.wake();
         self.state.shields.clear();
         self.state.pulled.clear();
     }
@@ -355,7 +404,7 @@ impl Step<'_> {
         let block = self.state.block;
         let scaled = |factor: f64| (f64::from(block) * factor) as i32;
         let rect = Rect { x, y, w: scaled(traits.width_factor), h: scaled(traits.height_factor) };
-        let first = !std::mem::replace(&mut self.state.templates[stype.index()], true);
+        let first = std::mem::replace(&mut self.state.templates[stype.index()], 1) == 0;
         if !first && rect.h == 0 {
             self.stop(Limit::FlatSprite);
         }
@@ -373,6 +422,7 @@ impl Step<'_> {
             (flag::FIRST_TICK, traits.is_first_tick),
             (flag::ORIENTED, traits.is_oriented),
             (flag::FROZEN, order.is_none()),
+            (flag::BRISK, traits.cooldown <= 1 && traits.last_move == 0 && !class.is_avatar()),
         ];
         let flags = flags.into_iter().fold(0, |all, (bit, on)| if on { all | bit } else { all });
         let sprite = Sprite {
@@ -399,6 +449,7 @@ impl Step<'_> {
             },
             extra: NONE,
             stype,
+            rest: rest::NOTHING,
             flags,
             heading: sprites::NO_HEADING,
             next: NONE,
@@ -412,12 +463,18 @@ impl Step<'_> {
             self.stop(Limit::SpawnIntoUpdatedType);
             return None;
         }
-        let Some(slot) = self.state.admit(sprite) else {
+        let Some(slot) = self.state.admit(self.rules, sprite) else {
             self.stop(Limit::Sprites);
             return None;
         };
         self.state.next_id += 1;
         self.state.population += 1;
+        if self.rests {
+            let sprite = *self.state.sprite(slot);
+            self.state.touch(slot);
+            self.note_change(&sprite);
+            self.wake();
+        }
         if sprite.last != sprite.rect {
             self.mark_moved(slot);
         }
@@ -475,37 +532,64 @@ impl Step<'_> {
         if self.state.sprite(slot).rect == rect {
             return;
         }
-        self.state.leave_cell(slot);
-        self.state.edit(slot).rect = rect;
-        self.state.enter_cell(slot);
+        if !self.rests {
+            self.state.relocate(self.rules, slot, rect);
+            return self.mark_moved(slot);
+        }
+        let before = *self.state.sprite(slot);
+        self.state.relocate(self.rules, slot, rect);
+        // Of a try it shows only at the end of the tick whether it changed anything.
+        if !self.is_try(&before) {
+            self.note_change(&before);
+            let after = *self.state.sprite(slot);
+            self.note_change(&after);
+        }
+        self.wake();
         self.mark_moved(slot);
     }
 
+    /// Whether a move is the sprite's own try, or its way back from it: that is seen at the end of the tick.
+    fn is_try(&self, sprite: &Sprite) -> bool {
+        self.rests
+            && self.rules.may_rest(sprite.stype)
+            && (self.updating >= 0 || sprite.rest != rest::NOTHING)
+    }
+
+    fn note_change(&mut self, sprite: &Sprite) {
+        if self.rests {
+            self.state.stamp(sprite, self.state.tick as u16);
+        }
+    }
+
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
+        let sprite = *self.state.sprite(slot);
+        self.note_change(&sprite);
         self.state.edit(slot).last = last;
         self.mark_moved(slot);
     }
 
     /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids.
     pub(crate) fn displace(&mut self, slot: Slot, direction: Direction, amount: i32) -> bool {
-        let sprite = self.state.sprite(slot);
-        let amount = if amount == 0 { sprite.speed as i32 } else { amount };
-        let cooldown = self.rules.types[sprite.stype.index()].traits.cooldown;
-        if amount == 0 || cooldown > self.age(slot) || direction.x.abs() + direction.y.abs() == 0.0 {
+        let stype = self.state.sprite(slot).stype;
+        if self.rules.types[stype.index()].traits.cooldown > self.age(slot) {
             return false;
         }
-        let rect = sprite.rect;
-        let shift = |component: f64| (component * f64::from(amount)) as i32;
-        let (x, y) = (rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y)));
-        self.place(slot, rect.at(x, y));
+        let Some(rect) = self.shifted(slot, direction, amount) else { return false };
+        self.place(slot, rect);
         self.set_age(slot, 0);
         true
     }
 
-    /// The game's screen, in pixels.
-    pub(crate) fn screen(&self) -> Rect {
-        let State { columns, rows, block, .. } = *self.state;
-        Rect { x: 0, y: 0, w: columns * block, h: rows * block }
+    /// Where a displacement leads; None if it is none.
+    pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
+        let sprite = self.state.sprite(slot);
+        let amount = if amount == 0 { sprite.speed as i32 } else { amount };
+        if amount == 0 || direction.x.abs() + direction.y.abs() == 0.0 {
+            return None;
+        }
+        let rect = sprite.rect;
+        let shift = |component: f64| (component * f64::from(amount)) as i32;
+        Some(rect.at(rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y))))
     }
 
     /// (x, y) of the displacement in this tick.

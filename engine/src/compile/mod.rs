@@ -7,11 +7,13 @@ mod sprites;
 mod terminations;
 
 use crate::Digest;
+use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites as behaviour;
 use crate::ontology::terminations::Condition;
+use crate::rest::may_rest;
 use crate::syntax::{Description, Literal, Param, Section, Word, literal, print_bare};
 use smallvec::SmallVec;
 use std::sync::OnceLock;
@@ -138,6 +140,7 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
     };
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
+    let rests = may_rest(&types, program.effects.iter().map(|info| &info.effect), !program.timed.is_empty());
     // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
@@ -155,6 +158,9 @@ fn compile_with(description: &Description, policy: Policy, messages: u32) -> Res
         draws: classes().any(behaviour::draws) || program.effects.iter().any(|info| info.effect.draws()),
         effects: program.effects,
         edge: program.edge,
+        any_rests: rests.contains(&true),
+        rests,
+        contacts: Contacts::of(&types, &program.passes),
         passes: program.passes,
         timed: program.timed,
         finds_paths: path_obstacles(description).is_some(),

@@ -4,7 +4,7 @@ use super::params::set_trait;
 use super::references::{Subject, references};
 use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{SpriteType, TypeInfo};
+use crate::game::{Action, SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::traits::Traits;
 use crate::syntax::{Description, Param, SpriteLine, Word};
@@ -248,6 +248,10 @@ fn type_info(
         leaf: sprite.descendants.is_empty(),
         incomplete: false,
         unknown_parameters: if policy == Policy::Reference { unknown_parameters } else { 0 },
+        actions: match class.map(SpriteClass::actions) {
+            None | Some([]) => &[Action::Nil],
+            Some(actions) => actions,
+        },
         ground_aware: class.is_some_and(SpriteClass::is_ground_aware),
     }
 }

@@ -54,6 +54,17 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
     }
 }
 
+/// Where passive movement takes a sprite of grid physics; None if nowhere.
+pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
+    let sprite = step.state.sprite(slot);
+    let speed = if sprite.speed == -1.0 { 1.0 } else { sprite.speed };
+    if speed == 0.0 || !sprite.is(flag::ORIENTED) {
+        return None;
+    }
+    let block = f64::from(step.state.block);
+    step.shifted(slot, sprite.orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
+}
+
 /// Moves a sprite where it, or its player, wants to go. A speed of 0 stands for the sprite's own.
 pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, speed: f64) -> Movement {
     if is_continuous(step.rules, step, slot) {

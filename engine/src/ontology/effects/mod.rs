@@ -254,6 +254,24 @@ impl Effect {
         }
     }
 
+    /// Whether it can change, or read the place of, sprites that take no part in the meeting.
+    pub(crate) fn reaches_afar(&self) -> bool {
+        matches!(
+            self,
+            Effect::KillAll { .. }
+                | Effect::SubtractHealthPoints { stype: Some(_), .. }
+                | Effect::UndoAll { .. }
+                | Effect::ChangeSpeed { .. }
+                | Effect::TransformToAll { .. }
+                | Effect::TransformToSingleton { .. }
+                | Effect::TransformIfCount(_)
+                | Effect::UpdateSpawnType { .. }
+                | Effect::ShieldFrom { .. }
+                | Effect::TeleportToExit
+                | Effect::AddTimer { .. }
+        )
+    }
+
     /// Whether it can give speed to a sprite of grid physics that has none.
     pub(crate) fn gives_speed(&self) -> bool {
         matches!(self, Effect::ChangeSpeed { .. } | Effect::WallStop | Effect::WallReverse)
