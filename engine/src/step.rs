@@ -54,7 +54,7 @@ impl Game {
     pub fn start_with(&self, level: &Level, chance: Chance) -> State {
         let rules = &*self.0;
         let (columns, rows) = (level.columns() as i32, level.rows() as i32);
-        let block = rules.square_size.unwrap_or_else(|| 2.max(SCREEN / columns.max(rows)));
+        let block = self.block(level);
         let initial = |on: bool| if on { memory::APPLY_SCORE } else { 0 };
         let mut state = State {
             tick: -1,
@@ -110,6 +110,12 @@ impl Game {
         }
         state.freshen();
         state
+    }
+
+    /// Pixels of a cell.
+    pub(crate) fn block(&self, level: &Level) -> i32 {
+        let side = level.columns().max(level.rows()) as i32;
+        self.0.square_size.unwrap_or_else(|| 2.max(SCREEN / side))
     }
 
     /// Plays one tick. Does nothing once the episode is over; an action that the avatar does not have counts as none.

@@ -197,6 +197,13 @@ impl<'a> Prospect<'a> {
         info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
     }
 
+    /// What a type makes by itself, ammunition apart.
+    pub(super) fn makes(&self, stype: usize) -> &'a [SpriteType] {
+        let class = self.rules.types[stype].class;
+        let able = class.is_some_and(|class| class.is_avatar()) || self.can_make(stype, 0);
+        if able { &self.facts[stype].makes } else { &[] }
+    }
+
     /// The interactions that [`Prospect::live`] is about.
     pub(super) fn encounters(&self) -> &'a [Encounter] {
         self.encounters

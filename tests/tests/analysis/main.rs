@@ -1,7 +1,7 @@
 //! What the analysis proves holds in play: on the corpus, and on the reference's games where they are at hand.
 
 use engine::analysis::Attainable;
-use engine::{Action, Analysis, Game, Level, Outcome, Sampler, Seed, State};
+use engine::{Action, Analysis, Game, Level, Outcome, Rect, Sampler, Seed, SpriteType, State};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tests::workspace_root;
@@ -121,4 +121,42 @@ fn goals_are_attained_as_proved() {
             assert!(analysis.can_lose(), "{name}");
         }
     });
+}
+
+/// Every sprite is where its type can be.
+#[test]
+fn sprites_are_where_they_can_be() {
+    let mut reach = None;
+    let mut looked = 0u64;
+    wander(5, 250, |Case { name, game, .. }, analysis, level, state, _| {
+        if state.tick() < 0 {
+            reach = Some(analysis.reach(level));
+        }
+        let reach = reach.as_ref().expect("the start comes first");
+        if matches!(state.outcome(), Outcome::Stopped(_)) {
+            // Stopped in the middle of a tick.
+            return;
+        }
+        let (columns, rows) = state.size();
+        for record in game.records(state) {
+            let Rect { x, y, w, h } = record.rect;
+            let span = |from: i32, size: i32, limit: i32| {
+                let last = (from.saturating_add(size) - 1).div_euclid(state.block());
+                from.div_euclid(state.block()).max(0)..=last.min(limit - 1)
+            };
+            for row in span(y, h, rows) {
+                for column in span(x, w, columns) {
+                    looked += 1;
+                    let cell = (row * columns + column) as usize;
+                    assert!(
+                        reach.can_be(SpriteType(record.stype), cell),
+                        "{name} tick {}: {} at column {column}, row {row}\n{level}",
+                        state.tick(),
+                        game.name(SpriteType(record.stype))
+                    );
+                }
+            }
+        }
+    });
+    assert!(looked > 100_000, "{looked} cells");
 }
