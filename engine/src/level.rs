@@ -367,6 +367,16 @@ mod tests {
     }
 
     #[test]
+    fn places_split_no_character() {
+        let game = Game::from_source(GAME).unwrap();
+        for text in ["é\n", "\u{feff}é\n", "w\u{fffd}\n蟻蟻\n"] {
+            for problem in game.level(text).unwrap_err().0 {
+                assert!(text.get(problem.span.start..problem.span.end).is_some(), "{problem:?} in {text:?}");
+            }
+        }
+    }
+
+    #[test]
     fn rows_of_another_length() {
         let game = Game::from_source(GAME).unwrap();
         let places = |text: &str| -> Vec<(usize, usize)> {

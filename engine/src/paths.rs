@@ -151,4 +151,14 @@ mod tests {
         assert_eq!(state.first_step((0, 0), (49, 0)).0, None, "the same cell");
         assert_eq!(state.first_step((0, 0), (50, 0)).0, Some(crate::Direction::RIGHT));
     }
+
+    #[test]
+    fn there_is_no_way_from_outside() {
+        let source = "BasicGame obs=wall square_size=1\n  SpriteSet\n    avatar > MovingAvatar\n  LevelMapping\n  InteractionSet\n    avatar wall > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";
+        let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
+        let state = game.start_with(&game.level("A  \n").unwrap(), Chance::from_java(1));
+        for far in [(i32::MAX, i32::MAX), (i32::MIN, 0), (0, i32::MAX)] {
+            assert_eq!((state.first_step(far, (1, 0)).0, state.first_step((0, 0), far).0), (None, None));
+        }
+    }
 }
