@@ -1,12 +1,12 @@
 //! Reading a game file as the reference does (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines
 //! are dropped with a message each, and of each section only the direct children count.
 
+use super::bounds::{long_line, long_name, too_deep};
 use super::description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
     TerminationLine, Word,
 };
 use super::layout::{self, Line};
-use super::parse::{long_line, long_name, too_deep};
 use super::sections;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::limits::MAX_NESTING;
