@@ -1,7 +1,7 @@
 //! Is there a game at all?
 
 use crate::verdict::{Case, Finding, Validator, Verdict};
-use engine::{Action, Outcome};
+use engine::{Action, Analysis, Outcome};
 
 /// The game can be won in principle, is not over in its first tick, and does nothing that the engine stops at.
 ///
@@ -15,8 +15,10 @@ impl Validator for WellFormed {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        if let Some(warning) = case.game.warnings().iter().find(|warning| warning.code == "no-win") {
-            return Verdict::fail(warning.message.clone()).into();
+        if !Analysis::of(case.game).can_win() {
+            let told = case.game.warnings().iter().find(|warning| warning.code == "no-win");
+            let reason = told.map_or("the game cannot be won", |warning| warning.message.as_str());
+            return Verdict::fail(reason).into();
         }
         let mut state = case.game.start(case.level, case.seed);
         let verdict = match case.game.step(&mut state, Action::Nil) {

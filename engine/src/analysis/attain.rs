@@ -9,7 +9,7 @@ use super::requirement::MAX_GOALS;
 use crate::game::{Rules, SpriteType};
 use crate::limits::MAX_TICKS;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::terminations::Condition as Written;
+use crate::ontology::terminations::{Condition as Written, Decision, can_be_held_up};
 use serde::Serialize;
 
 /// Whether the rules can bring a termination about. Every answer but [`Attainable::InPlay`] is proved; that one means
@@ -43,16 +43,17 @@ struct Flux {
 /// [`MAX_GOALS`]; the others are taken for [`Attainable::InPlay`].
 pub(super) fn judge(rules: &Rules, facts: &[Facts], prospect: &Prospect<'_>, goals: &mut [Goal]) {
     let flux = Flux::of(rules, facts, prospect);
-    let stops =
-        rules.terminations.iter().any(|written| matches!(written.condition, Written::StopCounter { .. }));
+    let held_up = can_be_held_up(rules);
     for goal in goals.iter_mut().take(MAX_GOALS) {
         let kinds = match rules.terminations[goal.line].condition {
             Written::MultiSpriteCounterSubTypes { kinds, .. } => Some(kinds),
             _ => None,
         };
         goal.attainable = match flux.judge(&goal.condition, kinds) {
-            // A StopCounter may forbid it for a while.
-            Attainable::AtOnce if stops && !matches!(goal.condition, Condition::Tick(_)) => {
+            // What holds from the start may end the game later, when a StopCounter lets it.
+            Attainable::AtOnce | Attainable::FromStart
+                if held_up && !matches!(goal.condition, Condition::Tick(_)) =>
+            {
                 Attainable::InPlay
             }
             judged => judged,
@@ -197,7 +198,9 @@ impl Analysis {
     fn can_end(&self, win: bool) -> bool {
         for goal in &self.goals {
             let holds = matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce);
-            if holds && goal.win == win {
+            // Where the score or a counter decides, what may be won may be lost.
+            let open = self.game.0.terminations[goal.line].decided_by != Decision::Line;
+            if holds && (goal.win == win || open && !win) {
                 return true;
             }
             if goal.attainable == Attainable::AtOnce {

@@ -53,6 +53,12 @@ pub const NAMES: &[&str] = &[
     "Timeout",
 ];
 
+/// Whether something can keep counting terminations that hold from ending the game.
+pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
+    !rules.can_end
+        || rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }))
+}
+
 impl Termination {
     /// Whether the game ends by it now.
     pub(crate) fn holds(&self, rules: &Rules, state: &State) -> bool {

@@ -38,6 +38,13 @@ fn what_the_rules_can_bring_about() {
     check(RULES, ends, &[AtOnce, InPlay, Never], (false, true));
     let ends = "SpriteCounter stype=gem limit=-1 win=True\nMultiSpriteCounter stype1=gem limit=2 win=True";
     check(RULES, ends, &[Never, InPlay], (true, false));
+    // Who has no score loses.
+    check(RULES, "Timeout limit=9 count_score=True", &[InPlay], (true, true));
+    // A level without bricks is won when the gem goes, not before.
+    let ends = "StopCounter stype1=gem min=True\nSpriteCounter stype=brick win=True";
+    check(RULES, ends, &[InPlay], (true, false));
+    let ends = "SpriteCounter stype=ghost win=False canEnd=False\nTimeout limit=9 win=True";
+    check(RULES, ends, &[InPlay, InPlay], (true, true));
     // A lock whose key cannot be had: not so many, not at all.
     check(RULES, "SpriteCounter stype=safe win=True", &[InPlay], (true, false));
     let dear = RULES.replace("limit=2 subtract", "limit=3 subtract");

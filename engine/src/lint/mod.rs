@@ -1,13 +1,15 @@
 //! What is legal in a game but surely not meant, as far as the meaning of its rules tells. (What the text alone tells, the
 //! parser and the compiler say.)
 
+mod terminations;
+
+pub(crate) use terminations::over_at_start;
+
 use crate::analysis::{Analysis, Deed, Encounter, Motion, Provided};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Game, SpriteType};
-use crate::limits::MAX_TICKS;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::terminations::Condition;
-use crate::syntax::{Param, TerminationLine};
+use crate::syntax::Param;
 
 /// All warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].
 pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
@@ -15,63 +17,11 @@ pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
     linter.rules_that_never_fire(&mut problems);
     linter.terminations(&mut problems);
+    linter.lacking_ends(&mut problems);
     linter.hidden_sprites(&mut problems);
     linter.ignored_parameters(&mut problems);
     linter.lost_avatar(&mut problems);
     problems
-}
-
-/// Terminations that hold when an episode of the level starts, by what the level places; `cells` are its characters.
-pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
-    let rules = &game.0;
-    if rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. })) {
-        return Vec::new();
-    }
-    let mut placed = vec![0_i64; rules.types.len()];
-    for &stype in cells.iter().flat_map(|&symbol| game.places(symbol)) {
-        placed[stype.index()] += 1;
-    }
-    let tree = |written: SpriteType| rules.types[written.index()].tree.iter().copied();
-    let count = |written: SpriteType| tree(written).map(|stype| placed[stype.index()]).sum::<i64>();
-    // What a placed sprite makes may be there before the first check.
-    let made = |written: SpriteType| {
-        let makers = game.sprite_types().filter(|stype| placed[stype.index()] > 0);
-        makers
-            .flat_map(|maker| &rules.types[maker.index()].traits.stypes)
-            .any(|&made| tree(written).any(|t| t == made))
-    };
-    let mut problems = Vec::new();
-    for (end, line) in rules.terminations.iter().zip(&rules.description.terminations) {
-        let (stypes, holds) = match &end.condition {
-            Condition::SpriteCounter { stype, limit } => (&[*stype][..], count(*stype) <= i64::from(*limit)),
-            Condition::SpriteCounterMore { stype, limit } => {
-                (&[*stype][..], count(*stype) >= i64::from(*limit))
-            }
-            Condition::MultiSpriteCounter { stypes, limit, min } => {
-                let sum = stypes.iter().map(|&stype| count(stype)).sum::<i64>();
-                (&stypes[..], sum == i64::from(*limit) || *min && sum > i64::from(*limit))
-            }
-            _ => continue,
-        };
-        if holds && !stypes.iter().any(|&stype| made(stype)) {
-            let counts = stypes.iter().map(|&stype| format!("{} `{}`", count(stype), game.name(stype)));
-            let outcome = if end.win { "won" } else { "lost" };
-            let message = format!(
-                "the level is {outcome} in its first tick: with {}, a {} holds",
-                counts.collect::<Vec<_>>().join(" and "),
-                line.class.text
-            );
-            let problem = Diagnostic::warning("ends-at-once", Span::new(0, 0), message);
-            problems.push(problem.help("place what it counts, or change its `limit=`"));
-        }
-    }
-    problems
-}
-
-/// Where a termination says how many, or else its class.
-fn limit_of(line: &TerminationLine) -> Span {
-    let limit = line.params.iter().rfind(|param| param.key.text == "limit");
-    limit.map_or(line.class.span, Param::span)
 }
 
 struct Linter<'a> {
@@ -178,57 +128,6 @@ impl Linter<'_> {
         })
     }
 
-    /// Terminations that hold at the start or never, and the lack of one that loses.
-    fn terminations(&self, problems: &mut Vec<Diagnostic>) {
-        let lines = &self.game.description().terminations;
-        let all = &self.game.0.terminations;
-        let stoppable = all.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }));
-        for (end, line) in all.iter().zip(lines) {
-            let absent = |stypes: &[SpriteType]| stypes.iter().all(|&stype| !self.at_start(stype));
-            let at_once = match &end.condition {
-                Condition::SpriteCounter { stype, limit } => *limit >= 0 && absent(&[*stype]),
-                Condition::SpriteCounterMore { limit, .. } => *limit <= 0,
-                Condition::MultiSpriteCounter { stypes, limit, min } => {
-                    (*limit == 0 || *min && *limit < 0) && absent(stypes)
-                }
-                Condition::Timeout { limit } => {
-                    if *limit > MAX_TICKS {
-                        let message = format!("an episode has {MAX_TICKS} ticks at most: this never happens");
-                        let problem = Diagnostic::warning("never-ends", limit_of(line), message);
-                        problems.push(problem.help(format!("write a limit below {MAX_TICKS}")));
-                    }
-                    *limit <= 0
-                }
-                _ => false,
-            };
-            if at_once && (!stoppable || matches!(end.condition, Condition::Timeout { .. })) {
-                let message = "this holds at the start of every level: the game is over in its first tick";
-                let problem = Diagnostic::warning("ends-at-once", limit_of(line), message);
-                problems.push(problem.help(match (&end.condition, limit_of(line) == line.class.span) {
-                    (Condition::Timeout { .. }, true) => "add `limit=` and a number of ticks",
-                    (Condition::Timeout { .. }, false) => "set a `limit=` of some ticks",
-                    _ => "let levels place what it counts, or set another `limit=`",
-                }));
-            }
-        }
-        if !lines.is_empty() && all.iter().all(|end| end.win) {
-            let message = "the game cannot be lost before its last tick: no termination has `win=False`";
-            let problem = Diagnostic::warning("no-lose", lines[0].class.span, message);
-            problems.push(problem.help("add a Timeout, or what ends the game badly"));
-        }
-    }
-
-    /// Whether a level can place what counts as this type, or something makes it in the first tick.
-    fn at_start(&self, written: SpriteType) -> bool {
-        self.game.sprite_types().filter(|&stype| self.analysis.applies(written, stype)).any(|stype| {
-            let maker = |other: SpriteType| {
-                let facts = self.analysis.facts(other);
-                !facts.symbols.is_empty() && facts.makes.contains(&stype)
-            };
-            !self.analysis.facts(stype).symbols.is_empty() || self.game.sprite_types().any(maker)
-        })
-    }
-
     /// Sprites that take part in rules and are drawn under scenery that takes part in none.
     fn hidden_sprites(&self, problems: &mut Vec<Diagnostic>) {
         let rules = &self.game.0;
@@ -332,11 +231,11 @@ impl Linter<'_> {
 mod tests {
     use crate::Game;
 
-    const GAME: &str = "\
+    pub(super) const GAME: &str = "\
 BasicGame
     SpriteSet
         grass > Immovable
-        nest > SpawnPoint stype=chick prob=0.5
+        nest > SpawnPoint stype=chick prob=0.5 total=9
         chick > RandomNPC
         stone > Immovable
         fence > Immovable
@@ -359,8 +258,9 @@ BasicGame
         Timeout limit=300 win=True
 ";
 
+    /// The codes and lines of the warnings about the game with something replaced.
     #[track_caller]
-    fn check(replace: &str, with: &str, expect: &[(&str, usize)]) {
+    pub(super) fn check(replace: &str, with: &str, expect: &[(&str, usize)]) {
         assert!(GAME.contains(replace), "{replace}");
         let source = GAME.replace(replace, with);
         let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}"));
@@ -393,20 +293,6 @@ BasicGame
     }
 
     #[test]
-    fn terminations_at_the_wrong_time() {
-        check("stype=nest win", "stype=chick win", &[]);
-        check("nest > SpawnPoint stype=chick prob=0.5", "nest > Immovable", &[("never-there", 5)]);
-        check("Timeout limit=300", "Timeout limit=0", &[("ends-at-once", 24)]);
-        check("Timeout limit=300", "Timeout limit=3000", &[("never-ends", 24)]);
-        check(
-            "SpriteCounter stype=nest win=False",
-            "SpriteCounterMore stype=nest win=False",
-            &[("ends-at-once", 23)],
-        );
-        check("stype=nest win=False", "stype=nest win=True", &[("no-lose", 23)]);
-    }
-
-    #[test]
     fn sprites_under_scenery() {
         let late = GAME
             .replace("        grass > Immovable\n", "")
@@ -434,14 +320,5 @@ BasicGame
         let mut state = game.start(&game.level("A.n\n").unwrap(), crate::Seed::from_text("any"));
         game.step(&mut state, crate::Action::Right);
         assert_eq!(game.actions(&state), [crate::Action::Nil], "the warning is wrong: the player finds it");
-    }
-
-    #[test]
-    fn levels_that_are_over_at_once() {
-        let game = Game::from_source(GAME).unwrap();
-        assert!(game.level("A.n\n").unwrap().warnings().is_empty());
-        let over = game.level("A..\n").unwrap();
-        assert_eq!(over.warnings()[0].code, "ends-at-once");
-        assert!(over.warnings()[0].message.contains("lost"), "{}", over.warnings()[0].message);
     }
 }

@@ -1,0 +1,274 @@
+//! Terminations that end a game too early, or never.
+
+use super::Linter;
+use crate::analysis::{Attainable, Condition as Counted, Goal};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::game::{Game, SpriteType};
+use crate::limits::MAX_TICKS;
+use crate::ontology::terminations::{Condition, Decision, can_be_held_up};
+use crate::syntax::{Param, TerminationLine};
+
+/// Terminations that hold when an episode of the level starts, by what the level places; `cells` are its characters.
+pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
+    let rules = &game.0;
+    if can_be_held_up(rules) {
+        return Vec::new();
+    }
+    let mut placed = vec![0_i64; rules.types.len()];
+    for &stype in cells.iter().flat_map(|&symbol| game.places(symbol)) {
+        placed[stype.index()] += 1;
+    }
+    let tree = |written: SpriteType| rules.types[written.index()].tree.iter().copied();
+    let count = |written: SpriteType| tree(written).map(|stype| placed[stype.index()]).sum::<i64>();
+    // What a placed sprite makes may be there before the first check.
+    let made = |written: SpriteType| {
+        let makers = game.sprite_types().filter(|stype| placed[stype.index()] > 0);
+        makers
+            .flat_map(|maker| &rules.types[maker.index()].traits.stypes)
+            .any(|&made| tree(written).any(|t| t == made))
+    };
+    let mut problems = Vec::new();
+    for (end, line) in rules.terminations.iter().zip(&rules.description.terminations) {
+        let (stypes, holds) = match &end.condition {
+            Condition::SpriteCounter { stype, limit } => (&[*stype][..], count(*stype) <= i64::from(*limit)),
+            Condition::SpriteCounterMore { stype, limit } => {
+                (&[*stype][..], count(*stype) >= i64::from(*limit))
+            }
+            Condition::MultiSpriteCounter { stypes, limit, min } => {
+                let sum = stypes.iter().map(|&stype| count(stype)).sum::<i64>();
+                (&stypes[..], sum == i64::from(*limit) || *min && sum > i64::from(*limit))
+            }
+            _ => continue,
+        };
+        if holds && !stypes.iter().any(|&stype| made(stype)) {
+            let counts = stypes.iter().map(|&stype| format!("{} `{}`", count(stype), game.name(stype)));
+            let outcome = match end.decided_by {
+                Decision::Line if end.win => "won",
+                Decision::Line => "lost",
+                _ => "over",
+            };
+            let message = format!(
+                "the level is {outcome} in its first tick: with {}, a {} holds",
+                counts.collect::<Vec<_>>().join(" and "),
+                line.class.text
+            );
+            let problem = Diagnostic::warning("ends-at-once", Span::new(0, 0), message);
+            problems.push(problem.help("place what it counts, or change its `limit=`"));
+        }
+    }
+    problems
+}
+
+/// Where a termination says how many, or else its class.
+fn limit_of(line: &TerminationLine) -> Span {
+    let limit = line.params.iter().rfind(|param| param.key.text == "limit");
+    limit.map_or(line.class.span, Param::span)
+}
+
+impl Linter<'_> {
+    /// Terminations that hold at the start or never, and the lack of one that can come to hold.
+    pub(super) fn terminations(&self, problems: &mut Vec<Diagnostic>) {
+        let lines = &self.game.description().terminations;
+        let all = &self.game.0.terminations;
+        let stoppable = can_be_held_up(&self.game.0);
+        for (end, line) in all.iter().zip(lines) {
+            let absent = |stypes: &[SpriteType]| stypes.iter().all(|&stype| !self.at_start(stype));
+            let at_once = match &end.condition {
+                Condition::SpriteCounter { stype, limit } => *limit >= 0 && absent(&[*stype]),
+                Condition::SpriteCounterMore { limit, .. } => *limit <= 0,
+                Condition::MultiSpriteCounter { stypes, limit, min } => {
+                    (*limit == 0 || *min && *limit < 0) && absent(stypes)
+                }
+                Condition::Timeout { limit } => {
+                    if *limit > MAX_TICKS {
+                        let message = format!("an episode has {MAX_TICKS} ticks at most: this never happens");
+                        let problem = Diagnostic::warning("never-ends", limit_of(line), message);
+                        problems.push(problem.help(format!("write a limit below {MAX_TICKS}")));
+                    }
+                    *limit <= 0
+                }
+                _ => false,
+            };
+            if at_once && (!stoppable || matches!(end.condition, Condition::Timeout { .. })) {
+                let message = "this holds at the start of every level: the game is over in its first tick";
+                let problem = Diagnostic::warning("ends-at-once", limit_of(line), message);
+                problems.push(problem.help(match (&end.condition, limit_of(line) == line.class.span) {
+                    (Condition::Timeout { .. }, true) => "add `limit=` and a number of ticks",
+                    (Condition::Timeout { .. }, false) => "set a `limit=` of some ticks",
+                    _ => "let levels place what it counts, or set another `limit=`",
+                }));
+            }
+        }
+    }
+
+    /// That the rules cannot bring about a win, or a loss, unless another warning says why.
+    pub(super) fn lacking_ends(&self, problems: &mut Vec<Diagnostic>) {
+        if problems.iter().any(|problem| problem.code == "ends-at-once") {
+            return;
+        }
+        if !self.analysis.can_win() {
+            self.lacking_end(true, "the game cannot be won", problems);
+        }
+        if !self.analysis.can_lose() {
+            self.lacking_end(false, "the game cannot be lost before its last tick", problems);
+        }
+    }
+
+    fn lacking_end(&self, win: bool, fault: &str, problems: &mut Vec<Diagnostic>) {
+        let code = if win { "no-win" } else { "no-lose" };
+        let lines = &self.game.description().terminations;
+        let mut goals = self.analysis.goals().iter().filter(|goal| goal.win == win).peekable();
+        let (line, reason, help) = if goals.peek().is_some() {
+            let told = goals.find_map(|goal| Some((&lines[goal.line], self.unattained(goal)?)));
+            let Some((line, (reason, help))) = told else { return };
+            (line, reason, help)
+        } else {
+            // That none wins, the compiler tells.
+            let Some(first) = lines.first().filter(|_| !win) else { return };
+            let reason = "no termination has `win=False`".to_owned();
+            (first, reason, "add a Timeout, or what ends the game badly".to_owned())
+        };
+        problems.push(Diagnostic::warning(code, line.class.span, format!("{fault}: {reason}")).help(help));
+    }
+
+    /// Why play does not bring a goal about, and what would help; None if another warning says so.
+    fn unattained(&self, goal: &Goal) -> Option<(String, String)> {
+        let stypes = match &self.game.0.terminations[goal.line].condition {
+            Condition::SpriteCounter { stype, .. }
+            | Condition::SpriteCounterMore { stype, .. }
+            | Condition::MultiSpriteCounterSubTypes { stype, .. } => std::slice::from_ref(stype),
+            Condition::MultiSpriteCounter { stypes, .. } => stypes,
+            Condition::Timeout { .. } | Condition::StopCounter { .. } => &[],
+        };
+        let names = || {
+            let names = stypes.iter().map(|&stype| format!("`{}`", self.game.name(stype)));
+            names.collect::<Vec<_>>().join(" and ")
+        };
+        let (verb, limit) = match (&goal.condition, goal.attainable) {
+            (_, Attainable::InPlay | Attainable::AtOnce) => {
+                let reason = "another termination holds at the start of every level".to_owned();
+                return Some((reason, "let levels place what that one counts".to_owned()));
+            }
+            (Counted::Tick(_), _) => return None,
+            (Counted::AtMost(_, limit), _) | (Counted::Exactly(_, limit @ ..=0), _) => ("lowers", *limit),
+            (Counted::AtLeast(_, limit), _) => ("raises", *limit),
+            (Counted::Exactly(_, limit), _) => ("changes", *limit),
+        };
+        if limit < 0 {
+            let reason = format!("the number of {} is never below 0", names());
+            return Some((reason, "set another `limit=`".to_owned()));
+        }
+        let there = stypes.iter().any(|&stype| !self.tree(stype).is_empty());
+        let told = !there || stypes.iter().any(|&stype| self.has_idle_rules(stype));
+        let reason = format!("nothing {verb} the number of {}", names());
+        (!told).then(|| (reason, format!("add a rule that {verb} it, or another termination")))
+    }
+
+    /// Whether sprites that count as this type would change by a rule that never happens, of which another warning tells.
+    fn has_idle_rules(&self, written: SpriteType) -> bool {
+        let counts = |side: SpriteType| self.analysis.applies(side, written);
+        let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
+        encounters.any(|encounter| {
+            (counts(encounter.first) || encounter.second.is_some_and(counts))
+                && self.idle(encounter).is_some()
+        })
+    }
+
+    /// Whether a level can place what counts as this type, or something makes it in the first tick.
+    fn at_start(&self, written: SpriteType) -> bool {
+        self.game.sprite_types().filter(|&stype| self.analysis.applies(written, stype)).any(|stype| {
+            let maker = |other: SpriteType| {
+                let facts = self.analysis.facts(other);
+                !facts.symbols.is_empty() && facts.makes.contains(&stype)
+            };
+            !self.analysis.facts(stype).symbols.is_empty() || self.game.sprite_types().any(maker)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Game;
+    use crate::lint::tests::{GAME, check};
+
+    #[test]
+    fn terminations_at_the_wrong_time() {
+        check("stype=nest win", "stype=chick win", &[]);
+        let immortal = [("never-there", 5), ("no-lose", 23)];
+        check("nest > SpawnPoint stype=chick prob=0.5 total=9", "nest > Immovable", &immortal);
+        check("Timeout limit=300", "Timeout limit=0", &[("ends-at-once", 24)]);
+        check("Timeout limit=300", "Timeout limit=3000", &[("never-ends", 24)]);
+        check(
+            "SpriteCounter stype=nest win=False",
+            "SpriteCounterMore stype=nest win=False",
+            &[("ends-at-once", 23)],
+        );
+        check("stype=nest win=False", "stype=nest win=True", &[("no-lose", 23)]);
+    }
+
+    /// What is said of the game with this TerminationSet and one rule more.
+    #[track_caller]
+    fn check_ends(rule: &str, terminations: &str, expect: &[&str]) {
+        let (head, _) = GAME.split_once("        SpriteCounter").unwrap();
+        let head = head.replace("TerminationSet", &format!("    {rule}\n    TerminationSet"));
+        let game = Game::from_source(&format!("{head}        {terminations}\n")).unwrap();
+        let told: Vec<&str> = game.warnings().iter().map(|warning| warning.message.as_str()).collect();
+        assert_eq!(told, expect);
+    }
+
+    #[test]
+    fn ends_that_never_come() {
+        let lost = "Timeout limit=300 win=False";
+        let rule = "stone chick > killSprite";
+        check_ends(rule, &format!("SpriteCounter stype=stone win=True\n        {lost}"), &[]);
+        let reason = "the game cannot be won: nothing lowers the number of `fence`";
+        check_ends(rule, &format!("SpriteCounter stype=fence win=True\n        {lost}"), &[reason]);
+        let reason = "the game cannot be won: nothing raises the number of `stone`";
+        check_ends(
+            rule,
+            &format!("SpriteCounterMore stype=stone limit=4 win=True\n        {lost}"),
+            &[reason],
+        );
+        let sum = "MultiSpriteCounter stype1=stone stype2=fence limit=3 win=True";
+        let turn = "stone chick > transformTo stype=fence";
+        let reason = "the game cannot be won: nothing changes the number of `stone` and `fence`";
+        check_ends(turn, &format!("{sum}\n        {lost}"), &[reason]);
+        let reason = "the game cannot be won: the number of `stone` is never below 0";
+        check_ends(rule, &format!("SpriteCounter stype=stone limit=-1 win=True\n        {lost}"), &[reason]);
+        // What is told of already is told once.
+        let never = "an episode has 2000 ticks at most: this never happens";
+        check_ends(rule, &format!("Timeout limit=9000 win=True\n        {lost}"), &[never]);
+        let at_once = "this holds at the start of every level: the game is over in its first tick";
+        check_ends(rule, "SpriteCounter stype=stone win=True\n        Timeout limit=0", &[at_once]);
+        let free = "this rule never fires: it needs 2 `egg`, and nothing gives any";
+        let game = GAME.replace(
+            "egg avatar > collectResource",
+            "fence avatar > killIfOtherHasMore resource=egg limit=2",
+        );
+        let game = game.replace("Timeout limit=300 win=True", "SpriteCounter stype=fence win=True");
+        let game = game.replace(
+            "chick avatar > killIfOtherHasMore resource=egg limit=2 scoreChange=1",
+            "egg avatar > stepBack",
+        );
+        let game = Game::from_source(&game).unwrap();
+        assert_eq!(game.warnings().iter().map(|warning| &warning.message).collect::<Vec<_>>(), [free]);
+        // A score of 0 loses.
+        check_ends(rule, "Timeout limit=100 count_score=True", &[]);
+    }
+
+    #[test]
+    fn what_holds_from_the_start_may_be_held_up() {
+        // This holds from the start, and ends nothing.
+        let ends = "SpriteCounterMore stype=stone win=True canEnd=False\n        Timeout limit=300 win=False";
+        check_ends("stone chick > killSprite", ends, &[]);
+    }
+
+    #[test]
+    fn levels_that_are_over_at_once() {
+        let game = Game::from_source(GAME).unwrap();
+        assert!(game.level("A.n\n").unwrap().warnings().is_empty());
+        let over = game.level("A..\n").unwrap();
+        assert_eq!(over.warnings()[0].code, "ends-at-once");
+        assert!(over.warnings()[0].message.contains("lost"), "{}", over.warnings()[0].message);
+    }
+}
