@@ -4,6 +4,7 @@
 //! seed and budget plays the same episode on every machine. A planner's choices, its imagined chance and the game's own
 //! chance are three separate streams: it never sees the game's true future (`docs/decisions/0003-determinism.md`).
 
+mod batch;
 mod do_nothing;
 mod mcts;
 mod planner;
@@ -11,6 +12,7 @@ mod play;
 mod random;
 mod registry;
 
+pub use batch::{Batch, BatchError};
 pub use do_nothing::DoNothing;
 pub use mcts::{Mcts, MctsConfig};
 pub use planner::{Budget, Planner};
