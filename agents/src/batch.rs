@@ -9,7 +9,8 @@
 use engine::{Action, Game, Level, Outcome, Seed, State};
 use rayon::prelude::*;
 
-/// Steps that are worth handing to another thread: fewer take less time than waking it.
+/// Steps that a thread takes on at a time: many enough to be worth its waking, few enough that none waits long for the
+/// last one to finish.
 const STEPS_OF_A_TASK: usize = 64;
 
 /// States of one game, each with the episode that it is in. Those of one number are called a lane.
@@ -218,10 +219,11 @@ impl Batch {
             return Err(BatchError::Plans { actions: plans.len(), lanes: self.len() });
         }
         if ticks > 0 {
-            let game = &self.game;
+            let (game, task) = (&self.game, STEPS_OF_A_TASK.div_ceil(ticks));
             (&mut self.states, plans.par_chunks_exact(ticks), &mut self.outcomes, &mut self.scores)
                 .into_par_iter()
-                .with_min_len(STEPS_OF_A_TASK.div_ceil(ticks))
+                .with_min_len(task)
+                .with_max_len(task)
                 .for_each(|(state, plan, outcome, score)| {
                     plan.iter().for_each(|&action| *outcome = game.step(state, action));
                     *score = state.score();
