@@ -2,7 +2,7 @@
 //!
 //! Both play the same episodes of each corpus game, in turns, so that whatever else the machine does falls on both; the
 //! best round of each counts. That the states are the same is asserted. A first round is left out: while the buffers of the
-//! states still grow, threads wait for one another's memory, and two of them are only half as much faster.
+//! states still grow, threads wait for one another's memory, and a second one gains only half as much.
 
 #![allow(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measured")]

@@ -201,11 +201,27 @@ mod tests {
     }
 
     #[test]
-    fn a_game_over_at_the_start_is_not_well_formed() {
-        let game = Game::from_source(&GAME.replace("limit=60", "limit=0")).unwrap();
-        let level = game.level(GOOD).unwrap();
-        let report = Panel::new(&Criteria::default()).screen(&game, &level, Seed::from_text("over"));
-        assert_eq!(report.judgements.len(), 1);
-        assert_eq!(report.first_obstacle().unwrap().criterion, "well-formed");
+    fn a_game_over_at_the_start_or_never_won_is_not_well_formed() {
+        let faults = [
+            ("limit=60", "limit=0", "lost in its first tick"),
+            (
+                "goal avatar > killSprite scoreChange=1",
+                "goal avatar > stepBack",
+                "nothing lowers the number of",
+            ),
+            ("SpriteCounter stype=goal win=True", "Timeout limit=2500 win=True", "cannot be won"),
+        ];
+        for (part, fault, reason) in faults {
+            let game = Game::from_source(&GAME.replace(part, fault)).unwrap();
+            let level = game.level(GOOD).unwrap();
+            let report = Panel::new(&Criteria::default()).screen(&game, &level, Seed::from_text("over"));
+            assert_eq!(report.judgements.len(), 1);
+            let obstacle = report.first_obstacle().unwrap();
+            assert_eq!(obstacle.criterion, "well-formed");
+            let Verdict::Fail { reason: told, .. } = &obstacle.finding.verdict else {
+                panic!("{obstacle:?}")
+            };
+            assert!(told.0.contains(reason), "{told:?}");
+        }
     }
 }
