@@ -4,7 +4,13 @@ use engine::analysis::Attainable;
 use engine::{Action, Analysis, Game, Level, Outcome, Sampler, Seed, State};
 use std::fs;
 use std::path::{Path, PathBuf};
+use tests::any_game::any_game;
+use tests::choices::{Choices, random_bytes};
 use tests::workspace_root;
+
+/// Games that are made up, and ticks of each.
+const GAMES: usize = 4000;
+const TICKS: usize = 40;
 
 /// A game with its levels.
 struct Case {
@@ -121,4 +127,40 @@ fn goals_are_attained_as_proved() {
             assert!(analysis.can_lose(), "{name}");
         }
     });
+}
+
+/// Games that nobody wrote are neither won nor lost after their first tick where that is proved impossible.
+#[test]
+fn any_game_ends_as_proved() {
+    let mut sampler = Seed::from_text("ends").sampler();
+    let (mut proofs, mut ends) = (0, 0);
+    for _ in 0..GAMES {
+        let length = sampler.between(0, 500);
+        let made = any_game(&mut Choices::new(&random_bytes(&mut sampler, length)));
+        let Ok(game) = Game::from_source_as_reference(&made.source) else { continue };
+        let Ok(level) = game.level(&made.level) else { continue };
+        let analysis = Analysis::of(&game);
+        proofs += u32::from(!analysis.can_win()) + u32::from(!analysis.can_lose());
+        let mut state = game.start(&level, Seed::from_text("ends"));
+        for _ in 0..TICKS {
+            game.step(&mut state, *sampler.choose(&Action::ALL));
+        }
+        if state.tick() > 0 {
+            let possible = match state.outcome() {
+                Outcome::Won => analysis.can_win(),
+                Outcome::Lost => analysis.can_lose(),
+                _ => continue,
+            };
+            assert!(
+                possible,
+                "{:?} at tick {}\n{}\n{}",
+                state.outcome(),
+                state.tick(),
+                made.source,
+                made.level
+            );
+            ends += 1;
+        }
+    }
+    assert!(proofs > 1000 && ends > 50, "{proofs} proofs, {ends} ends");
 }
