@@ -183,6 +183,11 @@ impl TypeInfo {
         self.traits.stypes.first().copied().filter(|_| has)
     }
 
+    /// Whether its sprites are taken for avatars when a level starts.
+    pub(crate) fn is_like_avatar(&self) -> bool {
+        self.traits.is_avatar || self.class.is_some_and(SpriteClass::is_avatar)
+    }
+
     /// Whether the tree names a type twice: a type declared below itself does (`spec/01` §1.6.3).
     pub(crate) fn repeats(&self) -> bool {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)

@@ -186,21 +186,22 @@ impl Analysis {
     /// Whether some level can be won by playing it. False only if it is proved that none can: every termination that wins
     /// never holds, or holds only where a level starts so, or comes after one that ends every game in its first tick.
     pub fn can_win(&self) -> bool {
-        self.can_end(true)
+        self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
     /// Whether some level can be lost by playing it, the reference's own limit of ticks apart. False only if it is proved
     /// that none can, as for [`Analysis::can_win`].
     pub fn can_lose(&self) -> bool {
-        self.can_end(false)
+        self.can_end(false, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    fn can_end(&self, win: bool) -> bool {
-        for goal in &self.goals {
-            let holds = matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce);
+    /// Whether a termination with that sign can be the first to hold; `holds` says which ones, with their indices, can.
+    pub(super) fn can_end(&self, win: bool, holds: impl Fn(usize, &Goal) -> bool) -> bool {
+        let rules = &*self.game.0;
+        for (at, goal) in self.goals.iter().enumerate() {
             // Where the score or a counter decides, what may be won may be lost.
-            let open = self.game.0.terminations[goal.line].decided_by != Decision::Line;
-            if holds && (goal.win == win || open && !win) {
+            let open = rules.terminations[goal.line].decided_by != Decision::Line;
+            if holds(at, goal) && (goal.win == win || open && !win) {
                 return true;
             }
             if goal.attainable == Attainable::AtOnce {

@@ -126,6 +126,8 @@ pub struct Encounter {
     pub line: usize,
     /// The effect, with its fine print.
     pub(super) effect: u16,
+    /// The effect's place among the keywords, for shields.
+    pub(super) keyword: u16,
 }
 
 impl Encounter {
@@ -152,17 +154,18 @@ impl Encounter {
 
 /// All interactions, those with the edge first, in the order in which a tick goes through them, repeats left out.
 pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
-    let mut seen: Vec<(SpriteType, Option<SpriteType>, u16)> = Vec::new();
+    let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
+    // Nothing shields from the edge.
     let edge = rules.edge.iter().filter(|(stype, _)| *stype != SpriteType::NONE);
-    let edge = edge.map(|&(stype, effect)| (stype, None, effect));
-    let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect));
+    let edge = edge.map(|&(stype, effect)| (stype, None, effect, u16::MAX));
+    let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect, pass.keyword));
     for key in edge.chain(pairs) {
         // Repeats of a pass, and of an edge effect, stand close together.
         if !seen.iter().rev().take(64).any(|other| *other == key) {
             seen.push(key);
         }
     }
-    let encounter = |(first, second, effect): (SpriteType, Option<SpriteType>, u16)| {
+    let encounter = |(first, second, effect, keyword): (SpriteType, Option<SpriteType>, u16, u16)| {
         let info = &rules.effects[usize::from(effect)];
         let (mut deeds, mut provided) = neutral(&info.effect);
         if let Effect::AddTimer { timed } = info.effect {
@@ -178,7 +181,7 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
             _ if info.apply_score => info.score_change,
             _ => 0,
         };
-        Encounter { first, second, deeds, provided, score, line: info.line, effect }
+        Encounter { first, second, deeds, provided, score, line: info.line, effect, keyword }
     };
     seen.into_iter().map(encounter).collect()
 }

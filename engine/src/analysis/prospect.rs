@@ -25,6 +25,8 @@ pub(super) struct Prospect<'a> {
     pub(super) timed: Vec<bool>,
     /// By type: it or a relative can be there, so that rules on it apply.
     alive: Vec<bool>,
+    /// By type: as a resource, it can be held beyond its limit.
+    unlimited: Vec<bool>,
 }
 
 /// What a prospect starts from.
@@ -74,6 +76,7 @@ impl<'a> Prospect<'a> {
             live: vec![false; encounters.len()],
             timed: vec![false; rules.timed.len()],
             alive: none,
+            unlimited: unlimited(rules),
         };
         there.into_iter().for_each(|stype| prospect.add(stype));
         for stype in making {
@@ -114,6 +117,7 @@ impl<'a> Prospect<'a> {
             for (kind, &stype) in fact.makes.iter().enumerate() {
                 new |= self.can_make(at, kind) && self.make(stype);
             }
+            new |= self.leaves_walls(at) && self.make(SpriteType(0));
         }
         for (at, encounter) in self.encounters.iter().enumerate() {
             if !self.live[at] {
@@ -156,7 +160,7 @@ impl<'a> Prospect<'a> {
                             Deed::Clone => self.make(stype),
                             _ => {
                                 let traits = &rules.types[stype.index()].traits;
-                                traits.is_resource && traits.value > 0 && self.hold(stype, 1)
+                                traits.is_resource && traits.value > 0 && self.hold(traits.resource, 1)
                             }
                         };
                     }
@@ -170,17 +174,26 @@ impl<'a> Prospect<'a> {
 
     /// Somebody comes to hold so many of a resource, if its limit allows.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
-        let fits = amount <= self.rules.types[resource.index()].resource_limit;
+        let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };
         !std::mem::replace(&mut held[resource.index()], true)
+    }
+
+    /// Whether the limit of a resource allows to hold so much of it.
+    pub(super) fn is_within(&self, resource: SpriteType, amount: i32) -> bool {
+        self.is_unlimited(resource) || amount <= self.rules.types[resource.index()].resource_limit
+    }
+
+    /// Whether some rule gives a resource whatever its limit.
+    pub(super) fn is_unlimited(&self, resource: SpriteType) -> bool {
+        self.unlimited[resource.index()]
     }
 
     /// Whether what an interaction asks for can ever be so.
     fn can_happen(&self, provided: Provided) -> bool {
         match (&self.held, provided) {
             (Some(held), Provided::Holds(_, resource, amount)) => {
-                let within = amount <= self.rules.types[resource.index()].resource_limit;
-                amount <= 0 || (held[resource.index()] && within)
+                amount <= 0 || (held[resource.index()] && self.is_within(resource, amount))
             }
             (Some(_), Provided::Chance(prob)) => prob > 0.0,
             _ => true,
@@ -192,9 +205,31 @@ impl<'a> Prospect<'a> {
         let info = &self.rules.types[maker];
         let Some(held) = &self.held else { return true };
         if info.class.is_some_and(|class| class.is_avatar()) {
-            return info.traits.ammo.get(kind).is_none_or(|ammo| held[ammo.index()]);
+            return self.ammo(maker, kind).is_none_or(|ammo| held[ammo.index()]);
         }
         info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
+    }
+
+    /// Whether a type leaves behind what has the number 0, whatever it is told to: all but the first sprite of it do.
+    fn leaves_walls(&self, stype: usize) -> bool {
+        self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
+    }
+
+    /// What an avatar needs to make sprites of its `kind`-th type.
+    fn ammo(&self, maker: usize, kind: usize) -> Option<SpriteType> {
+        let traits = &self.rules.types[maker].traits;
+        // Undeclared types are not among what it makes: then the two lists do not match.
+        let matched = !traits.stypes.contains(&SpriteType::NONE);
+        traits.ammo.get(kind).copied().filter(|&ammo| matched && ammo != SpriteType::NONE)
+    }
+
+    /// What a type can make by itself, and the ammunition that each costs.
+    pub(super) fn makes(&self, maker: usize) -> Vec<(SpriteType, Option<SpriteType>)> {
+        let avatar = self.rules.types[maker].class.is_some_and(|class| class.is_avatar());
+        let made = self.facts[maker].makes.iter().enumerate();
+        let made = made.filter(|(kind, _)| self.can_make(maker, *kind));
+        let made = made.map(|(kind, &made)| (made, self.ammo(maker, kind).filter(|_| avatar)));
+        made.chain(self.leaves_walls(maker).then_some((SpriteType(0), None))).collect()
     }
 
     /// The interactions that [`Prospect::live`] is about.
@@ -206,4 +241,22 @@ impl<'a> Prospect<'a> {
     pub(super) fn can_hold(&self, resource: SpriteType, amount: i32) -> bool {
         self.can_happen(Provided::Holds(Side::First, resource, amount))
     }
+}
+
+/// By type: some rule, or the use of it as ammunition, gives it as a resource whatever its limit.
+fn unlimited(rules: &Rules) -> Vec<bool> {
+    let mut unlimited = vec![false; rules.types.len()];
+    let mut mark =
+        |stype: SpriteType| unlimited.get_mut(stype.index()).into_iter().for_each(|one| *one = true);
+    for info in &rules.effects {
+        match info.effect {
+            Effect::KillIfOtherHasMore { resource, limit, subtract: true } if limit < 0 => mark(resource),
+            Effect::SpawnIf { resource, spend, .. } if spend < 0 => mark(resource),
+            _ => {}
+        }
+    }
+    for traits in rules.types.iter().map(|info| &info.traits).filter(|traits| traits.ammo_cost < 0) {
+        traits.ammo.iter().for_each(|&ammo| mark(ammo));
+    }
+    unlimited
 }

@@ -7,7 +7,7 @@ use super::*;
 use crate::state::State;
 use std::path::{Path, PathBuf};
 
-fn game(sprites: &str, mapping: &str, interactions: &str, terminations: &str) -> Game {
+pub(super) fn game(sprites: &str, mapping: &str, interactions: &str, terminations: &str) -> Game {
     let indent =
         |text: &str| text.lines().map(|line| format!("    {}\n", line.trim_end())).collect::<String>();
     let source = format!(
@@ -26,7 +26,7 @@ fn roles(analysis: &Analysis, names: &str) -> String {
     names.split(' ').map(role).collect::<Vec<_>>().join(", ")
 }
 
-fn named(analysis: &Analysis, name: &str) -> SpriteType {
+pub(super) fn named(analysis: &Analysis, name: &str) -> SpriteType {
     analysis.game().sprite_type(name).unwrap_or_else(|| panic!("no sprite named {name}"))
 }
 
@@ -35,7 +35,7 @@ fn names(analysis: &Analysis, types: &[SpriteType]) -> String {
 }
 
 /// A vault: coins open the gate, a cloak makes the thief a ghost that passes the fence.
-fn vault() -> Analysis {
+pub(super) fn vault() -> Analysis {
     Analysis::of(&game(
         "floor > Immovable hidden=True\nwall > Immovable\nfence > Immovable\ncoin > Resource limit=4 value=2\n\
          cloak > Immovable\ngate > Door\ncrown > Door\nspike > Immovable\nguard > Chaser stype=thief cooldown=2\n\

@@ -1,7 +1,9 @@
 //! What the analysis proves holds in play: on the corpus, and on the reference's games where they are at hand.
 
-use engine::analysis::Attainable;
-use engine::{Action, Analysis, Game, Level, Outcome, Sampler, Seed, State};
+mod invented;
+
+use engine::analysis::{Attainable, Reach};
+use engine::{Action, Analysis, Game, Level, Outcome, Rect, Sampler, Seed, SpriteType, State};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tests::any_game::any_game;
@@ -11,6 +13,8 @@ use tests::workspace_root;
 /// Games that are made up, and ticks of each.
 const GAMES: usize = 4000;
 const TICKS: usize = 40;
+/// Games that are invented to be played; most of them compile.
+const INVENTED: u64 = 400;
 
 /// A game with its levels.
 struct Case {
@@ -129,7 +133,8 @@ fn goals_are_attained_as_proved() {
     });
 }
 
-/// Games that nobody wrote are neither won nor lost after their first tick where that is proved impossible.
+/// Games that nobody wrote are neither won nor lost after their first tick where that is proved impossible, and their
+/// sprites stay where they can be.
 #[test]
 fn any_game_ends_as_proved() {
     let mut sampler = Seed::from_text("ends").sampler();
@@ -142,8 +147,11 @@ fn any_game_ends_as_proved() {
         let analysis = Analysis::of(&game);
         proofs += u32::from(!analysis.can_win()) + u32::from(!analysis.can_lose());
         let mut state = game.start(&level, Seed::from_text("ends"));
+        let (reach, case) =
+            (analysis.reach(&level), Case { name: made.source.clone(), game, levels: Vec::new() });
         for _ in 0..TICKS {
-            game.step(&mut state, *sampler.choose(&Action::ALL));
+            case.game.step(&mut state, *sampler.choose(&Action::ALL));
+            look(&case, &reach, &level, &state);
         }
         if state.tick() > 0 {
             let possible = match state.outcome() {
@@ -163,4 +171,95 @@ fn any_game_ends_as_proved() {
         }
     }
     assert!(proofs > 1000 && ends > 50, "{proofs} proofs, {ends} ends");
+}
+
+/// Every sprite is where its type can be, whatever is played, in games that somebody wrote.
+#[test]
+fn sprites_are_where_they_can_be() {
+    let mut reach = None;
+    let mut looked = 0;
+    wander(5, 250, |case, analysis, level, state, _| {
+        if state.tick() < 0 {
+            reach = Some(analysis.reach(level));
+        }
+        looked += look(case, reach.as_ref().expect("the start comes first"), level, state);
+    });
+    assert!(looked > 100_000, "{looked} cells");
+}
+
+/// Levels of our own can be won, and nothing that says otherwise is a proof.
+#[test]
+fn the_goals_of_the_corpus_are_in_reach() {
+    for Case { name, game, levels } in games(&workspace_root().join("corpora")) {
+        let analysis = Analysis::of(&game);
+        for level in &levels {
+            let reach = analysis.reach(level);
+            assert!(!reach.is_coarse() && reach.can_win(), "{name}: {:?}\n{level}", reach.hindrances());
+        }
+    }
+}
+
+/// And in games that nobody would write.
+#[test]
+fn sprites_of_invented_games_are_where_they_can_be() {
+    let (mut played, mut narrow) = (0, 0);
+    for number in 0..INVENTED {
+        let seed = Seed::from_text("invented").child("game", number);
+        let (source, text) = invented::game(&mut seed.child("text", 0).sampler());
+        let Ok(game) = Game::from_source(&source) else { continue };
+        let Ok(level) = game.level(&text) else { continue };
+        let reach = Analysis::of(&game).reach(&level);
+        let area = level.columns() * level.rows();
+        let is_narrow = |stype: &SpriteType| (1..area / 2).contains(&reach.cells(*stype).count());
+        (played, narrow) = (played + 1, narrow + game.sprite_types().filter(is_narrow).count());
+        let case = Case { name: format!("game {number}\n{source}"), game, levels: Vec::new() };
+        let mut sampler = seed.child("actions", 0).sampler();
+        for run in 0..3 {
+            let mut state = case.game.start(&level, seed.child("chance", run));
+            for _ in 0..60 {
+                look(&case, &reach, &level, &state);
+                let action = *sampler.choose(case.game.actions(&state));
+                case.game.step(&mut state, action);
+            }
+            look(&case, &reach, &level, &state);
+        }
+    }
+    assert!(
+        played > INVENTED / 2 && narrow > played as usize,
+        "{played} games, {narrow} types kept in bounds"
+    );
+}
+
+/// Checks that all sprites of a state are where their types can be, and that it ends only as it can; how many cells they
+/// cover.
+fn look(Case { name, game, .. }: &Case, reach: &Reach, level: &Level, state: &State) -> u64 {
+    let lost = state.outcome() == Outcome::Lost && state.tick() < engine::MAX_TICKS;
+    assert!(reach.can_win() || state.outcome() != Outcome::Won, "{name} is won\n{level}");
+    assert!(reach.can_lose() || !lost, "{name} is lost\n{level}");
+    if matches!(state.outcome(), Outcome::Stopped(_)) {
+        // Stopped in the middle of a tick.
+        return 0;
+    }
+    let (columns, rows) = state.size();
+    let mut looked = 0;
+    for record in game.records(state) {
+        let Rect { x, y, w, h } = record.rect;
+        let span = |from: i32, size: i32, limit: i32| {
+            let last = (from.saturating_add(size) - 1).div_euclid(state.block());
+            from.div_euclid(state.block()).max(0)..=last.min(limit - 1)
+        };
+        for row in span(y, h, rows) {
+            for column in span(x, w, columns) {
+                looked += 1;
+                let cell = (row * columns + column) as usize;
+                assert!(
+                    reach.can_be(SpriteType(record.stype), cell),
+                    "{name} tick {}: {} at column {column}, row {row}\n{level}",
+                    state.tick(),
+                    game.name(SpriteType(record.stype))
+                );
+            }
+        }
+    }
+    looked
 }

@@ -1,0 +1,287 @@
+//! Sets of cells of a board and of the ring around it.
+
+use crate::geometry::Direction;
+
+/// A board with a ring of one cell around it, which stands for all that lies outside.
+///
+/// A place off the board counts as the nearest cell of the ring. So whatever moves by some cells moves, among these cells,
+/// by as many or fewer: what leaves the board and comes back elsewhere has a way along the ring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Board {
+    pub(super) columns: i32,
+    pub(super) rows: i32,
+}
+
+impl Board {
+    /// How many cells, the ring included.
+    pub(super) fn size(self) -> usize {
+        (self.columns as usize + 2) * (self.rows as usize + 2)
+    }
+
+    /// The longer side.
+    pub(super) fn side(self) -> i32 {
+        self.columns.max(self.rows)
+    }
+
+    pub(super) fn at(self, x: i32, y: i32) -> usize {
+        let (x, y) = (x.clamp(-1, self.columns) + 1, y.clamp(-1, self.rows) + 1);
+        y as usize * (self.columns as usize + 2) + x as usize
+    }
+
+    /// Column and row; −1 and one past the last are the ring.
+    pub(super) fn place(self, cell: usize) -> (i32, i32) {
+        let width = self.columns as usize + 2;
+        ((cell % width) as i32 - 1, (cell / width) as i32 - 1)
+    }
+
+    /// The index of a cell of the board among [`Level::cells`](crate::Level::cells).
+    pub(super) fn on_level(self, cell: usize) -> usize {
+        let (x, y) = self.place(cell);
+        (y * self.columns + x) as usize
+    }
+
+    pub(super) fn shifted(self, cell: usize, (dx, dy): (i32, i32), times: i32) -> usize {
+        let (x, y) = self.place(cell);
+        self.at(x.saturating_add(dx.saturating_mul(times)), y.saturating_add(dy.saturating_mul(times)))
+    }
+
+    /// Where something can be that is one step away from something in these cells. The ring stands for all that lies
+    /// outside, so a step may end where it starts there.
+    pub(super) fn beside(self, cells: &Cells, step: (i32, i32)) -> Cells {
+        let outside = cells.iter().filter(|&cell| self.is_ring(cell));
+        Cells::of(self, cells.iter().map(|cell| self.shifted(cell, step, 1)).chain(outside))
+    }
+
+    pub(super) fn is_ring(self, cell: usize) -> bool {
+        let (x, y) = self.place(cell);
+        !(0..self.columns).contains(&x) || !(0..self.rows).contains(&y)
+    }
+
+    pub(super) fn ring(self) -> Cells {
+        Cells::of(self, (0..self.size()).filter(|&cell| self.is_ring(cell)))
+    }
+
+    /// All cells at most so many columns and rows away. Cost: O(cells), whatever the distance.
+    pub(super) fn around(self, cells: &Cells, distance: i32) -> Cells {
+        if distance == 0 {
+            return cells.clone();
+        }
+        let (width, height) = (self.columns as usize + 2, self.rows as usize + 2);
+        let mut wide = Cells::none(self);
+        (0..height).for_each(|y| wide.smear(cells, (y * width, 1), width, distance));
+        let mut around = Cells::none(self);
+        (0..width).for_each(|x| around.smear(&wide, (x, width), height, distance));
+        around
+    }
+}
+
+/// A set of cells.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Cells(Vec<u64>);
+
+impl Cells {
+    pub(super) fn none(board: Board) -> Cells {
+        Cells(vec![0; board.size().div_ceil(64)])
+    }
+
+    pub(super) fn all(board: Board) -> Cells {
+        Cells::of(board, 0..board.size())
+    }
+
+    pub(super) fn of(board: Board, cells: impl Iterator<Item = usize>) -> Cells {
+        let mut set = Cells::none(board);
+        for cell in cells {
+            set.insert(cell);
+        }
+        set
+    }
+
+    pub(super) fn contains(&self, cell: usize) -> bool {
+        self.0.get(cell / 64).is_some_and(|word| word >> (cell % 64) & 1 == 1)
+    }
+
+    /// Whether the cell is new.
+    pub(super) fn insert(&mut self, cell: usize) -> bool {
+        let word = &mut self.0[cell / 64];
+        let new = *word >> (cell % 64) & 1 == 0;
+        *word |= 1 << (cell % 64);
+        new
+    }
+
+    pub(super) fn remove(&mut self, cell: usize) -> bool {
+        let had = self.contains(cell);
+        self.0[cell / 64] &= !(1 << (cell % 64));
+        had
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.iter().all(|&word| word == 0)
+    }
+
+    /// Takes out those of `others` that are in none of `kept`.
+    pub(super) fn drop_unless(&mut self, others: &Cells, kept: [&Cells; 2]) {
+        for (at, word) in self.0.iter_mut().enumerate() {
+            *word &= !others.0[at] | kept[0].0[at] | kept[1].0[at];
+        }
+    }
+
+    pub(super) fn shared(&self, other: &Cells) -> Cells {
+        Cells(self.0.iter().zip(&other.0).map(|(one, two)| one & two).collect())
+    }
+
+    /// Whether any of them is new.
+    pub(super) fn add(&mut self, other: &Cells) -> bool {
+        let mut new = false;
+        for (one, two) in self.0.iter_mut().zip(&other.0) {
+            new |= two & !*one != 0;
+            *one |= two;
+        }
+        new
+    }
+
+    /// Adds the cells of a line, from `start` by `step`, that are no further along it from cells of `from`.
+    fn smear(&mut self, from: &Cells, (start, step): (usize, usize), length: usize, distance: i32) {
+        for back in [false, true] {
+            let mut left = 0;
+            for at in 0..length {
+                let cell = start + step * if back { length - 1 - at } else { at };
+                left = if from.contains(cell) { distance.saturating_add(1) } else { left };
+                if left > 0 {
+                    self.insert(cell);
+                    left -= 1;
+                }
+            }
+        }
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+        self.0.iter().enumerate().flat_map(|(at, &word)| {
+            let mut rest = word;
+            std::iter::from_fn(move || {
+                let bit = (rest != 0).then(|| rest.trailing_zeros() as usize)?;
+                rest &= rest - 1;
+                Some(at * 64 + bit)
+            })
+        })
+    }
+}
+
+/// A set of directions: the four of the grid, any other, and none at all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Ways(u8);
+
+impl Ways {
+    pub(super) const NONE: Ways = Ways(0);
+    pub(super) const UP: Ways = Ways(1);
+    pub(super) const LEFT: Ways = Ways(2);
+    pub(super) const DOWN: Ways = Ways(4);
+    pub(super) const RIGHT: Ways = Ways(8);
+    /// A direction off the grid's axes.
+    pub(super) const ASKEW: Ways = Ways(16);
+    /// No direction: what has none, or has not moved.
+    pub(super) const UNSET: Ways = Ways(32);
+    pub(super) const FOUR: Ways = Ways(15);
+    /// Every direction there is.
+    pub(super) const ANY: Ways = Ways(31);
+    /// Every direction, and none.
+    pub(super) const ALL: Ways = Ways(63);
+
+    pub(super) fn of(direction: Direction) -> Ways {
+        match (direction.x, direction.y) {
+            (0.0, 0.0) => Ways::UNSET,
+            (0.0, y) => {
+                if y < 0.0 {
+                    Ways::UP
+                } else {
+                    Ways::DOWN
+                }
+            }
+            (x, 0.0) => {
+                if x < 0.0 {
+                    Ways::LEFT
+                } else {
+                    Ways::RIGHT
+                }
+            }
+            _ => Ways::ASKEW,
+        }
+    }
+
+    pub(super) fn with(self, other: Ways) -> Ways {
+        Ways(self.0 | other.0)
+    }
+
+    pub(super) fn shared(self, other: Ways) -> Ways {
+        Ways(self.0 & other.0)
+    }
+
+    pub(super) fn without(self, other: Ways) -> Ways {
+        Ways(self.0 & !other.0)
+    }
+
+    /// Whether the sets share a direction.
+    pub(super) fn meets(self, other: Ways) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// The opposite directions.
+    pub(super) fn mirrored(self) -> Ways {
+        let swap = |from: Ways, to: Ways| if self.meets(from) { to } else { Ways::NONE };
+        let axes = swap(Ways::UP, Ways::DOWN)
+            .with(swap(Ways::DOWN, Ways::UP))
+            .with(swap(Ways::LEFT, Ways::RIGHT))
+            .with(swap(Ways::RIGHT, Ways::LEFT));
+        axes.with(Ways(self.0 & (Ways::ASKEW.0 | Ways::UNSET.0)))
+    }
+
+    /// The direction of a step along an axis.
+    pub(super) fn of_step((x, y): (i32, i32)) -> Ways {
+        Ways::of(Direction { x: f64::from(x), y: f64::from(y) })
+    }
+
+    /// The steps of a cell that a sprite that moves these ways can take, diagonal ones last.
+    pub(super) fn steps(self) -> impl Iterator<Item = (i32, i32)> {
+        let straight =
+            [(Ways::UP, (0, -1)), (Ways::LEFT, (-1, 0)), (Ways::DOWN, (0, 1)), (Ways::RIGHT, (1, 0))];
+        let askew = [(-1, -1), (1, -1), (-1, 1), (1, 1)];
+        let any = self.meets(Ways::ASKEW);
+        let straight = straight.into_iter().filter(move |(way, _)| any || self.meets(*way));
+        straight.map(|(_, step)| step).chain(askew.into_iter().filter(move |_| any))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_off_the_board_are_the_ring() {
+        let board = Board { columns: 5, rows: 3 };
+        assert_eq!(board.size(), 35);
+        assert_eq!(board.place(board.at(2, 1)), (2, 1));
+        assert_eq!(board.place(board.at(900, -7)), (5, -1));
+        assert_eq!(board.place(board.shifted(board.at(1, 1), (-1, 0), i32::MAX)), (-1, 1));
+        assert_eq!(board.ring().iter().count(), 35 - 15);
+        // Two rows above the board is above the board, and so is one row below that.
+        let above = Cells::of(board, [board.at(2, -2)].into_iter());
+        assert_eq!(
+            board.beside(&above, (0, 1)),
+            Cells::of(board, [board.at(2, -1), board.at(2, 0)].into_iter())
+        );
+        let mut corner = Cells::none(board);
+        corner.insert(board.at(0, 0));
+        assert_eq!(board.around(&corner, 1).iter().count(), 9);
+        assert_eq!(board.around(&corner, 9), Cells::all(board));
+    }
+
+    #[test]
+    fn directions_as_sets() {
+        let ways = Ways::of(Direction::UP).with(Ways::of(Direction::LEFT));
+        assert_eq!(ways.steps().collect::<Vec<_>>(), [(0, -1), (-1, 0)]);
+        assert_eq!(ways.mirrored(), Ways::DOWN.with(Ways::RIGHT));
+        assert_eq!(Ways::of(Direction::NIL), Ways::ASKEW);
+        assert_eq!(Ways::of(Direction::NONE.reversed()), Ways::UNSET);
+        assert_eq!(Ways::ASKEW.steps().count(), 8);
+        assert_eq!(Ways::ALL.without(Ways::UNSET), Ways::ANY);
+    }
+}

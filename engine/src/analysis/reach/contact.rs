@@ -1,0 +1,277 @@
+//! What others do to how sprites of a type move: makers and meetings.
+
+use super::cells::Ways;
+use super::meetings::Meeting;
+use super::mobility::Mobility;
+use super::model::Model;
+use crate::game::SpriteType;
+use crate::geometry::Direction;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::{Effect, SpeedChange};
+
+impl Model<'_> {
+    /// What effects do to speeds.
+    pub(super) fn speed_up(&mut self, meeting: &Meeting<'_>) {
+        let rules = self.rules;
+        match meeting.effect(rules) {
+            Effect::ChangeSpeed { stype, value, how } => {
+                for stype in &rules.types[stype.index()].tree {
+                    let own = &mut self.mobility[stype.index()];
+                    own.loose |= value.fract() != 0.0;
+                    match how {
+                        SpeedChange::Set => own.top = own.top.max(value.abs()),
+                        SpeedChange::Increase if *value == 0.0 => {}
+                        SpeedChange::Decrease if *value >= 0.0 => {}
+                        SpeedChange::Increase | SpeedChange::Decrease => own.top = f64::INFINITY,
+                    }
+                    own.backwards |= *value < 0.0;
+                }
+            }
+            Effect::HalfSpeed => {
+                if let Some(one) = meeting.one {
+                    self.mobility[one.index()].loose = true;
+                }
+            }
+            Effect::WallStop | Effect::WallReverse => {
+                // The least speed after such a collision is gravity.
+                if let Some(one) = meeting.one {
+                    let gravity = rules.types[one.index()].traits.gravity.max(0.2);
+                    let own = &mut self.mobility[one.index()];
+                    own.top = own.top.max(gravity);
+                    own.loose = true;
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The orientations that what a type makes gets from it.
+    pub(super) fn hand_on(&mut self, stype: SpriteType) {
+        use SpriteClass as C;
+        let info = self.info(stype);
+        let Some(class) = info.class else { return };
+        let own = self.mobility[stype.index()];
+        let any = matches!(class, C::AimedAvatar | C::SpaceshipAvatar | C::WizardAvatar);
+        let given = if matches!(class, C::FlakAvatar | C::OngoingTurningAvatar | C::Spreader) {
+            Ways::NONE
+        } else if class.is_avatar() {
+            if any { Ways::ALL } else { own.facing }
+        } else if info.traits.spawn_orientation != Direction::NONE {
+            Ways::of(info.traits.spawn_orientation)
+        } else {
+            own.facing
+        };
+        // Shots at an angle, and those of what stands between cells, stand between cells.
+        let loose = own.loose || any || (class.is_avatar() && own.facing.meets(Ways::ASKEW));
+        for (made, _) in self.makes[stype.index()].clone() {
+            let traits = &self.info(made).traits;
+            let takes = class.is_avatar()
+                || info.traits.spawn_orientation != Direction::NONE
+                || traits.orientation == Direction::NONE;
+            let new = &mut self.mobility[made.index()];
+            new.loose |= loose;
+            if takes {
+                new.facing = new.facing.with(given);
+            }
+        }
+    }
+
+    pub(super) fn note_forces(&mut self, meeting: &Meeting<'_>) {
+        let effect = meeting.effect(self.rules);
+        if let Effect::TransformToSingleton { stype, take_orientation: true, .. } = effect {
+            self.takes_orientation[stype.index()] = true;
+        }
+        let forces = matches!(
+            effect,
+            Effect::BounceForward | Effect::WaterPhysics | Effect::WallBounce | Effect::TurnAround
+        );
+        if let (Some(one), true) = (meeting.one, forces) {
+            self.forced[one.index()] = true;
+        }
+    }
+
+    pub(super) fn note_push(&mut self, meeting: &Meeting<'_>) {
+        let carries = matches!(
+            meeting.effect(self.rules),
+            Effect::BounceForward | Effect::PullWithIt { .. } | Effect::TurnAround
+        );
+        if let (Some(one), true) = (meeting.one, carries) {
+            let far = 2 * self.stride(self.carried(one, meeting.two().unwrap_or(one))).0;
+            let most = &mut self.pushed_far[one.index()];
+            *most = far.max(*most);
+        }
+    }
+
+    /// What an effect does to orientations, and whether it moves.
+    pub(super) fn meet(&mut self, meeting: &Meeting<'_>) {
+        let rules = self.rules;
+        let effect = meeting.effect(rules);
+        if let Effect::TransformToAll { stype, to, force_orientation, .. } = effect {
+            return self.turn(*stype, *to, *force_orientation);
+        }
+        let Some(one) = meeting.one else { return };
+        let at = one.index();
+        let two = meeting.two();
+        let partner = two.map_or_else(Mobility::default, |two| self.mobility[two.index()]);
+        let own = self.mobility[at];
+        let mut new = own;
+        let face = |new: &mut Mobility, facing: Ways| {
+            new.facing = new.facing.with(facing);
+            new.straight = false;
+        };
+        match effect {
+            Effect::ReverseDirection => face(&mut new, own.facing.mirrored()),
+            Effect::TurnAround => {
+                face(&mut new, own.facing.mirrored());
+                // The steps down may be turns first.
+                if self.info(one).traits.rotate_in_place {
+                    face(&mut new, Ways::UP.with(Ways::DOWN));
+                }
+                new.goes_back = true;
+                new.moved = new.moved.with(Ways::DOWN).with(Ways::UP);
+                new.placed |= !self.info(one).traits.stationary;
+            }
+            Effect::FlipDirection => face(&mut new, Ways::FOUR),
+            Effect::BounceDirection { .. } => face(&mut new, Ways::ALL),
+            Effect::WallStop | Effect::WallBounce | Effect::WallReverse => {
+                let more = if own.facing.meets(Ways::ASKEW) { Ways::ALL } else { Ways::UNSET };
+                face(&mut new, own.facing.mirrored().with(more));
+                new.goes_back = true;
+                // Both go back, but for the first one's stop.
+                if let Some(two) = two.filter(|_| !matches!(effect, Effect::WallStop)) {
+                    self.mobility[two.index()].goes_back = true;
+                }
+                new.placed |= matches!(effect, Effect::WallStop) && self.is_odd(one);
+            }
+            Effect::StepBack { pixel_perfect } => {
+                new.goes_back = true;
+                let flush = *pixel_perfect && two.is_some();
+                new.loose |= flush && (!self.is_fixed_now(&partner) || partner.loose);
+                new.placed |= flush && self.is_odd(one);
+            }
+            Effect::Align { orient, .. } => {
+                if *orient {
+                    face(&mut new, partner.facing);
+                }
+                (new.placed, new.thrown) = (true, true);
+                new.moved = Ways::ALL;
+                new.loose |= partner.loose;
+            }
+            Effect::AttractGaze { align, .. } => {
+                face(&mut new, partner.facing);
+                if *align {
+                    (new.placed, new.thrown) = (true, true);
+                    new.moved = Ways::ALL;
+                    new.loose |= partner.loose;
+                }
+            }
+            Effect::BounceForward => {
+                let pushed = self.pushed(&partner);
+                face(&mut new, pushed.with(Ways::UNSET));
+                // Continuous physics takes a push for a force: its own movement knows.
+                if !self.info(one).traits.stationary && !self.info(one).traits.continuous {
+                    new.moved = new.moved.with(pushed);
+                    new.loose |= partner.loose || pushed.meets(Ways::ASKEW);
+                    self.carry(one, two, &mut new);
+                }
+            }
+            Effect::PullWithIt { pixel_perfect } => {
+                face(&mut new, Ways::UNSET.with(own.facing));
+                new.moved = new.moved.with(partner.moved);
+                new.loose |= partner.loose || partner.moved.meets(Ways::ASKEW);
+                let onto = *pixel_perfect || self.info(one).traits.off_grid;
+                (new.placed, new.thrown) = (new.placed | onto, new.thrown | onto);
+                self.carry(one, two, &mut new);
+            }
+            Effect::TeleportToExit => {
+                let exits = two.map_or(&[][..], |two| &self.exits[two.index()]);
+                for exit in exits.iter().filter(|exit| self.there[exit.index()]) {
+                    let exit = self.mobility[exit.index()];
+                    face(&mut new, exit.facing);
+                    (new.placed, new.thrown) = (true, true);
+                    new.moved = Ways::ALL;
+                    new.loose |= exit.loose;
+                }
+            }
+            Effect::WrapAround { offset } => {
+                (new.placed, new.thrown) = (true, true);
+                new.moved = Ways::ALL;
+                new.loose |= *offset != 0.0;
+            }
+            Effect::Spawn { stype, .. } | Effect::SpawnIf { stype, .. } => self.appear(*stype, own.loose),
+            Effect::SpawnIfCounterSubTypes { stype, otherwise, .. } => {
+                self.appear(*stype, own.loose);
+                self.appear(*otherwise, own.loose);
+            }
+            Effect::SpawnBeside { stype, .. } | Effect::SpawnBehind { stype, .. } => {
+                self.appear(*stype, partner.loose);
+                // As good as if it went back: what it leaves behind is where it was.
+                if let Some(two) = two {
+                    self.mobility[two.index()].goes_back = true;
+                }
+            }
+            Effect::TransformTo { stype, force_orientation, .. } => {
+                self.turn(one, *stype, *force_orientation);
+            }
+            Effect::TransformIfCount(rule) => {
+                for to in std::iter::once(rule.stype).chain(rule.otherwise) {
+                    self.turn(one, to, rule.force_orientation);
+                }
+            }
+            Effect::TransformToRandomChild { options, force_orientation, .. } => {
+                options.iter().for_each(|&to| self.turn(one, to, *force_orientation));
+            }
+            Effect::TransformToSingleton { stype, other, take_orientation } => {
+                self.turn(one, *stype, true);
+                self.turn(*stype, *other, true);
+                if *take_orientation {
+                    let next = &mut self.mobility[stype.index()];
+                    next.facing = next.facing.with(partner.facing.mirrored());
+                }
+            }
+            _ => {}
+        }
+        // What `turn` and `appear` did to the type itself stays.
+        let now = &mut self.mobility[at];
+        now.facing = now.facing.with(new.facing);
+        now.moved = now.moved.with(new.moved);
+        now.loose |= new.loose;
+        now.placed |= new.placed;
+        now.thrown |= new.thrown;
+        now.boundless |= new.boundless;
+        now.straight &= new.straight;
+        now.goes_back |= new.goes_back;
+    }
+
+    /// One type turns into another, which takes over where it was, and perhaps where it faced.
+    fn turn(&mut self, from: SpriteType, to: SpriteType, force: bool) {
+        // What is put back after turning once more goes back to where it was at first.
+        self.mobility[from.index()].goes_back |= self.mobility[to.index()].goes_back;
+        let old = self.mobility[from.index()];
+        let oriented = self.info(from).traits.is_oriented && self.info(to).traits.is_oriented;
+        let takes = force || (oriented && self.info(to).traits.orientation == Direction::NONE);
+        let new = &mut self.mobility[to.index()];
+        new.loose |= old.loose;
+        new.moved = new.moved.with(old.moved);
+        if takes {
+            new.facing = new.facing.with(old.facing);
+        }
+        // For a moment it has moved as the old one did, and faces as the new one does.
+        (new.straight, new.thrown) = (false, true);
+    }
+
+    fn appear(&mut self, stype: SpriteType, loose: bool) {
+        self.mobility[stype.index()].loose |= loose;
+    }
+
+    /// What is moved with another's speed.
+    fn carry(&self, one: SpriteType, two: Option<SpriteType>, new: &mut Mobility) {
+        let distance = two.map_or(1.0, |two| self.carried(one, two));
+        new.boundless |= self.is_wild(distance);
+        if self.info(one).order.is_none() {
+            // Nothing brings its last place up to date.
+            (new.placed, new.thrown) = (true, true);
+            new.moved = Ways::ALL;
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! What the effects of meetings do to where sprites are and where they face.
+
+use super::cells::{Cells, Ways};
+use super::events::Events;
+use super::meetings::{Meeting, Order};
+use super::mobility::pushes_straight;
+use crate::game::SpriteType;
+use crate::ontology::effects::Effect;
+
+impl Events<'_> {
+    /// What an effect does to where sprites are, those that it runs on being met in these cells.
+    pub(super) fn run(&mut self, meeting: &Meeting<'_>, one: SpriteType, cells: &Cells) {
+        let at = meeting.order;
+        let effect = meeting.effect(self.flood.model.rules);
+        let own = self.near(one, cells);
+        self.turn_to(one, cells, effect);
+        match effect {
+            Effect::TurnAround => self.turn_around(one, cells, at),
+            Effect::WrapAround { offset } => self.wrap(one, &own, *offset, at),
+            Effect::Spawn { stype, .. } | Effect::SpawnIf { stype, .. } => self.spawn_in(*stype, &own, at),
+            Effect::SpawnIfCounterSubTypes { stype, otherwise, .. } => {
+                self.spawn_in(*stype, &own, at);
+                self.spawn_in(*otherwise, &own, at);
+            }
+            Effect::CloneSprite => self.spawn_in(one, &own, at),
+            Effect::TransformTo { stype, .. } => self.turn(one, *stype, cells, at),
+            Effect::TransformToRandomChild { options, .. } => {
+                options.iter().for_each(|&to| self.turn(one, to, cells, at));
+            }
+            Effect::TransformToAll { stype, to, .. } => self.become_all(*stype, *to, at),
+            _ => {
+                // By the clock, and at the edge, there is no partner; most effects then do nothing.
+                if let Some(two) = meeting.two() {
+                    self.run_on_both(at, (one, two), (cells, &own), effect);
+                }
+            }
+        }
+    }
+
+    /// What needs a partner.
+    fn run_on_both(
+        &mut self,
+        at: Order,
+        (one, two): (SpriteType, SpriteType),
+        (cells, own): (&Cells, &Cells),
+        effect: &Effect,
+    ) {
+        let model = self.flood.model;
+        let partner = self.near(two, cells);
+        match effect {
+            Effect::TransformIfCount(rule) => {
+                for to in std::iter::once(rule.stype).chain(rule.otherwise) {
+                    self.turn(one, to, cells, at);
+                }
+            }
+            Effect::TransformToSingleton { stype, other, .. } => {
+                self.become_all(*stype, *other, at);
+                self.turn(one, *stype, cells, at);
+            }
+            Effect::SpawnBeside { stype, shift, step_back, .. } => {
+                let from = if *step_back { self.touch(two).clone() } else { partner };
+                let beside = self.board().beside(&from, *shift);
+                self.spawn_in(*stype, &beside, at);
+            }
+            Effect::SpawnBehind { stype, .. } => {
+                let from = self.touch(two).clone();
+                self.spawn_in(*stype, &from, at);
+            }
+            Effect::StepBack { pixel_perfect: true } | Effect::WallStop => {
+                // Flush with what moves, or with what it was inside of, it may stand where it would not have come by
+                // itself.
+                let inside = !cells.shared(self.rest(one)).is_empty();
+                if inside || !model.stops_in_order(one, two) {
+                    let flush = self.board().around(cells, 2 * model.rules.reach.max(1));
+                    self.come_to(one, &flush, at);
+                }
+            }
+            Effect::Align { .. } => {
+                let more = if model.scales { model.spread(one) } else { 0 };
+                let there = self.board().around(&partner, more);
+                self.come_to(one, &there, at);
+            }
+            Effect::AttractGaze { align: true, .. } => {
+                let there = self.board().around(cells, 1 + model.rules.reach.max(1));
+                self.come_to(one, &there, at);
+            }
+            Effect::BounceForward => self.push((one, two), own, at),
+            Effect::PullWithIt { pixel_perfect } => {
+                self.pull((one, two), own, at);
+                if *pixel_perfect {
+                    self.come_to(one, &partner, at);
+                }
+            }
+            Effect::TeleportToExit => {
+                for &exit in model.exits[two.index()].iter().filter(|exit| model.there[exit.index()]) {
+                    let there = self.touch(exit).clone();
+                    self.come_to(one, &there, at);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// All sprites of a type turn into another.
+    pub(super) fn become_all(&mut self, from: SpriteType, to: SpriteType, at: Order) {
+        if self.is_there(from) {
+            let all = Cells::all(self.board());
+            self.turn(from, to, &all, at);
+        }
+    }
+
+    /// Sprites that are met in these cells turn into others.
+    fn turn(&mut self, from: SpriteType, to: SpriteType, cells: &Cells, at: Order) {
+        let model = self.flood.model;
+        if !model.there[to.index()] {
+            return;
+        }
+        let here = self.near(from, cells);
+        let heading = model.of_type(to).facing;
+        self.appear_in(to, &here, at, heading);
+        if model.of_type(to).goes_back {
+            // The new sprite can be put back to where the old one, or what that was before, was before it moved: at any
+            // later moment of the tick.
+            let before = self.rest(from).clone();
+            self.appear_in(to, &before, Order::LAST, heading);
+        }
+    }
+
+    /// What an effect does to the direction of sprites that it runs on in these cells.
+    fn turn_to(&mut self, one: SpriteType, cells: &Cells, effect: &Effect) {
+        let model = self.flood.model;
+        let own = *model.of_type(one);
+        let turn = |heading: Ways| match effect {
+            Effect::ReverseDirection => heading.mirrored(),
+            Effect::TurnAround if !model.info(one).traits.rotate_in_place => heading.mirrored(),
+            _ => own.facing,
+        };
+        let turns = matches!(
+            effect,
+            Effect::ReverseDirection
+                | Effect::TurnAround
+                | Effect::FlipDirection
+                | Effect::BounceDirection { .. }
+                | Effect::WallStop
+                | Effect::WallBounce
+                | Effect::WallReverse
+                | Effect::Align { .. }
+                | Effect::AttractGaze { .. }
+                | Effect::BounceForward
+                | Effect::PullWithIt { .. }
+                | Effect::TeleportToExit
+        );
+        if !turns || !own.is_steady() {
+            return;
+        }
+        // By the end of the tick it may be back where it came from, or wherever else it is put.
+        let far = own.stride.max(model.pushed_far(one)).saturating_add(model.spread(one));
+        let far =
+            if own.placed || own.thrown { self.board().side() + 2 } else { far.min(self.board().side() + 2) };
+        let around = self.board().around(cells, far);
+        self.flood.face(one, &around, turn);
+    }
+
+    /// Back to where it came from, and two steps down.
+    fn turn_around(&mut self, one: SpriteType, cells: &Cells, at: Order) {
+        let model = self.flood.model;
+        let (own, traits) = (*model.of_type(one), &model.info(one).traits);
+        if traits.stationary || traits.continuous {
+            return;
+        }
+        let board = self.board();
+        let far = if own.boundless || own.thrown {
+            board.side() + 2
+        } else {
+            own.stride.saturating_add(1 + model.spread(one))
+        };
+        let from = board.around(cells, far.saturating_add(model.pushed_far(one))).shared(self.rest(one));
+        // Two steps of a cell each, if neither is but a turn, and either can be less.
+        let exact = !own.loose && own.top <= 1.0 && !traits.rotate_in_place;
+        let most = 2 * model.stride(own.top.max(1.0)).0;
+        // A negative speed takes it up.
+        let signs: &[i32] = if own.backwards { &[1, -1] } else { &[1] };
+        for cell in from.iter() {
+            // What is further outside comes less far in.
+            let least = if exact && !board.is_ring(cell) { 2 } else { 1 };
+            for (&sign, times) in signs.iter().flat_map(|sign| (least..=most).map(move |times| (sign, times)))
+            {
+                let to = board.shifted(cell, (0, sign), times);
+                self.flood.come(one, to, at, own.facing);
+            }
+        }
+    }
+
+    /// To the opposite edge, along the orientation.
+    fn wrap(&mut self, one: SpriteType, from: &Cells, offset: f64, at: Order) {
+        let board = self.board();
+        let facing = self.flood.model.of_type(one).facing;
+        let facing = if facing.meets(Ways::ASKEW) { Ways::ANY } else { facing };
+        let size = if self.flood.model.of_type(one).loose { self.flood.model.rules.reach.max(1) } else { 0 };
+        for cell in from.iter() {
+            let (x, y) = board.place(cell);
+            let mut to: Vec<(i32, i32)> = Vec::new();
+            let near = if offset == 0.0 { 0..=size } else { -1..=board.side() };
+            for inset in near {
+                for (way, place) in [
+                    (Ways::RIGHT, (inset, y)),
+                    (Ways::LEFT, (board.columns - 1 - inset, y)),
+                    (Ways::DOWN, (x, inset)),
+                    (Ways::UP, (x, board.rows - 1 - inset)),
+                ] {
+                    to.extend(facing.meets(way).then_some(place));
+                }
+            }
+            to.into_iter().for_each(|(x, y)| self.flood.come(one, board.at(x, y), at, facing));
+        }
+    }
+
+    /// Pushed by what comes to where it rests.
+    fn push(&mut self, (one, two): (SpriteType, SpriteType), own: &Cells, at: Order) {
+        let model = self.flood.model;
+        let (box_, pusher) = (*model.of_type(one), *model.of_type(two));
+        let traits = &model.info(one).traits;
+        if traits.stationary || traits.continuous {
+            return;
+        }
+        let board = self.board();
+        let distance = model.carried(one, two);
+        let (stride, leap) = model.stride(distance);
+        let exact = pushes_straight(&pusher) && !pusher.backwards && !pusher.loose && !box_.loose;
+        let exact = exact && !pusher.boundless && !box_.placed;
+        let from = if box_.placed { own.clone() } else { own.shared(self.rest(one)) };
+        let facing = box_.facing;
+        let steps: Vec<(i32, i32)> = model.pushed(&pusher).steps().collect();
+        let run_up = pusher.stride.max(model.pushed_far(two)).max(1);
+        for cell in from.iter() {
+            for &step in &steps {
+                self.flood.work += u64::from(run_up.unsigned_abs());
+                let behind = |times: i32| self.rest(two).contains(board.shifted(cell, step, -times));
+                if !exact || (1..=run_up).any(behind) {
+                    self.flood.go(one, cell, step, (stride, leap), (at, facing));
+                }
+            }
+        }
+    }
+
+    /// Carried along by what stands where it is.
+    fn pull(&mut self, (one, two): (SpriteType, SpriteType), own: &Cells, at: Order) {
+        let model = self.flood.model;
+        let (passenger, carrier) = (*model.of_type(one), *model.of_type(two));
+        let traits = &model.info(one).traits;
+        let distance = if traits.continuous { carrier.top * 10.0 / model.block } else { carrier.top };
+        let (stride, leap) = model.stride(distance.max(passenger.top / model.block));
+        let from = if passenger.placed { own.clone() } else { own.shared(self.rest(one)) };
+        if traits.off_grid || carrier.moved.meets(Ways::ASKEW) || carrier.backwards {
+            // Put on top of it, too.
+            let more = stride.saturating_add(1 + model.rules.reach.max(1)).min(self.board().side() + 2);
+            let there = self.board().around(&from, more);
+            return self.come_to(one, &there, at);
+        }
+        let facing = passenger.facing;
+        let steps: Vec<(i32, i32)> = carrier.moved.steps().collect();
+        for cell in from.iter() {
+            for &step in &steps {
+                self.flood.go(one, cell, step, (stride, leap), (at, facing));
+            }
+        }
+    }
+}

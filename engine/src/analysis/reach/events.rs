@@ -1,0 +1,244 @@
+//! What happens among sprites, again and again until nothing changes: they come along, make others, get resources, meet.
+
+use super::super::encounter::Provided;
+use super::cells::{Board, Cells, Ways};
+use super::flood::Flood;
+use super::meetings::{End, Meeting, Order, Whose, With};
+use crate::game::SpriteType;
+use crate::ontology::effects::Effect;
+use std::collections::BTreeMap;
+
+/// How much of a resource can be got: more than anything asks for.
+const PLENTY: i64 = i64::MAX;
+
+/// What a level places of one type: cells, and how many in each.
+pub(super) type Placed = Vec<Vec<(usize, u32)>>;
+
+/// The effects of meetings, applied until nothing changes.
+pub(super) struct Events<'a> {
+    pub(super) flood: Flood<'a>,
+    placed: &'a Placed,
+    ring: Cells,
+    /// By type: how many of it, as a resource, can be got in all.
+    pub(super) have: Vec<i64>,
+    /// By meeting: the versions of the two regions when it was last looked at.
+    seen: Vec<(u32, u32)>,
+}
+
+/// A way to get a resource: where it is met, how much each sprite gives, and whether that is used up by giving.
+struct Gift {
+    cells: Cells,
+    each: i64,
+    once: bool,
+}
+
+impl<'a> Events<'a> {
+    pub(super) fn of(flood: Flood<'a>, placed: &'a Placed) -> Events<'a> {
+        let ring = flood.board.ring();
+        let (types, meetings) = (flood.model.there.len(), flood.model.meetings.len());
+        Events { flood, placed, ring, have: vec![0; types], seen: vec![(u32::MAX, u32::MAX); meetings] }
+    }
+
+    /// Runs until nothing changes; whether that was no more than a bounded amount of work.
+    pub(super) fn settle(&mut self) -> bool {
+        loop {
+            let before = self.state();
+            self.flood.work += (self.flood.model.meetings.len() + self.have.len()) as u64;
+            self.flood.spread();
+            self.make();
+            self.flood.spread();
+            self.have = self.resources();
+            for at in 0..self.flood.model.meetings.len() {
+                // What is pushed is pushed on.
+                while !self.flood.is_spent() && self.meet(at) {}
+            }
+            if self.flood.is_spent() {
+                return false;
+            }
+            if self.state() == before {
+                return true;
+            }
+        }
+    }
+
+    fn state(&self) -> (u64, Vec<i64>, u64) {
+        let versions = self.flood.regions.iter().map(|region| u64::from(region.version)).sum();
+        (versions, self.have.clone(), self.flood.ends)
+    }
+
+    pub(super) fn board(&self) -> Board {
+        self.flood.board
+    }
+
+    /// What it costs to go through a set of cells, many at a time, in cells that are looked at.
+    fn sweep(&self) -> u64 {
+        1 + self.board().size() as u64 / 512
+    }
+
+    pub(super) fn touch(&self, stype: SpriteType) -> &Cells {
+        &self.flood.regions[stype.index()].touch
+    }
+
+    pub(super) fn rest(&self, stype: SpriteType) -> &Cells {
+        &self.flood.regions[stype.index()].rest
+    }
+
+    pub(super) fn is_there(&self, stype: SpriteType) -> bool {
+        self.flood.model.there[stype.index()] && !self.touch(stype).is_empty()
+    }
+
+    /// Cells that a sprite of the type which is met in these cells can overlap.
+    pub(super) fn near(&mut self, stype: SpriteType, cells: &Cells) -> Cells {
+        let spread = self.flood.model.spread(stype);
+        self.flood.work += if spread == 0 { self.sweep() } else { self.board().size() as u64 };
+        let around = self.board().around(cells, spread);
+        around.shared(self.touch(stype))
+    }
+
+    pub(super) fn appear_in(&mut self, stype: SpriteType, cells: &Cells, at: Order, heading: Ways) {
+        // What is larger than its maker, or stands between cells as it does, reaches over to the right and down.
+        let more = self.flood.model.spread(stype);
+        let grows = self.flood.model.scales && more > 0;
+        let cells = if grows { self.board().around(cells, more) } else { cells.clone() };
+        cells.iter().for_each(|cell| self.flood.appear(stype, cell, at, heading));
+    }
+
+    /// Spawned by an effect: nothing gives it a direction.
+    pub(super) fn spawn_in(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
+        let heading = self.flood.model.born(stype);
+        self.appear_in(stype, cells, at, heading);
+    }
+
+    /// Put somewhere by others, in whatever direction it can have.
+    pub(super) fn come_to(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
+        let heading = self.flood.model.of_type(stype).facing;
+        cells.iter().for_each(|cell| self.flood.come(stype, cell, at, heading));
+    }
+
+    /// How much of each resource can be got.
+    fn resources(&mut self) -> Vec<i64> {
+        let mut gifts: BTreeMap<(SpriteType, SpriteType), Gift> = BTreeMap::new();
+        for meeting in self.flood.model.meetings {
+            let (Some(one), Some(two)) = (meeting.one, meeting.two()) else { continue };
+            if !self.is_there(one) || !self.is_there(two) || !self.can_be(meeting.provided) {
+                continue;
+            }
+            let value = i64::from(self.flood.model.info(one).traits.value);
+            let (resource, giver, each, once) = match *meeting.effect(self.flood.model.rules) {
+                Effect::CollectResource { kill_resource }
+                | Effect::CollectResourceIfHeld { kill_resource, .. } => {
+                    (self.flood.model.info(one).traits.resource, one, value, kill_resource)
+                }
+                Effect::ChangeResource { resource, value, kill_resource } => {
+                    // What has been used up can be met once more in the same tick.
+                    (resource, two, i64::from(value) * i64::from(meeting.times), kill_resource)
+                }
+                _ => continue,
+            };
+            let cells = self.met(one, two, meeting.order);
+            self.flood.work += self.sweep();
+            let collected = giver == one;
+            let nothing = collected && !self.flood.model.info(one).traits.is_resource;
+            if each <= 0 || resource == SpriteType::NONE || cells.is_empty() || nothing {
+                continue;
+            }
+            let none = || Gift { cells: Cells::none(self.board()), each: 0, once: true };
+            let gift = gifts.entry((resource, giver)).or_insert_with(none);
+            gift.cells.add(&cells);
+            // Collecting ends what is collected; other rules may each give something, once more.
+            gift.each = if collected { gift.each.max(each) } else { gift.each.saturating_add(each) };
+            gift.once &= once;
+        }
+        let unlimited = self.flood.model.unlimited.iter();
+        let mut have: Vec<i64> = unlimited.map(|&unlimited| if unlimited { PLENTY } else { 0 }).collect();
+        for ((resource, giver), gift) in gifts {
+            let at = giver.index();
+            let still = self.flood.model.of_type(giver).fixed;
+            let met = self.placed[at].iter().filter(|(cell, _)| !still || gift.cells.contains(*cell));
+            let count: i64 = met.map(|(_, count)| i64::from(*count)).sum();
+            let limited = gift.once && !self.flood.made[at];
+            let amount = if limited { count.saturating_mul(gift.each) } else { PLENTY };
+            have[resource.index()] = have[resource.index()].saturating_add(amount);
+        }
+        have
+    }
+
+    /// Whether what an effect asks for can be so.
+    fn can_be(&self, provided: Provided) -> bool {
+        match provided {
+            Provided::Holds(_, resource, amount) => {
+                let limit = self.flood.model.info(resource).resource_limit;
+                let within = amount <= limit || self.flood.model.unlimited[resource.index()];
+                amount <= 0 || (within && self.have[resource.index()] >= i64::from(amount))
+            }
+            Provided::Chance(prob) => prob > 0.0,
+            Provided::Always | Provided::HoldsAtMost(..) | Provided::Way => true,
+        }
+    }
+
+    /// Cells that two sprites can share at that moment of a tick.
+    fn met(&self, one: SpriteType, two: SpriteType, at: Order) -> Cells {
+        self.flood.present(one, at, true).shared(&self.flood.present(two, at, false))
+    }
+
+    /// Lets two types meet, if anything has changed since they last did; whether they did.
+    fn meet(&mut self, at: usize) -> bool {
+        let meeting = self.flood.model.meetings[at];
+        let version =
+            |stype: Option<SpriteType>| stype.map_or(0, |stype| self.flood.regions[stype.index()].version);
+        let versions = (version(meeting.one), version(meeting.two()));
+        let effect = meeting.effect(self.flood.model.rules);
+        // These depend on more than the two.
+        let far = matches!(
+            effect,
+            Effect::TeleportToExit
+                | Effect::TransformToAll { .. }
+                | Effect::TransformToSingleton { .. }
+                | Effect::UpdateSpawnType { .. }
+        );
+        if (self.seen[at] == versions && !far) || !self.can_be(meeting.provided) {
+            return false;
+        }
+        self.flood.work += self.sweep();
+        let Some(one) = meeting.one else {
+            self.at_large(&meeting);
+            return false;
+        };
+        if !self.is_there(one) {
+            return false;
+        }
+        let cells = match meeting.with {
+            With::Sprite(two) if self.is_there(two) => self.met(one, two, meeting.order),
+            With::Sprite(_) => return false,
+            With::Edge => self.touch(one).shared(&self.ring),
+            With::Nobody => self.touch(one).clone(),
+        };
+        if cells.is_empty() {
+            return false;
+        }
+        let again = self.seen[at] != versions;
+        self.seen[at] = versions;
+        self.run(&meeting, one, &cells);
+        self.end(&meeting, &cells);
+        again
+    }
+
+    /// What an effect does that runs on no sprite in particular.
+    fn at_large(&mut self, meeting: &Meeting<'_>) {
+        if let Effect::TransformToAll { stype, to, .. } = *meeting.effect(self.flood.model.rules) {
+            self.become_all(stype, to, meeting.order);
+        }
+        self.end(meeting, &Cells::default());
+    }
+
+    /// Ends whom a meeting in these cells can end.
+    fn end(&mut self, meeting: &Meeting<'_>, cells: &Cells) {
+        for End { stype, whose, .. } in meeting.ends(self.flood.model.rules) {
+            let at = match whose {
+                Whose::All => Cells::all(self.board()),
+                Whose::First | Whose::Second => self.near(stype, cells),
+            };
+            self.flood.end(stype, &at);
+        }
+    }
+}

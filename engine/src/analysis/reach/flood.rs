@@ -1,0 +1,455 @@
+//! Where sprites come to: from where they are, cell by cell, until nothing new is reached.
+
+use super::cells::{Board, Cells, Ways};
+use super::meetings::{End, Meeting, Order, With};
+use super::mobility::is_stop;
+use super::model::Model;
+use crate::game::SpriteType;
+use crate::ontology::effects::Effect;
+
+/// Cells looked at, at most; with more the answer is coarse. Usual levels take some ten thousands.
+const BUDGET: u64 = 1 << 23;
+
+/// Where sprites of one type come to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Region {
+    /// Cells that one can overlap at some moment of a tick.
+    pub(super) touch: Cells,
+    /// Those of them to which something else than its own update can bring it.
+    late: Cells,
+    /// Cells that one can overlap between two ticks.
+    pub(super) rest: Cells,
+    /// Of what keeps its direction until something turns it, by cell of `rest`: the directions that it can have there.
+    headings: Vec<Ways>,
+    /// Cells of `rest` from which all ways have been followed, or are to be.
+    spread: Cells,
+    queue: Vec<usize>,
+    /// It has been taken to be everywhere.
+    flooded: bool,
+    /// Of what falls and jumps, by cell: the rows that it can still rise there.
+    rises: Vec<i32>,
+    /// Changes whenever the region does.
+    pub(super) version: u32,
+}
+
+/// What keeps sprites of a type out of cells, or ends them there.
+#[derive(Clone, Copy, Debug)]
+struct Bar {
+    /// None: the edge of the board.
+    by: Option<SpriteType>,
+    kills: bool,
+    /// When it does so in a tick, at first and at last.
+    first: Order,
+    last: Order,
+}
+
+/// The state of the fixed point.
+pub(super) struct Flood<'a> {
+    pub(super) model: &'a Model<'a>,
+    pub(super) board: Board,
+    pub(super) regions: Vec<Region>,
+    /// By type: cells where one stands from the start and, for all that is known, for ever.
+    pub(super) firm: Vec<Cells>,
+    /// By type: cells where one can be ended.
+    pub(super) ended: Vec<Cells>,
+    /// How often a type has become endable in new cells.
+    pub(super) ends: u64,
+    /// By type: some can appear in play.
+    pub(super) made: Vec<bool>,
+    /// By type: what keeps it out.
+    bars: Vec<Vec<Bar>>,
+    /// By type: which types it keeps out.
+    bars_to: Vec<Vec<SpriteType>>,
+    /// By type: it may be removed in the middle of a tick; then it is met where it is until the end of the tick.
+    removed: Vec<bool>,
+    /// Of types that fall and jump: the rows that a jump lifts them.
+    climbs: Vec<Option<i32>>,
+    /// Cells looked at so far.
+    pub(super) work: u64,
+}
+
+impl<'a> Flood<'a> {
+    pub(super) fn of(model: &'a Model<'a>) -> Flood<'a> {
+        let board = model.board;
+        let types = model.there.len();
+        let none = Cells::none(board);
+        let [touch, late, rest, spread] = std::array::from_fn(|_| none.clone());
+        let region = Region { touch, late, rest, spread, ..Region::default() };
+        let for_each = |there: &bool| if *there { none.clone() } else { Cells::default() };
+        let mut flood = Flood {
+            model,
+            board,
+            regions: model
+                .there
+                .iter()
+                .map(|&there| if there { region.clone() } else { Region::default() })
+                .collect(),
+            firm: model.there.iter().map(for_each).collect(),
+            ended: model.there.iter().map(for_each).collect(),
+            ends: 0,
+            made: vec![false; types],
+            bars: vec![Vec::new(); types],
+            bars_to: vec![Vec::new(); types],
+            removed: vec![false; types],
+            climbs: vec![None; types],
+            work: 0,
+        };
+        for stype in model.types() {
+            let climb = super::jump::climb(model, stype);
+            flood.climbs[stype.index()] = climb;
+            if climb.is_some() {
+                flood.regions[stype.index()].rises = vec![0; board.size()];
+            }
+            if model.of_type(stype).is_steady() {
+                flood.regions[stype.index()].headings = vec![Ways::NONE; board.size()];
+            }
+        }
+        for stype in model.types() {
+            flood.removed[stype.index()] = super::super::attain::is_mortal(model.rules, stype);
+        }
+        let wraps = Flood::always_wraps(model);
+        for meeting in model.meetings {
+            flood.add_bars(meeting, &wraps);
+            flood.note_removals(meeting);
+        }
+        flood
+    }
+
+    /// Notes which types a meeting can remove. (Avatars that are killed stay.)
+    fn note_removals(&mut self, meeting: &Meeting<'_>) {
+        for End { stype, for_good, .. } in meeting.ends(self.model.rules) {
+            let avatar = self.model.info(stype).class.is_some_and(|class| class.is_avatar());
+            self.removed[stype.index()] |= for_good || !avatar;
+        }
+    }
+
+    /// Notes whom a meeting keeps from whose cells.
+    fn add_bars(&mut self, meeting: &Meeting<'_>, wraps: &[bool]) {
+        let model = self.model;
+        let (Some(one), effect) = (meeting.one, meeting.effect(model.rules)) else { return };
+        if !meeting.certain || meeting.with == With::Nobody {
+            return;
+        }
+        let is_avatar = model.info(one).class.is_some_and(|class| class.is_avatar());
+        let bar = |flood: &mut Flood<'_>, whom: SpriteType, by: Option<SpriteType>, kills: bool| {
+            // What moves lets through, sooner or later.
+            if by.is_none_or(|by| flood.can_be_firm(by)) {
+                flood.bar(whom, Bar { by, kills, first: meeting.order, last: meeting.order });
+            }
+        };
+        let own = model.of_type(one);
+        match effect {
+            Effect::UndoAll { spare } => {
+                let undone = |stype: SpriteType| !spare.contains(&stype) && model.info(stype).order.is_some();
+                if undone(one) {
+                    bar(self, one, meeting.two(), false);
+                }
+                if let Some(two) = meeting.two().filter(|&two| undone(two)) {
+                    bar(self, two, Some(one), false);
+                }
+            }
+            // Flush with the partner, a sprite that has come from far may stand where another one stands.
+            Effect::StepBack { pixel_perfect: true } | Effect::WallStop if own.comes_from_far() => {}
+            Effect::WrapAround { .. } if meeting.with == With::Edge && wraps[one.index()] => {
+                bar(self, one, None, false);
+            }
+            Effect::KillSprite | Effect::KillIfAlive if !is_avatar => bar(self, one, meeting.two(), true),
+            effect if is_stop(meeting, effect) => bar(self, one, meeting.two(), false),
+            _ => {}
+        }
+    }
+
+    fn bar(&mut self, whom: SpriteType, new: Bar) {
+        let bars = &mut self.bars[whom.index()];
+        if let Some(bar) = bars.iter_mut().find(|bar| (bar.by, bar.kills) == (new.by, new.kills)) {
+            (bar.first, bar.last) = (bar.first.min(new.first), bar.last.max(new.last));
+            return;
+        }
+        bars.push(new);
+        if let Some(by) = new.by {
+            self.bars_to[by.index()].push(whom);
+        }
+    }
+
+    /// By type: whether a sprite that leaves the board is always taken to the opposite edge, as it went where it faces, by
+    /// itself.
+    fn always_wraps(model: &Model<'_>) -> Vec<bool> {
+        let goes_ahead = |stype: SpriteType| {
+            let own = model.of_type(stype);
+            own.goes_ahead && !own.backwards && !own.facing.with(own.ways).meets(Ways::ASKEW)
+        };
+        let mut wraps: Vec<bool> =
+            (0..model.there.len()).map(|at| goes_ahead(SpriteType(at as u16))).collect();
+        for meeting in model.meetings {
+            let disturbs = match meeting.effect(model.rules) {
+                Effect::WrapAround { offset } => !(0.0..=1.0).contains(offset),
+                Effect::BounceForward
+                | Effect::PullWithIt { .. }
+                | Effect::Align { .. }
+                | Effect::TurnAround => true,
+                _ => meeting.with == With::Edge,
+            };
+            match meeting.one {
+                _ if meeting.with == With::Nobody => wraps.fill(false),
+                Some(one) if disturbs => wraps[one.index()] = false,
+                _ => {}
+            }
+        }
+        wraps
+    }
+
+    /// Whether sprites of the type that a level places fill their cells for as long as nothing ends them.
+    fn can_be_firm(&self, stype: SpriteType) -> bool {
+        let info = self.model.info(stype);
+        let traits = &info.traits;
+        let singleton = info.path.iter().any(|&stype| self.model.info(stype).singleton);
+        let whole = traits.width_factor == 1.0 && traits.height_factor == 1.0;
+        let mortal = super::super::attain::is_mortal(self.model.rules, stype);
+        self.model.of_type(stype).fixed && whole && !singleton && !info.is_like_avatar() && !mortal
+    }
+
+    /// A sprite of the level.
+    pub(super) fn place(&mut self, stype: SpriteType, cell: usize) {
+        if self.can_be_firm(stype) {
+            self.firm[stype.index()].insert(cell);
+        }
+        // What is larger than a cell reaches over to the right and down.
+        let size = |factor: f64| (factor.ceil() as i32).max(1);
+        let traits = &self.model.info(stype).traits;
+        let (x, y) = self.board.place(cell);
+        for y in y..y + size(traits.height_factor) {
+            for x in x..x + size(traits.width_factor) {
+                self.rest_at(stype, self.board.at(x, y), self.model.born(stype));
+            }
+        }
+    }
+
+    /// Where a sprite can be at that moment of a tick. The first of two has not been removed in this tick; the second may
+    /// have been, and then nothing stops it any more.
+    pub(super) fn present(&self, stype: SpriteType, at: Order, first: bool) -> Cells {
+        let Region { touch, late, rest, .. } = &self.regions[stype.index()];
+        let mut cells = touch.clone();
+        let stopped = first || !self.removed[stype.index()];
+        for bar in &self.bars[stype.index()] {
+            if let (Some(by), true) = (bar.by, bar.first < at && stopped) {
+                cells.drop_unless(&self.firm[by.index()], [rest, late]);
+            }
+        }
+        cells
+    }
+
+    /// Whether something keeps sprites of a type out of a cell after that moment of a tick; or ends them there.
+    fn is_barred(&self, stype: SpriteType, cell: usize, after: Order, kills_only: bool) -> bool {
+        let bars = self.bars[stype.index()].iter();
+        bars.filter(|bar| bar.last > after && (bar.kills || !kills_only)).any(|bar| match bar.by {
+            Some(by) => self.firm[by.index()].contains(cell),
+            None => self.board.is_ring(cell),
+        })
+    }
+
+    /// Whether it has been too much.
+    pub(super) fn is_spent(&self) -> bool {
+        self.work > BUDGET
+    }
+
+    fn touch(&mut self, stype: SpriteType, cell: usize, at: Order) {
+        self.work += 1 + self.bars[stype.index()].len() as u64 / 4;
+        let region = &mut self.regions[stype.index()];
+        region.version += u32::from(region.touch.insert(cell));
+        if at > Order::UPDATE {
+            region.version += u32::from(region.late.insert(cell));
+        }
+    }
+
+    /// `heading`: the directions that it can have there, if it keeps its direction.
+    fn rest_at(&mut self, stype: SpriteType, cell: usize, heading: Ways) {
+        let region = &mut self.regions[stype.index()];
+        let mut new = region.touch.insert(cell);
+        new |= region.rest.insert(cell);
+        let mut follow = region.spread.insert(cell);
+        if let Some(known) = region.headings.get_mut(cell) {
+            let turned = heading.without(*known) != Ways::NONE;
+            *known = known.with(heading);
+            (new, follow) = (new | turned, follow | turned);
+        }
+        region.version += u32::from(new);
+        if follow {
+            region.queue.push(cell);
+        }
+    }
+
+    /// Sprites that rest in these cells turn: to the directions that `turn` makes of theirs.
+    pub(super) fn face(&mut self, stype: SpriteType, cells: &Cells, turn: impl Fn(Ways) -> Ways) {
+        if self.regions[stype.index()].headings.is_empty() {
+            return;
+        }
+        for cell in cells.shared(&self.regions[stype.index()].rest).iter() {
+            let region = &self.regions[stype.index()];
+            let heading = turn(region.headings[cell]);
+            // What is about to be ended where it is goes nowhere.
+            if region.spread.contains(cell) {
+                self.rest_at(stype, cell, heading);
+            }
+        }
+    }
+
+    /// A sprite comes to a cell at that moment of a tick, in one of these directions.
+    pub(super) fn come(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Ways) {
+        self.touch(stype, cell, at);
+        if !self.is_barred(stype, cell, at, false) {
+            self.rest_at(stype, cell, heading);
+        }
+    }
+
+    /// A sprite appears in a cell at that moment of a tick, in one of these directions.
+    pub(super) fn appear(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Ways) {
+        if !self.model.there[stype.index()] {
+            return;
+        }
+        if !std::mem::replace(&mut self.made[stype.index()], true) {
+            self.regions[stype.index()].version += 1;
+        }
+        self.touch(stype, cell, at);
+        let waits = self.model.of_type(stype).waits;
+        if self.is_barred(stype, cell, at, true) && (waits || at > Order::UPDATE) {
+            // It does not see the end of the tick.
+            return;
+        }
+        if waits && self.is_barred(stype, cell, Order::UPDATE, true) {
+            // It does not move before it is ended in the next tick.
+            let region = &mut self.regions[stype.index()];
+            region.version += u32::from(region.rest.insert(cell));
+            return;
+        }
+        self.rest_at(stype, cell, heading);
+    }
+
+    /// Sprites of a type can be ended in these cells.
+    pub(super) fn end(&mut self, stype: SpriteType, cells: &Cells) {
+        if !self.model.there[stype.index()] {
+            return;
+        }
+        let at = stype.index();
+        self.ends += u64::from(self.ended[at].add(cells));
+        let opened = self.firm[at].shared(cells);
+        for cell in opened.iter() {
+            self.firm[at].remove(cell);
+            for whom in self.bars_to[at].clone() {
+                self.regions[whom.index()].version += 1;
+                let region = &self.regions[whom.index()];
+                let waiting = region.touch.contains(cell) && !region.spread.contains(cell);
+                if waiting && !self.is_barred(whom, cell, Order::UPDATE, false) {
+                    // Who knows how it comes there.
+                    if let Some(climb) = self.climbs[whom.index()] {
+                        self.regions[whom.index()].rises[cell] = climb;
+                    }
+                    self.rest_at(whom, cell, self.model.of_type(whom).facing);
+                }
+            }
+        }
+    }
+
+    /// A sprite that falls and jumps comes to a cell by itself, where it can still rise by so many rows; none: it only
+    /// passes.
+    pub(super) fn rise_to(&mut self, stype: SpriteType, cell: usize, rise: Option<i32>, at: Order) {
+        self.touch(stype, cell, Order::UPDATE);
+        let Some(rise) = rise.filter(|_| !self.is_barred(stype, cell, at, false)) else { return };
+        let region = &mut self.regions[stype.index()];
+        if rise > region.rises[cell] {
+            region.rises[cell] = rise;
+            region.spread.remove(cell);
+        }
+        self.rest_at(stype, cell, Ways::NONE);
+    }
+
+    /// What stands on something solid can jump from there.
+    fn ground(&mut self) {
+        for stype in self.model.types() {
+            let Some(climb) = self.climbs[stype.index()] else { continue };
+            self.work += self.board.size() as u64;
+            let footholds = self.footholds(stype);
+            let stands = self.regions[stype.index()].rest.shared(&footholds);
+            stands.iter().for_each(|cell| self.rise_to(stype, cell, Some(climb), Order::LAST));
+        }
+    }
+
+    /// Follows all ways of all types.
+    pub(super) fn spread(&mut self) {
+        loop {
+            self.ground();
+            if !self.spread_once() || self.is_spent() {
+                return;
+            }
+        }
+    }
+
+    /// Whether there was anything to follow.
+    fn spread_once(&mut self) -> bool {
+        let mut any = false;
+        for stype in self.model.types() {
+            while let Some(cell) = self.regions[stype.index()].queue.pop() {
+                self.follow(stype, cell);
+                any = true;
+                if self.is_spent() {
+                    return false;
+                }
+            }
+        }
+        any
+    }
+
+    /// Where a sprite that rests in a cell can get to by its own next update.
+    fn follow(&mut self, stype: SpriteType, from: usize) {
+        let own = *self.model.of_type(stype);
+        let heading = self.regions[stype.index()].headings.get(from).copied();
+        if own.boundless {
+            if !std::mem::replace(&mut self.regions[stype.index()].flooded, true) {
+                (0..self.board.size()).for_each(|cell| self.come(stype, cell, Order::UPDATE, own.facing));
+            }
+        } else if self.climbs[stype.index()].is_some() {
+            let rise = self.regions[stype.index()].rises[from];
+            self.leap(stype, from, rise);
+        } else if own.ways.meets(Ways::ASKEW) {
+            let (x, y) = self.board.place(from);
+            for dy in -own.stride..=own.stride {
+                for dx in -own.stride..=own.stride {
+                    let cell = self.board.at(x + dx, y + dy);
+                    if dx.abs().max(dy.abs()) <= own.leap + 1 {
+                        self.come(stype, cell, Order::UPDATE, own.facing);
+                    } else {
+                        self.touch(stype, cell, Order::UPDATE);
+                    }
+                }
+            }
+        } else {
+            let ways = heading.map_or(own.ways, |heading| {
+                let back = if own.backwards { heading.mirrored() } else { Ways::NONE };
+                heading.with(back).shared(own.ways)
+            });
+            for step in ways.steps() {
+                // It faces where it goes; where it can go backwards, it faces either way.
+                let ahead = if own.backwards { heading.unwrap_or(own.facing) } else { Ways::of_step(step) };
+                self.go(stype, from, step, (own.stride, own.leap), (Order::UPDATE, ahead));
+            }
+        }
+    }
+
+    /// Moves a sprite some cells at most in one direction; then it can have one of these headings.
+    pub(super) fn go(
+        &mut self,
+        stype: SpriteType,
+        from: usize,
+        step: (i32, i32),
+        (stride, leap): (i32, i32),
+        (at, heading): (Order, Ways),
+    ) {
+        for times in 1..=stride.max(leap + 1) {
+            let cell = self.board.shifted(from, step, times);
+            if times <= leap + 1 {
+                self.come(stype, cell, at, heading);
+            } else {
+                self.touch(stype, cell, at);
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! What sprites make by themselves, and where it appears.
+
+use super::cells::{Cells, Ways};
+use super::events::Events;
+use super::meetings::Order;
+use crate::game::SpriteType;
+use crate::geometry::Direction;
+use crate::ontology::class::SpriteClass;
+
+impl Events<'_> {
+    /// What types make by themselves.
+    pub(super) fn make(&mut self) {
+        for maker in self.flood.model.types() {
+            if !self.is_there(maker) || self.flood.is_spent() {
+                continue;
+            }
+            let model = self.flood.model;
+            let loaded = |ammo: Option<SpriteType>| ammo.is_none_or(|ammo| self.have[ammo.index()] > 0);
+            let kinds = model.makes[maker.index()].iter();
+            let kinds = kinds.filter(|(made, ammo)| model.there[made.index()] && loaded(*ammo));
+            let kinds: Vec<SpriteType> = kinds.map(|(made, _)| *made).collect();
+            if kinds.is_empty() {
+                continue;
+            }
+            let muzzles = self.muzzles(maker);
+            self.flood.work += self.board().size() as u64;
+            for made in kinds {
+                for (from, facing) in &muzzles {
+                    let heading = self.given(maker, made, *facing);
+                    self.appear_in(made, from, Order::UPDATE, heading);
+                }
+            }
+        }
+    }
+
+    /// The directions that what is made gets, from a maker that faces one way.
+    fn given(&self, maker: SpriteType, made: SpriteType, facing: Ways) -> Ways {
+        let model = self.flood.model;
+        let born = model.born(made);
+        let traits = &model.info(maker).traits;
+        match model.info(maker).class {
+            Some(SpriteClass::FlakAvatar | SpriteClass::Spreader | SpriteClass::OngoingTurningAvatar) => born,
+            Some(class) if class.is_avatar() => {
+                if model.info(made).traits.is_oriented {
+                    facing
+                } else {
+                    born
+                }
+            }
+            _ if traits.spawn_orientation != Direction::NONE => Ways::of(traits.spawn_orientation),
+            _ if born.meets(Ways::UNSET) => facing,
+            _ => born,
+        }
+    }
+
+    /// Where what a type makes appears, and which way the maker faces then.
+    fn muzzles(&self, maker: SpriteType) -> Vec<(Cells, Ways)> {
+        use SpriteClass as C;
+        let (board, model) = (self.board(), self.flood.model);
+        let own = model.of_type(maker);
+        let Some(class) = model.info(maker).class else { return Vec::new() };
+        let grown = if own.loose { model.rules.reach.max(1) } else { 0 };
+        let around = |distance: i32| vec![(board.around(self.touch(maker), distance), Ways::ALL)];
+        match class {
+            // A shot at rest, from where it stands; the others have moved before they shoot.
+            C::ShootAvatar | C::ShootOnlyAvatar if !model.info(maker).traits.continuous => {
+                self.ahead(self.rest(maker), own.facing, grown)
+            }
+            C::FlakAvatar if !model.info(maker).traits.continuous => {
+                vec![(self.rest(maker).clone(), own.facing)]
+            }
+            C::ShootAvatar | C::ShootOnlyAvatar | C::OngoingShootAvatar => {
+                self.ahead(self.touch(maker), own.facing, grown)
+            }
+            C::AimedAvatar | C::SpaceshipAvatar => around(1 + grown),
+            C::WizardAvatar => around(2 + grown),
+            C::OngoingTurningAvatar => vec![(self.rest(maker).clone(), own.facing)],
+            C::Spreader => self.ahead(self.touch(maker), Ways::FOUR, grown),
+            _ => vec![(self.touch(maker).clone(), own.facing)],
+        }
+    }
+
+    /// One body length ahead, for each of these directions.
+    fn ahead(&self, from: &Cells, facing: Ways, grown: i32) -> Vec<(Cells, Ways)> {
+        let board = self.board();
+        if facing.meets(Ways::ASKEW) {
+            return vec![(board.around(from, 1 + grown), Ways::ALL)];
+        }
+        // Whose size is not that of a cell shoots a little further, or less far.
+        let more = if self.flood.model.scales { grown } else { 0 };
+        let shifted = |step: (i32, i32)| (board.around(&board.beside(from, step), more), Ways::of_step(step));
+        let unset = facing.meets(Ways::UNSET).then(|| (board.around(from, more), Ways::UNSET));
+        facing.steps().map(shifted).chain(unset).collect()
+    }
+}

@@ -1,0 +1,225 @@
+//! How sprites of a type move by themselves.
+
+use super::cells::Ways;
+use super::meetings::{Meeting, With};
+use super::model::Model;
+use crate::game::SpriteType;
+use crate::geometry::Direction;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::Effect;
+use crate::ontology::sprites::is_idle;
+
+/// Cells that something may cross in a tick, off the grid's axes, before it is taken to be able to be anywhere.
+const MAX_STRIDE: f64 = 4.0;
+
+/// How sprites of a type move.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Mobility {
+    /// The directions into which its own update can move it.
+    pub(super) ways: Ways,
+    /// The orientations that it can have.
+    pub(super) facing: Ways,
+    /// The directions in which it can have moved since its last update, by whatever.
+    pub(super) moved: Ways,
+    /// The largest speed that it can have, in the units of its physics.
+    pub(super) top: f64,
+    /// Its speed can be negative.
+    pub(super) backwards: bool,
+    /// How many cells its own update can carry it, rounded up.
+    pub(super) stride: i32,
+    /// How many barred cells in a row its own update can skip.
+    pub(super) leap: i32,
+    /// It may get anywhere that is not barred.
+    pub(super) boundless: bool,
+    /// It may stand between cells, or be larger or smaller than one.
+    pub(super) loose: bool,
+    /// Nothing ever moves it.
+    pub(super) fixed: bool,
+    /// Some effect puts it somewhere without a move, so that it may be moved again in the same tick.
+    pub(super) placed: bool,
+    /// Some effect puts it somewhere however far away.
+    pub(super) thrown: bool,
+    /// It does not move in its first update.
+    pub(super) waits: bool,
+    /// It faces where it has moved, always.
+    pub(super) straight: bool,
+    /// It moves where it faces, always.
+    pub(super) goes_ahead: bool,
+    /// It turns as its player likes.
+    pub(super) turns: bool,
+    /// Something can put it, or what it leaves behind, back to where it was.
+    pub(super) goes_back: bool,
+}
+
+impl Mobility {
+    /// Whether it can skip cells in a tick, so that what it is stopped by need not be the first thing on its way.
+    pub(super) fn comes_from_far(&self) -> bool {
+        self.leap > 0 || self.placed || self.boundless
+    }
+
+    /// Whether it moves where it faces, along the grid, until something turns it.
+    pub(super) fn is_steady(&self) -> bool {
+        self.goes_ahead && !self.turns && !self.boundless && !self.ways.meets(Ways::ASKEW)
+    }
+}
+
+impl Model<'_> {
+    /// What a type is without others.
+    pub(super) fn alone(&self, stype: SpriteType) -> Mobility {
+        use SpriteClass as C;
+        let info = self.info(stype);
+        let traits = &info.traits;
+        let Some(class) = info.class else { return Mobility::default() };
+        let own = self.born(stype);
+        let facing = match class {
+            // They turn by angles, or lose a part of their orientation when they jump.
+            C::AimedAvatar | C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Ways::ALL,
+            C::Walker | C::WalkerJumper => Ways::ALL,
+            C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar => own.with(Ways::FOUR),
+            _ => own,
+        };
+        let walks = class.is_a(C::RandomNPC) || class.is_a(C::Walker) || class == C::RandomBomber;
+        let active = class.is_avatar() || walks;
+        Mobility {
+            facing,
+            moved: Ways::UNSET,
+            top: traits.speed.abs().max(if class.is_a(C::Walker) { traits.max_speed.abs() } else { 0.0 }),
+            backwards: traits.speed < 0.0,
+            loose: self.is_odd(stype) || traits.speed.fract() != 0.0,
+            waits: !active && traits.is_first_tick,
+            // Passive movement goes where the sprite faces, and some avatars face where they went.
+            straight: !traits.continuous && (!active || faces(class) || is_driven(class)),
+            goes_ahead: !traits.continuous && (!active || is_driven(class)),
+            // It leaves something where it was.
+            goes_back: class == C::OngoingTurningAvatar,
+            turns: is_driven(class) && class != C::MissileAvatar,
+            ..Mobility::default()
+        }
+    }
+
+    /// The directions that a new sprite of the type can have, if nothing gives it another.
+    pub(super) fn born(&self, stype: SpriteType) -> Ways {
+        let info = self.info(stype);
+        let draws =
+            info.class == Some(SpriteClass::RandomMissile) && info.traits.orientation == Direction::NIL;
+        if draws { Ways::FOUR } else { Ways::of(info.traits.orientation) }
+    }
+
+    /// Into which directions, and how far, a type's own update moves its sprites.
+    pub(super) fn move_by_itself(&mut self, stype: SpriteType) {
+        use SpriteClass as C;
+        let info = self.info(stype);
+        let traits = &info.traits;
+        let Some(class) = info.class else { return };
+        let mut own = self.mobility[stype.index()];
+        let oriented = traits.is_oriented || self.takes_orientation[stype.index()];
+        let drifts = !traits.is_static && !traits.only_active;
+        let always = class == C::RandomMissile || is_driven(class);
+        let walker = class.is_a(C::Walker);
+        let passive = if class.is_avatar() { always || traits.off_grid } else { always || drifts };
+        let passive = passive && (class.is_avatar() || !is_idle(class, traits, self.speeds_change));
+        let steered = match class {
+            C::HorizontalAvatar | C::FlakAvatar => Ways::LEFT.with(Ways::RIGHT),
+            C::VerticalAvatar => Ways::UP.with(Ways::DOWN),
+            C::NullAvatar | C::ShootOnlyAvatar => Ways::NONE,
+            C::AimedAvatar | C::SpaceshipAvatar | C::CarAvatar | C::LanderAvatar => Ways::ANY,
+            C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Ways::ANY,
+            _ if always => Ways::NONE,
+            class if class.is_avatar() => Ways::FOUR,
+            class if class.is_a(C::RandomNPC) || class == C::RandomBomber => Ways::FOUR,
+            C::Walker | C::WalkerJumper => Ways::ANY,
+            _ => Ways::NONE,
+        };
+        // Parents are never updated; the player's avatar always is.
+        let updated = info.order.is_some() || class.is_avatar();
+        let (passive, steered) = (passive && updated, if updated { steered } else { Ways::NONE });
+        let accelerates = traits.continuous && (steered != Ways::NONE || self.forced[stype.index()]);
+        let walks = steered != Ways::NONE && !traits.stationary;
+        let mut ways = Ways::NONE;
+        if traits.continuous {
+            if accelerates {
+                own.facing = Ways::ALL;
+                let limit = traits.max_speed.abs();
+                own.top = if traits.max_speed == -1.0 { f64::INFINITY } else { own.top.max(limit) };
+                if !(0.0..=2.0).contains(&traits.friction) {
+                    own.top = f64::INFINITY;
+                }
+            }
+            if passive || steered != Ways::NONE {
+                ways = if accelerates { Ways::ANY } else { own.facing };
+            }
+            own.loose |= ways != Ways::NONE;
+        } else {
+            if passive && oriented {
+                ways = ways.with(own.facing);
+            }
+            if walks {
+                ways = ways.with(steered);
+                if traits.rotate_in_place {
+                    own.facing = own.facing.with(steered);
+                }
+                own.facing = if faces(class) { own.facing.with(steered) } else { own.facing };
+                // Active movement takes a speed of 0 for 1; a car has one of its own.
+                own.top = own.top.max(if class == C::CarAvatar { 5.0 } else { 1.0 });
+            }
+        }
+        // A passive speed of −1 stands for 1.
+        if own.backwards {
+            ways = ways.with(ways.mirrored());
+        }
+        ways = ways.without(Ways::UNSET);
+        own.loose |= ways.meets(Ways::ASKEW);
+        // On the grid these take forces for directions of any length.
+        let jumps = matches!(class, C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar) || walker;
+        let leaps = jumps && !traits.continuous && walks;
+        let hop = if jumps { 5.0 / self.block } else { 0.0 };
+        let distance = if traits.continuous { own.top / self.block + hop } else { own.top };
+        if own.top == 0.0 && !walks {
+            ways = Ways::NONE;
+        }
+        own.ways = ways;
+        own.moved = own.moved.with(ways);
+        if ways == Ways::NONE {
+            self.mobility[stype.index()] = own;
+            return;
+        }
+        let (stride, leap) = self.stride(distance);
+        let own = &mut own;
+        (own.stride, own.leap) = (stride, leap);
+        let askew = ways.meets(Ways::ASKEW) && distance > MAX_STRIDE;
+        own.boundless |= leaps || askew || self.is_wild(distance);
+        self.mobility[stype.index()] = *own;
+    }
+}
+
+/// Whether a push goes where the pusher went: not if it can face another way.
+pub(super) fn pushes_straight(pusher: &Mobility) -> bool {
+    !pusher.placed && (pusher.facing == Ways::UNSET || pusher.straight)
+}
+
+/// Avatars that face where they went.
+fn faces(class: SpriteClass) -> bool {
+    use SpriteClass as C;
+    matches!(class, C::OrientedAvatar | C::ShootAvatar | C::AimedAvatar | C::BirdAvatar)
+}
+
+/// Avatars that always move ahead.
+fn is_driven(class: SpriteClass) -> bool {
+    use SpriteClass as C;
+    matches!(class, C::MissileAvatar | C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar)
+}
+
+/// Whether an effect at the edge, or with a partner, takes place for every sprite of the type whatever it holds.
+pub(super) fn is_stop(meeting: &Meeting<'_>, effect: &Effect) -> bool {
+    let partner = !matches!(meeting.with, With::Nobody);
+    partner
+        && matches!(
+            effect,
+            Effect::StepBack { .. }
+                | Effect::TurnAround
+                | Effect::WallStop
+                | Effect::WallBounce
+                | Effect::WallReverse
+                | Effect::UndoAll { .. }
+        )
+}

@@ -1,0 +1,230 @@
+//! How sprites of all types move: a fixed point over the rules, before any level is looked at cell by cell.
+
+use super::super::prospect::Prospect;
+use super::cells::{Board, Ways};
+use super::meetings::Meeting;
+use super::mobility::{Mobility, pushes_straight};
+use crate::game::{Rules, SpriteType, TypeInfo};
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::Effect;
+use std::collections::BTreeSet;
+
+/// Meetings gone through in all the rounds of the fixed point, at most; usual games take some hundreds.
+const MAX_STEPS: usize = 1 << 21;
+
+/// What is derived about all types.
+pub(super) struct Model<'a> {
+    pub(super) rules: &'a Rules,
+    pub(super) board: Board,
+    pub(super) block: f64,
+    pub(super) there: &'a [bool],
+    /// By type: such sprites can appear in play.
+    pub(super) made: &'a [bool],
+    pub(super) meetings: &'a [Meeting<'a>],
+    /// By type: what it makes by itself, and the ammunition that each costs.
+    pub(super) makes: Vec<Vec<(SpriteType, Option<SpriteType>)>>,
+    /// By type: where touching it leads to.
+    pub(super) exits: Vec<Vec<SpriteType>>,
+    /// By type: as a resource, it can be held beyond its limit.
+    pub(super) unlimited: Vec<bool>,
+    pub(super) mobility: Vec<Mobility>,
+    /// The smallest sprite, in cells.
+    pub(super) smallest: f64,
+    /// Whether some sprite is larger or smaller than a cell.
+    pub(super) scales: bool,
+    /// Some effect can give speed to what has none.
+    pub(super) speeds_change: bool,
+    /// By type: how many cells others can move it in a tick, at most.
+    pub(super) pushed_far: Vec<i32>,
+    /// By type: something accelerates it, apart from itself.
+    pub(super) forced: Vec<bool>,
+    /// By type: some effect gives it an orientation even if its class has none.
+    pub(super) takes_orientation: Vec<bool>,
+}
+
+impl<'a> Model<'a> {
+    /// None if the sizes of sprites are out of all proportion.
+    pub(super) fn of(
+        rules: &'a Rules,
+        prospect: &'a Prospect<'_>,
+        meetings: &'a [Meeting<'a>],
+        board: Board,
+        block: i32,
+    ) -> Option<Model<'a>> {
+        let block = f64::from(block);
+        let present = || rules.types.iter().zip(&prospect.there).filter(|(_, there)| **there);
+        let factors =
+            || present().flat_map(|(info, _)| [info.traits.width_factor, info.traits.height_factor]);
+        // Pixels are whole: a sprite may be a little smaller than its factor says.
+        let smallest = factors().map(|factor| (factor * block).floor() / block).fold(1.0, f64::min);
+        if !factors().all(|factor| factor * block >= 1.0 && factor <= 64.0) {
+            return None;
+        }
+        let mut makes: Vec<_> = (0..rules.types.len()).map(|at| prospect.makes(at)).collect();
+        let spawns = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
+        let exits = |info: &TypeInfo| {
+            // What a spawner makes is where it leads to, whatever that is in this tick.
+            let made = info.class.is_some_and(spawns).then_some(&info.traits.stypes[..]);
+            let exits = info.leads_to().into_iter().chain(made.unwrap_or_default().iter().copied());
+            exits.filter(|&exit| exit != SpriteType::NONE).collect::<Vec<SpriteType>>()
+        };
+        let mut exits: Vec<Vec<_>> = rules.types.iter().map(exits).collect();
+        for meeting in meetings {
+            let Effect::UpdateSpawnType { stype, spawn_point } = *meeting.effect(rules) else { continue };
+            for family in &rules.types[spawn_point.index()].tree {
+                let new = !exits[family.index()].contains(&stype);
+                if rules.types[family.index()].class.is_some_and(spawns) && new {
+                    makes[family.index()].push((stype, None));
+                    exits[family.index()].push(stype);
+                }
+            }
+        }
+        let none = vec![false; rules.types.len()];
+        let mut model = Model {
+            rules,
+            board,
+            block,
+            there: &prospect.there,
+            made: &prospect.made,
+            meetings,
+            makes,
+            exits,
+            unlimited: (0u16..).take(none.len()).map(|at| prospect.is_unlimited(SpriteType(at))).collect(),
+            mobility: vec![Mobility::default(); rules.types.len()],
+            smallest,
+            pushed_far: vec![0; none.len()],
+            scales: factors().any(|factor| factor != 1.0),
+            speeds_change: rules.effects.iter().any(|info| info.effect.gives_speed()),
+            forced: none.clone(),
+            takes_orientation: none,
+        };
+        model.settle().then_some(model)
+    }
+
+    pub(super) fn info(&self, stype: SpriteType) -> &'a TypeInfo {
+        &self.rules.types[stype.index()]
+    }
+
+    pub(super) fn of_type(&self, stype: SpriteType) -> &Mobility {
+        &self.mobility[stype.index()]
+    }
+
+    pub(super) fn types(&self) -> impl Iterator<Item = SpriteType> + use<'a> {
+        let there = self.there;
+        (0..there.len()).filter(|&at| there[at]).map(|at| SpriteType(at as u16))
+    }
+
+    /// How many cells around a cell that two sprites share the rest of one of them can lie.
+    pub(super) fn spread(&self, stype: SpriteType) -> i32 {
+        if self.of_type(stype).loose { self.rules.reach.max(1) } else { 0 }
+    }
+
+    /// Whether the fixed point was found in time.
+    fn settle(&mut self) -> bool {
+        let types: Vec<SpriteType> = self.types().collect();
+        for &stype in &types {
+            self.mobility[stype.index()] = self.alone(stype);
+            self.forced[stype.index()] = self.info(stype).traits.gravity > 0.0;
+        }
+        for meeting in self.meetings {
+            self.speed_up(meeting);
+            self.note_forces(meeting);
+        }
+        let undoing = self.meetings.iter().map(|meeting| meeting.effect).collect::<BTreeSet<u16>>();
+        for effect in undoing {
+            let Effect::UndoAll { spare } = &self.rules.effects[usize::from(effect)].effect else { continue };
+            for &stype in &types {
+                self.mobility[stype.index()].goes_back |= !spare.contains(&stype);
+            }
+        }
+        let (mut settled, mut steps) = (false, 0);
+        while !settled && steps < MAX_STEPS {
+            let before: Vec<_> = self.states().collect();
+            for &stype in &types {
+                self.hand_on(stype);
+                self.move_by_itself(stype);
+            }
+            for meeting in self.meetings {
+                self.meet(meeting);
+            }
+            settled = self.states().eq(before);
+            steps += self.meetings.iter().map(|meeting| self.size(meeting)).sum::<usize>() + types.len();
+        }
+        for &stype in &types {
+            let mobility = &mut self.mobility[stype.index()];
+            mobility.fixed = !mobility.boundless
+                && !mobility.placed
+                && mobility.moved.without(Ways::UNSET) == Ways::NONE
+                && mobility.ways == Ways::NONE;
+        }
+        for meeting in self.meetings {
+            self.note_push(meeting);
+        }
+        settled
+    }
+
+    /// How many types a meeting is about.
+    fn size(&self, meeting: &Meeting<'_>) -> usize {
+        match meeting.effect(self.rules) {
+            Effect::TransformToRandomChild { options, .. } => options.len(),
+            Effect::TeleportToExit => meeting.two().map_or(1, |two| self.exits[two.index()].len()),
+            _ => 1,
+        }
+    }
+
+    /// How many cells others can move a sprite of the type in a tick, at most.
+    pub(super) fn pushed_far(&self, stype: SpriteType) -> i32 {
+        self.pushed_far[stype.index()]
+    }
+
+    fn states(&self) -> impl Iterator<Item = (Ways, Ways, [bool; 3])> + use<'_> {
+        self.mobility.iter().map(|own| (own.facing, own.moved, [own.loose, own.placed, own.goes_back]))
+    }
+
+    /// So far in a tick that pixels run out of numbers, or that is no number at all.
+    pub(super) fn is_wild(&self, distance: f64) -> bool {
+        distance.is_nan() || distance * self.block >= 1e6
+    }
+
+    /// For a move of so many cells: how many cells it can enter, and how many it can skip.
+    pub(super) fn stride(&self, distance: f64) -> (i32, i32) {
+        let most = self.board.side() + 2;
+        // What moves by less than its own size and a cell overlaps every cell on its way, before or after.
+        let leap = if distance >= 1.0 + self.smallest { (distance - self.smallest) as i32 } else { 0 };
+        ((distance.ceil() as i32).min(most), leap.min(most))
+    }
+
+    /// How far a sprite that is moved with another's speed goes, in cells.
+    pub(super) fn carried(&self, one: SpriteType, by: SpriteType) -> f64 {
+        let (one, by) = (self.of_type(one), self.of_type(by));
+        // A speed of 0 stands for the sprite's own, and that for 1.
+        by.top.max(one.top).max(1.0)
+    }
+
+    /// Whether sprites of the type are larger or smaller than a cell. The first one of its type has a size of its own until
+    /// it moves: it may seem to have come from somewhere.
+    pub(super) fn is_odd(&self, stype: SpriteType) -> bool {
+        let traits = &self.info(stype).traits;
+        traits.width_factor != 1.0 || traits.height_factor != 1.0
+    }
+
+    /// Whether one sprite, stopped flush with another, stands where it would have come by itself: beside what was there,
+    /// and does not move.
+    pub(super) fn stops_in_order(&self, one: SpriteType, two: SpriteType) -> bool {
+        let (own, partner) = (self.of_type(one), self.of_type(two));
+        let stands = partner.fixed && !partner.loose && !self.made[two.index()];
+        stands && !self.is_odd(one) && !own.comes_from_far()
+    }
+
+    /// Whether, as far as is known by now, sprites of a type never move.
+    pub(super) fn is_fixed_now(&self, mobility: &Mobility) -> bool {
+        !mobility.placed && mobility.moved.without(Ways::UNSET) == Ways::NONE
+    }
+
+    /// The directions into which a sprite pushes others.
+    pub(super) fn pushed(&self, pusher: &Mobility) -> Ways {
+        let moved = pusher.moved.without(Ways::UNSET);
+        let both = !pushes_straight(pusher) || pusher.backwards;
+        if both { moved.with(moved.mirrored()) } else { moved }
+    }
+}

@@ -1,0 +1,71 @@
+//! How many sprites there can be in a level, at least and at most, and what that means for its terminations.
+
+use super::super::attain::is_mortal;
+use super::super::goal::Condition;
+use super::Cause;
+use super::cells::Cells;
+use super::events::Placed;
+use super::model::Model;
+use crate::game::{Rules, SpriteType};
+
+/// What is known when nothing new is reached any more.
+pub(super) struct Tally<'a> {
+    pub(super) rules: &'a Rules,
+    pub(super) model: &'a Model<'a>,
+    pub(super) placed: &'a Placed,
+    /// By type: cells where one can be ended.
+    pub(super) ended: &'a [Cells],
+    /// By type: some can appear in play.
+    pub(super) made: &'a [bool],
+}
+
+impl Tally<'_> {
+    /// Why a termination with this condition can never hold, if that is certain.
+    pub(super) fn hinders(&self, condition: &Condition) -> Option<Cause> {
+        let types = condition.types();
+        let stay = |limit: i32| {
+            let stay: Vec<_> = types.iter().flat_map(|&stype| self.staying(stype)).collect();
+            (stay.len() as i64 > i64::from(limit)).then_some(Cause::Stay(stay))
+        };
+        let few = |limit: i32| {
+            let most: Option<i64> = types.iter().map(|&stype| self.most(stype)).sum();
+            most.filter(|most| *most < i64::from(limit)).map(Cause::AtMost)
+        };
+        match condition {
+            Condition::AtMost(_, limit) => stay(*limit),
+            Condition::AtLeast(_, limit) => few(*limit),
+            Condition::Exactly(_, limit) => stay(*limit).or_else(|| few(*limit)),
+            Condition::Tick(_) => None,
+        }
+    }
+
+    /// Sprites of the type that nothing ever ends, and where the level places them.
+    fn staying(&self, stype: SpriteType) -> Vec<(SpriteType, usize)> {
+        let info = &self.rules.types[stype.index()];
+        let ended = &self.ended[stype.index()];
+        let single = info.path.iter().any(|&stype| self.rules.types[stype.index()].singleton);
+        let fixed = self.model.of_type(stype).fixed;
+        if single || self.is_surplus(stype) || is_mortal(self.rules, stype) || !(fixed || ended.is_empty()) {
+            return Vec::new();
+        }
+        let stays = self.placed[stype.index()].iter().filter(|(cell, _)| !ended.contains(*cell));
+        let sprites = stays.flat_map(|&(cell, count)| std::iter::repeat_n((stype, cell), count as usize));
+        sprites.map(|(stype, cell)| (stype, self.model.board.on_level(cell))).collect()
+    }
+
+    /// Whether sprites of the type may be avatars beyond the first, which are removed when a level starts.
+    fn is_surplus(&self, stype: SpriteType) -> bool {
+        let passes = |stype: &SpriteType| self.model.info(*stype).is_like_avatar();
+        let count = || self.model.types().filter(passes).map(|stype| self.count(stype)).sum::<i64>();
+        passes(&stype) && count() > 1
+    }
+
+    fn count(&self, stype: SpriteType) -> i64 {
+        self.placed[stype.index()].iter().map(|(_, count)| i64::from(*count)).sum()
+    }
+
+    /// Sprites of the type that can be there at a time; none if there is no telling.
+    fn most(&self, stype: SpriteType) -> Option<i64> {
+        (!self.made[stype.index()]).then(|| self.count(stype))
+    }
+}

@@ -1,0 +1,117 @@
+//! Levels with a goal that can be reached, and the same ones with a goal that cannot.
+
+use super::*;
+
+/// A game that is won when no gem is left. The first level may be won; the second one is proved not to be.
+#[track_caller]
+fn check(sprites: &str, rules: &str, open: &str, closed: &str) {
+    let sprites = format!("wall > Immovable solid=True\ngem > Immovable\n{sprites}");
+    let rules = format!("hero wall > stepBack\nhero EOS > stepBack\n{rules}");
+    let names = sprites.lines().filter_map(|line| line.split_once(" > ")).map(|(name, _)| name);
+    let mapping: Vec<String> = names.map(|name| format!("{} > {name}", &name[..1])).collect();
+    let ends = "SpriteCounter stype=gem win=True\nSpriteCounter stype=hero win=False";
+    let analysis = Analysis::of(&game(&sprites, &mapping.join("\n"), &rules, ends));
+    assert!(reach(&analysis, open).can_win(), "{open}");
+    let closed = reach(&analysis, closed);
+    assert!(!closed.can_win(), "{}", picture(&analysis, &closed, "hero"));
+    let gem = named(&analysis, "gem");
+    let [Hindrance { goal: 0, cause: Cause::Stay(gems) }] = &closed.hindrances()[..1] else {
+        panic!("{:?}", closed.hindrances());
+    };
+    assert!(gems.iter().all(|(stype, cell)| *stype == gem && closed.can_be(gem, *cell)), "{gems:?}");
+}
+
+const TAKE: &str = "gem hero > killSprite";
+
+#[test]
+fn on_foot() {
+    check("hero > MovingAvatar", TAKE, "h w \n  wg\n    ", "h w \n  wg\n  w ");
+    check("hero > OrientedAvatar", TAKE, "hg", "hwg");
+    check("hero > HorizontalAvatar", TAKE, "    \nh  g", "   g\nh   ");
+    check("hero > VerticalAvatar", TAKE, "h \ng ", "hg\n  ");
+    check("hero > OngoingAvatar", TAKE, "h w \n   g", "h w \n  wg");
+    check("hero > MissileAvatar orientation=RIGHT", TAKE, "h  g\n    ", "h   \n   g");
+}
+
+#[test]
+fn by_shots() {
+    let shot = "shot > Missile orientation=UP";
+    let rules = "shot wall > killSprite\nshot EOS > killSprite\ngem shot > killSprite";
+    let flak = format!("hero > FlakAvatar stype=shot\n{shot}");
+    check(&flak, rules, "  g \n    \nwh w", "   g\n  w \nwh w");
+    let shooter = "hero > ShootAvatar stype=shot\nshot > Missile";
+    // A shot does not turn corners.
+    let pond = "pond > Immovable";
+    let rules = format!("{rules}\nhero pond > stepBack");
+    check(&format!("{shooter}\n{pond}"), &rules, "hppg\npppp", "hppp\npppg");
+    let loaded = "hero > ShootAvatar stype=shot ammo=quiver\nshot > Missile\nquiver > Resource limit=3\n"
+        .to_owned()
+        + pond;
+    let rules = format!("{rules}\nquiver hero > collectResource");
+    check(&loaded, &rules, "hqppg", "h ppg\nppppq");
+}
+
+#[test]
+fn by_jumps() {
+    // A cell is 80 pixels, and a jump lifts by 46. Walls can be climbed: who falls against one stands on it.
+    let hero = "hero > PlatformerAvatar physicstype=CONT gravity=1 max_speed=15 jump_strength=8";
+    let stairs = "          \n          \n         g\n        ww\n  h    www\nwwwwwwwwww";
+    let cloud = "          \n         g\n          \n          \n  h       \nwwwwwwwwww";
+    check(hero, TAKE, stairs, cloud);
+}
+
+#[test]
+fn behind_doors() {
+    let sprites = "hero > MovingAvatar\nkey > Resource limit=1\ndoor > Door";
+    let rules = format!(
+        "{TAKE}\nkey hero > collectResource\ndoor hero > killIfOtherHasMore resource=key limit=1\n\
+         hero door > stepBack"
+    );
+    check(sprites, &rules, "hkdg", "h dg\nwwwk");
+    // The key behind its own door, and two doors that each hide the other's key.
+    check(sprites, &rules, "kh dg", "h dkg");
+    let two = format!("{sprites}\nring > Resource limit=1\nlock > Door");
+    let both = format!(
+        "{rules}\nring hero > collectResource\nlock hero > killIfOtherHasMore resource=ring limit=1\n\
+         hero lock > stepBack"
+    );
+    check(&two, &both, "hrlkdg", "hlkwg\n drww");
+}
+
+#[test]
+fn with_boxes() {
+    let sprites = "hero > MovingAvatar\nbox > Passive";
+    let rules = "box hero > bounceForward\nbox wall > undoAll\nbox EOS > undoAll\ngem box > killSprite\nhero gem > stepBack";
+    // In a corner a box stays, and along a wall it comes away from it no more.
+    check(sprites, rules, "     \nh b g\n     ", "b    \nh   g\n     ");
+    check(sprites, rules, "h b g\n     ", "h b  \n    g");
+}
+
+#[test]
+fn through_portals() {
+    let sprites = "hero > MovingAvatar\nportal > Portal stype=xit\nxit > Immovable";
+    let rules = format!("{TAKE}\nhero portal > teleportToExit");
+    check(sprites, &rules, "hpwxg", "hxwpg");
+    check(sprites, &rules, "hpwxg", "hpw g");
+}
+
+#[test]
+fn by_what_is_made() {
+    let sprites = "hero > NullAvatar\nnest > SpawnPoint stype=drop\ndrop > Missile orientation=DOWN";
+    let rules = "drop wall > killSprite\ndrop EOS > killSprite\ngem drop > killSprite";
+    check(sprites, rules, "hn \n   \n g ", "hn \n   \n  g");
+    check(sprites, rules, "hn \n   \n g ", "hn \n w \n g ");
+    // In two steps: what drops splashes, and the splash runs.
+    let sprites = format!("{sprites}\nsplash > Missile orientation=RIGHT");
+    let rules = "drop wall > transformTo stype=splash\ndrop EOS > killSprite\nsplash EOS > killSprite\ngem splash > killSprite";
+    check(&sprites, rules, "hn  \n    \n w g", "hn  \n    \n   g");
+}
+
+#[test]
+fn in_disguise() {
+    let sprites = "hero > MovingAvatar\nuniform > Immovable\nadmiral > MovingAvatar\nriver > Immovable";
+    let rules = "hero river > stepBack\nhero uniform > transformTo stype=admiral\nadmiral wall > stepBack\n\
+                 admiral EOS > stepBack\ngem admiral > killSprite";
+    check(sprites, rules, "hurg", "hrug");
+    check(sprites, rules, "hurg", "hurw\nwwwg");
+}
