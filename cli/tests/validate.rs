@@ -1,4 +1,4 @@
-//! `arcade validate` and `arcade fmt` on good, bad and hostile files.
+//! `arcade validate`, `arcade describe` and `arcade fmt` on good, bad and hostile files.
 
 mod arcade;
 
@@ -80,6 +80,21 @@ fn a_goal_walled_in_never_passes() {
     let winnable = judgements.iter().find(|judgement| judgement["criterion"] == "winnable").unwrap();
     assert_eq!(winnable["verdict"], "unknown");
     assert!(winnable["spent"].as_u64().unwrap() >= 200_000, "{winnable}");
+}
+
+#[test]
+fn a_goal_out_of_reach_is_told_with_its_place() {
+    let walled = "wwwwwwwwww\nwA.t...t.w\nw.....twww\nw.t....wnw\nwn...t.www\nwwwwwwwwww\n";
+    let told = "but here nothing can ever end the nectar in column 9, row 4";
+    let folder = folder(GAME, walled);
+    let output = run(folder.path(), &["validate", ".", "--budget", "2000"], 1);
+    assert!(text(&output.stdout).contains(told), "{}", text(&output.stdout));
+    let output = run(folder.path(), &["describe", ".", "0"], 0);
+    assert!(text(&output.stdout).contains(told), "{}", text(&output.stdout));
+    let output = run(folder.path(), &["--json", "describe", ".", "lvl0.txt"], 0);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["level"]["can_win"], false);
+    assert_eq!((&document["can_win"], &document["level"]["can_lose"]), (&true.into(), &true.into()));
 }
 
 #[test]

@@ -1,30 +1,47 @@
-//! `arcade describe`: the rules of a game in plain English, and what kind of game it is.
+//! `arcade describe`: the rules of a game in plain English, what kind of game it is, and what is certain of a level.
 
 use crate::console::Console;
-use crate::failure::Answer;
-use crate::input;
-use engine::Analysis;
-use engine::describe::Guide;
+use crate::failure::{Answer, Failure};
+use crate::input::{self, Named};
+use crate::render;
+use engine::describe::{self, Guide};
+use engine::{Analysis, Digest};
+use serde::Serialize;
 use serde_json::json;
 
 /// Says in plain English how a game is played, won and lost, what its sprites do, what happens when they meet, and what
-/// kind of game it is.
+/// kind of game it is; and, of a level, how much of it you can get to and which goals are out of reach.
 ///
-/// Example: arcade describe hailglass
+/// Example: arcade describe hailglass 0
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
+    /// A level file, or the number of one of the game's own levels
+    #[arg(value_name = "LEVEL")]
+    level: Option<String>,
     /// Load the game as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
 }
 
+/// What is certain of a level.
+#[derive(Serialize)]
+struct Prospects {
+    level: String,
+    digest: Digest,
+    text: Vec<String>,
+    can_win: bool,
+    can_lose: bool,
+}
+
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
+    let named = args.level.as_ref().map(|name| input.level(name)).transpose()?;
     let game = input.compile(args.as_reference)?;
     let analysis = Analysis::of(&game);
+    let prospects = named.map(|named| prospects(&analysis, &named)).transpose()?;
     let guide = Guide::from_analysis(&analysis);
     console.document(&json!({
         "game": input.source.name,
@@ -33,7 +50,24 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "taxonomy": analysis.taxonomy(),
         "can_win": analysis.can_win(),
         "can_lose": analysis.can_lose(),
+        "level": prospects,
     }))?;
     console.say(format_args!("{guide}\nWhat kind of game it is:\n  {}", guide.kind.join("\n  ")));
+    if let Some(Prospects { level, text, .. }) = prospects {
+        console.say(format_args!("\nWhat is certain of {level}:\n  {}", text.join("\n  ")));
+    }
     Ok(true)
+}
+
+fn prospects(analysis: &Analysis, named: &Named) -> Result<Prospects, Failure> {
+    let level = analysis.game().level(&named.text);
+    let level = level.map_err(|problems| Failure::malformed(render::problems(named, &problems.0)))?;
+    let reach = analysis.reach(&level);
+    Ok(Prospects {
+        level: named.name.clone(),
+        digest: level.digest(),
+        text: describe::level(analysis, &level, &reach),
+        can_win: reach.can_win(),
+        can_lose: reach.can_lose(),
+    })
 }

@@ -5,7 +5,7 @@ use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
 use crate::render::{self, Placed};
 use engine::syntax::InteractionLine;
-use engine::{Digest, Episode, Game, Level, Seed, Watch};
+use engine::{Analysis, Digest, Episode, Game, Level, Seed, Watch, describe};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -53,6 +53,8 @@ struct LevelDocument {
     digest: Option<Digest>,
     passes: bool,
     problems: Vec<Placed>,
+    /// Terminations that win and can never hold in the level, whatever is played, with the cause.
+    out_of_reach: Vec<String>,
     /// Interactions that the witness never executes.
     unused_rules: Vec<String>,
     #[serde(flatten)]
@@ -93,6 +95,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let criteria = Criteria { budget: args.budget, ..Criteria::default() };
     let panel = Panel::new(&criteria);
     let seed = Seed::from_text(&args.seed);
+    let analysis = Analysis::of(&game);
     let mut documents = Vec::new();
     let mut malformed = Vec::new();
     let bar = console.progress(levels.len() as u64, "judging");
@@ -103,8 +106,16 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                 malformed.push(render::problems(named, &problems.0));
                 let problems = render::placed(named, &problems.0);
                 let (level, digest, passes, report) = (named.name.clone(), None, false, None);
-                let unused_rules = Vec::new();
-                documents.push(LevelDocument { level, digest, passes, problems, unused_rules, report });
+                let (out_of_reach, unused_rules) = (Vec::new(), Vec::new());
+                documents.push(LevelDocument {
+                    level,
+                    digest,
+                    passes,
+                    problems,
+                    out_of_reach,
+                    unused_rules,
+                    report,
+                });
                 continue;
             }
         };
@@ -115,6 +126,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let report = panel.judge(&game, &level, seed.child(&level.digest().to_string(), 0));
         bar.inc(1);
         console.say(table(named, &report).trim_end());
+        let out_of_reach = describe::hindered_wins(&analysis, &level, &analysis.reach(&level));
+        for sentence in &out_of_reach {
+            console.say(format_args!("  note  out of reach: {sentence}"));
+        }
         let unused_rules =
             report.witness.as_ref().map_or(Vec::new(), |witness| unused(&game, &level, witness));
         if !unused_rules.is_empty() {
@@ -134,6 +149,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             digest: Some(level.digest()),
             passes: report.passes(),
             problems: render::placed(named, level.warnings()),
+            out_of_reach,
             unused_rules,
             report: Some(report),
         });

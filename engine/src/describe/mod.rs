@@ -3,9 +3,12 @@
 //! This is the only place that puts rules into words: prompts, cards and `arcade describe` all read it.
 
 mod kind;
+mod level;
 mod rules;
 mod sprites;
 mod words;
+
+pub use level::{hindered_wins, level};
 
 use crate::analysis::Analysis;
 use crate::game::Game;

@@ -1,7 +1,7 @@
 //! Interactions and terminations in words.
 
 use super::words::{Party, a, count, list, members, percent, sentence};
-use crate::analysis::{Analysis, Condition, Encounter};
+use crate::analysis::{Analysis, Condition, Encounter, Goal};
 use crate::game::{Counting, SpriteType, Timed};
 use crate::ontology::effects::{Effect, SpeedChange};
 use crate::ontology::terminations::Decision;
@@ -353,19 +353,19 @@ pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
 /// One sentence for each termination with that sign, in order of priority.
 pub(super) fn endings(analysis: &Analysis, win: bool) -> Vec<String> {
     let goals = analysis.goals().iter().filter(|goal| goal.win == win);
-    goals
-        .map(|goal| {
-            let decided_by = analysis.game().0.terminations[goal.line].decided_by;
-            let provided = match decided_by {
-                Decision::Line => String::new(),
-                Decision::Score => ", if your score is not 0".to_owned(),
-                Decision::Difference => ", if the counters are not all the same".to_owned(),
-                Decision::Value(value) => format!(", if the counter is at {value}"),
-            };
-            let verb = if win { "win" } else { "lose" };
-            format!("You {verb} {}{provided}.", ending(analysis, &goal.condition, win))
-        })
-        .collect()
+    goals.map(|one| format!("{}.", goal(analysis, one))).collect()
+}
+
+/// A termination as a sentence, without its full stop.
+pub(super) fn goal(analysis: &Analysis, goal: &Goal) -> String {
+    let provided = match analysis.game().0.terminations[goal.line].decided_by {
+        Decision::Line => String::new(),
+        Decision::Score => ", if your score is not 0".to_owned(),
+        Decision::Difference => ", if the counters are not all the same".to_owned(),
+        Decision::Value(value) => format!(", if the counter is at {value}"),
+    };
+    let verb = if goal.win { "win" } else { "lose" };
+    format!("You {verb} {}{provided}", ending(analysis, &goal.condition, goal.win))
 }
 
 fn ending(analysis: &Analysis, condition: &Condition, win: bool) -> String {

@@ -1,0 +1,61 @@
+//! What can be said of one level, in words.
+
+use super::rules;
+use super::words::list;
+use crate::analysis::{Analysis, Cause, Hindrance, Reach};
+use crate::game::SpriteType;
+use crate::level::Level;
+
+/// Sprites that a sentence names one by one, at most.
+const MAX_NAMED: usize = 3;
+
+/// What is certain of a level before it is played, a sentence each: how much of it you can get to, and which terminations
+/// can never hold in it.
+pub fn level(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
+    if reach.is_coarse() {
+        return vec!["There is too much in it to tell where everything can be.".to_owned()];
+    }
+    let all = level.cells().len();
+    let reached = (0..all).filter(|&cell| reach.avatar_reaches(cell)).count();
+    let mut lines = vec![format!("You can get to {reached} of its {all} cells, at most.")];
+    lines.extend(hindrances(analysis, level, reach, |_| true));
+    lines
+}
+
+/// Which terminations that win can never hold in a level, and why, a sentence each.
+pub fn hindered_wins(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
+    hindrances(analysis, level, reach, |goal| analysis.goals()[goal].win)
+}
+
+fn hindrances(
+    analysis: &Analysis,
+    level: &Level,
+    reach: &Reach,
+    about: impl Fn(usize) -> bool,
+) -> Vec<String> {
+    let hindrances = reach.hindrances().iter().filter(|hindrance| about(hindrance.goal));
+    let sentence = |Hindrance { goal, cause }: &Hindrance| {
+        let ending = rules::goal(analysis, &analysis.goals()[*goal]);
+        let but = match cause {
+            Cause::Stay(sprites) => format!("nothing can ever end {}", placed(analysis, level, sprites)),
+            Cause::AtMost(0) => "there can never be any".to_owned(),
+            Cause::AtMost(most) => format!("there can never be more than {most}"),
+        };
+        format!("{ending}, but here {but}.")
+    };
+    hindrances.map(sentence).collect()
+}
+
+/// Sprites by name and place, the first ones.
+fn placed(analysis: &Analysis, level: &Level, sprites: &[(SpriteType, usize)]) -> String {
+    let columns = level.columns();
+    let named = sprites.iter().take(MAX_NAMED).map(|&(stype, cell)| {
+        let (column, row) = (cell % columns + 1, cell / columns + 1);
+        format!("the {} in column {column}, row {row}", analysis.game().name(stype))
+    });
+    let mut named: Vec<String> = named.collect();
+    if sprites.len() > MAX_NAMED {
+        named.push(format!("{} more", sprites.len() - MAX_NAMED));
+    }
+    list(&named, "and")
+}
