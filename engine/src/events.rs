@@ -3,7 +3,7 @@
 use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed, TypeInfo};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
-use crate::occupancy::Hits;
+use crate::occupancy::{Hits, Side};
 use crate::ontology::effects;
 use crate::state::{NONE, Slot, Timer, flag, memory};
 use crate::step::{Step, Watch};
@@ -17,19 +17,25 @@ impl Step<'_> {
                 return;
             }
         }
-        for at in 0..self.rules.edge.len() {
-            let (stype, effect) = self.rules.edge[at];
+        for &(stype, effect) in &self.rules.edge {
             self.edge_pass(stype, effect, watch);
             if self.stopped.is_some() {
                 return;
             }
         }
-        for at in 0..self.rules.passes.len() {
-            self.pair_pass(&self.rules.passes[at], watch);
+        let rules = self.rules;
+        let Some(mut number) = self.state.next_possible(0) else { return };
+        self.state.cover(rules);
+        loop {
+            self.pass = number as i32;
+            self.pair_pass(number, &rules.passes[number], watch);
             if self.stopped.is_some() {
-                return;
+                break;
             }
+            let Some(next) = self.state.next_possible(number + 1) else { break };
+            number = next;
         }
+        self.state.uncover();
     }
 
     /// Effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
@@ -39,6 +45,7 @@ impl Step<'_> {
                 return;
             }
             self.state.timers.pop();
+            self.rouse_all();
             // Also for those that find no sprite: one that repeats at once would never end.
             self.work_of_effect();
             let timed = &self.rules.timed[usize::from(number)];
@@ -135,13 +142,15 @@ impl Step<'_> {
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut impl Watch) {
         let rules = self.rules;
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
-        let screen = self.screen();
         for &stype in &family.tree {
+            if self.state.group(stype).off == 0 {
+                continue;
+            }
             self.work(1 + usize::from(self.state.group(stype).count));
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 let sprite = self.state.sprite(slot);
-                if !sprite.is(flag::KILLED | flag::DISABLED) && !screen.contains(sprite.rect) {
+                if sprite.is(flag::OFF) && !sprite.is(flag::KILLED | flag::DISABLED) {
                     let tail = self.state.group(stype).tail;
                     self.execute(effect, slot, None, watch);
                     if self.stopped.is_some() {
@@ -157,14 +166,16 @@ impl Step<'_> {
         }
     }
 
-    fn pair_pass(&mut self, pass: &Pass, watch: &mut impl Watch) {
+    fn pair_pass(&mut self, number: usize, pass: &Pass, watch: &mut impl Watch) {
         let rules = self.rules;
         let (first, second) = (&rules.types[pass.first.index()], &rules.types[pass.second.index()]);
-        let size = |family: &TypeInfo| {
-            family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
+        let bits = rules.contacts.sides(number);
+        let (first, second) = (Side { family: first, bits: bits.0 }, Side { family: second, bits: bits.1 });
+        let size = |side: Side<'_>| {
+            side.family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
         };
         let (firsts, seconds) = (size(first), size(second));
-        self.work(first.tree.len() + second.tree.len());
+        self.work(first.family.tree.len() + second.family.tree.len());
         if firsts == 0 || seconds == 0 {
             return;
         }
@@ -183,30 +194,41 @@ impl Step<'_> {
     fn visit_first_side(
         &mut self,
         pass: &Pass,
-        first: &TypeInfo,
-        second: &TypeInfo,
+        first: Side<'_>,
+        second: Side<'_>,
         newborn: u32,
         watch: &mut impl Watch,
     ) {
         let mut hits = Hits::new();
+        let mut visited = 0;
         let in_batch = self.rules.effects[usize::from(pass.effect)].in_batch;
-        for &stype in &first.tree {
+        for &stype in &first.family.tree {
             let mut slot = self.state.group(stype).head;
-            while slot != NONE && self.state.sprite(slot).id < newborn {
+            let aware = self.rules.types[stype.index()].ground_aware;
+            while slot != NONE {
+                let sprite = self.state.sprite(slot);
+                if sprite.id >= newborn {
+                    break;
+                }
+                visited += 1;
+                if !aware && !self.state.may_overlap(self.rules, second, sprite) {
+                    slot = sprite.next;
+                    continue;
+                }
                 hits.clear();
-                let looked = if self.rules.types[stype.index()].ground_aware {
+                let looked = if aware {
                     self.look_down(slot, second, newborn, &mut hits)
                 } else {
                     self.state.overlapping(self.rules, second, slot, newborn, &mut hits)
                 };
                 self.work(looked);
                 if hits.len() > 1 {
-                    hits.sort_unstable_by_key(|&hit| self.rank(second, hit));
+                    hits.sort_unstable_by_key(|&hit| self.rank(second.family, hit));
                 }
                 if pass.repeats {
                     let once = std::mem::take(&mut hits);
-                    self.work(second.tree.len() * once.len() / 8);
-                    for &stype in &second.tree {
+                    self.work(second.family.tree.len() * once.len() / 8);
+                    for &stype in &second.family.tree {
                         let of_type = |hit: &&Slot| self.state.sprite(**hit).stype == stype;
                         hits.extend(once.iter().filter(of_type).copied());
                     }
@@ -230,22 +252,30 @@ impl Step<'_> {
                 slot = self.state.sprite(slot).next;
             }
         }
+        self.work(visited);
     }
 
     /// The same meetings in the same order, found from the second side because it has fewer sprites.
     fn visit_second_side(
         &mut self,
         pass: &Pass,
-        first: &TypeInfo,
-        second: &TypeInfo,
+        first: Side<'_>,
+        second: Side<'_>,
         newborn: u32,
         watch: &mut impl Watch,
     ) {
         let mut pairs: SmallVec<[(Slot, Slot); 16]> = SmallVec::new();
         let mut hits = Hits::new();
-        for &stype in &second.tree {
+        let mut visited = 0;
+        for &stype in &second.family.tree {
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
+                let sprite = self.state.sprite(slot);
+                visited += 1;
+                if !self.state.may_overlap(self.rules, first, sprite) {
+                    slot = sprite.next;
+                    continue;
+                }
                 hits.clear();
                 let looked = self.state.overlapping(self.rules, first, slot, newborn, &mut hits);
                 self.work(looked);
@@ -256,8 +286,11 @@ impl Step<'_> {
                 slot = self.state.sprite(slot).next;
             }
         }
+        self.work(visited);
         if pairs.len() > 1 {
-            pairs.sort_unstable_by_key(|&(one, two)| (self.rank(first, one), self.rank(second, two)));
+            pairs.sort_unstable_by_key(|&(one, two)| {
+                (self.rank(first.family, one), self.rank(second.family, two))
+            });
         }
         for (one, two) in pairs {
             self.meet(pass, one, two, watch);
@@ -278,6 +311,8 @@ impl Step<'_> {
         if self.rules.types[self.state.sprite(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
         }
+        self.state.land_one(one);
+        self.state.land_one(two);
         let (first, second) = (self.state.sprite(one), self.state.sprite(two));
         if !first.is(flag::KILLED) && first.rect.intersects(second.rect) {
             self.execute(pass.effect, one, Some(two), watch);
@@ -288,6 +323,11 @@ impl Step<'_> {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
         self.work_of_effect();
+        if self.flies {
+            self.prepare(&info.effect, one);
+            let free = info.score_change == 0 && info.counting.is_none();
+            self.note(&info.effect, free, one, two);
+        }
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
@@ -298,13 +338,20 @@ impl Step<'_> {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
         self.work(EFFECT_WORK * partners.len());
+        if self.flies {
+            self.prepare(&info.effect, one);
+            for &partner in partners.iter() {
+                self.state.land_one(partner);
+                self.note(&info.effect, false, one, Some(partner));
+            }
+        }
         let times = effects::execute_batch(self, &info.effect, one, partners);
         self.credit(info, self.state.memory[usize::from(effect)], times);
     }
 
     /// The partners of a sprite that notices what it stands on: testing a solid one just below it is what it notices.
     /// Returns how many cells and sprites it looked at.
-    fn look_down(&mut self, slot: Slot, second: &TypeInfo, newborn: u32, hits: &mut Hits) -> usize {
+    fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) -> usize {
         let rect = self.state.sprite(slot).rect;
         let around = Rect { h: rect.h.saturating_add(GROUND), ..rect };
         let looked = self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);

@@ -1,10 +1,12 @@
 //! A compiled game: immutable, valid, cheap to clone.
 
+use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use crate::ontology::terminations::Termination;
 use crate::ontology::traits::Traits;
+use crate::rest::Foresight;
 use crate::state::{State, memory};
 use crate::syntax::Description;
 use crate::{Digest, causes};
@@ -169,6 +171,8 @@ pub(crate) struct TypeInfo {
     /// The first sprite of the type is not like later ones, which are copies: they have the size from the start, their
     /// parameters have been complained of, and what they leave behind is wall.
     pub(crate) first_differs: bool,
+    /// What the player can do with it; [`Action::Nil`] alone if nothing.
+    pub(crate) actions: &'static [Action],
 }
 
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
@@ -305,6 +309,13 @@ pub(crate) struct Rules {
     /// of in the first tick.
     pub(crate) edge: Vec<(SpriteType, u16)>,
     pub(crate) passes: Vec<Pass>,
+    /// Which passes can do something, by what stands together.
+    pub(crate) contacts: Contacts,
+    /// By type.
+    pub(crate) foresight: Vec<Foresight>,
+    /// Whether sprites of some type may rest, and fly.
+    pub(crate) any_rests: bool,
+    pub(crate) any_flies: bool,
     pub(crate) timed: Vec<Timed>,
     /// The game has `obs=`, and with it path finding.
     pub(crate) finds_paths: bool,
@@ -315,6 +326,8 @@ pub(crate) struct Rules {
     pub(crate) draws: bool,
     /// Whether anything reads the tick, apart from the reference's own limit.
     pub(crate) reads_tick: bool,
+    /// The first tick in which a Timeout holds.
+    pub(crate) first_timeout: i32,
     /// Whether a termination reads the counters.
     pub(crate) reads_counters: bool,
     /// Whether a termination reads the score.
@@ -398,10 +411,7 @@ impl Game {
 
     /// What the player can do now, besides nothing: sorted; only [`Action::Nil`] without an avatar.
     pub fn actions(&self, state: &State) -> &'static [Action] {
-        match state.avatar_type().and_then(|stype| self.0.types[stype.index()].class) {
-            Some(class) if !class.actions().is_empty() => class.actions(),
-            _ => &[Action::Nil],
-        }
+        state.avatar_type().map_or(&[Action::Nil], |stype| self.0.types[stype.index()].actions)
     }
 
     /// All sprite types, in registry order.

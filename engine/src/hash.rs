@@ -5,7 +5,8 @@
 //! [`State::search_key`] covers live behaviour only and is what transposition tables use (`search_key.rs`).
 
 use crate::game::Game;
-use crate::state::{Extra, Sprite, State, Target, flag};
+use crate::rest::mark;
+use crate::state::{Extra, Share, Sprite, State, Target, flag};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
@@ -93,71 +94,152 @@ pub(crate) fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
 
-/// The share of one sprite in the state hash.
-pub(crate) fn sprite_hash(sprite: &Sprite) -> u128 {
+/// What seldom changes of a sprite, hashed.
+pub(crate) fn still_hash(sprite: &Sprite) -> u64 {
     let mut mixer = Mixer::new(u64::from(sprite.id));
-    let kind = i32::from(sprite.stype.0) << 16 | i32::from(sprite.flags & !flag::TRANSIENT);
-    mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
-    mixer.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
+    mixer.pair(two(sprite.rect.w, sprite.rect.h), two(sprite.last.w, sprite.last.h));
     mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
-    mixer.pair(bits(sprite.speed), two(sprite.moved_at, kind));
-    mixer.pair(two(sprite.health, sprite.max_health), two(sprite.time_to_live, i32::from(sprite.heading)));
-    mixer.pair(two(sprite.count, sprite.start), u64::from(sprite.spawns.0));
+    mixer.pair(bits(sprite.speed), two(sprite.health, sprite.max_health));
+    mixer.pair(u64::from(sprite.spawns.0), sprite.start as u64);
+    mixer.finish() as u64
+}
+
+/// The share of one sprite in the state hash, given its [`still_hash`].
+///
+/// A sprite that keeps moving as it moves has the same share tick after tick: with the tick, which is hashed by itself,
+/// where it would have been at tick 0 says where it is.
+pub(crate) fn sprite_hash(sprite: &Sprite, still: u64, tick: i32) -> u128 {
+    let &Sprite { rect, last, .. } = sprite;
+    let tick = if sprite.rest == mark::FLYING { sprite.moved_at } else { tick };
+    let flags = sprite.flags & !flag::TRANSIENT;
+    let kind = u64::from(sprite.stype.0) << 32 | u64::from(sprite.heading) << 16 | u64::from(flags);
+    // When it moved last matters only where a cooldown may hold it up, or where that is its age.
+    let moved_at = if sprite.is(flag::BRISK) && !sprite.is(flag::FROZEN) { 0 } else { sprite.moved_at };
+    let (dx, dy) = (rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
+    let origin = |at: i32, by: i32| at.wrapping_sub(by.wrapping_mul(tick));
+    let mut mixer = Mixer::new(still);
+    mixer.pair(two(origin(rect.x, dx), origin(rect.y, dy)), two(dx, dy));
+    mixer.pair(kind, two(moved_at, 0));
+    mixer.pair(two(sprite.count, sprite.time_to_live), 0);
     mixer.finish()
 }
 
 impl State {
-    /// The hash of all that can influence the future. Cost: a few numbers; the sprites are kept up to date by `step`.
+    /// The hash of all that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
     pub fn state_hash(&self) -> StateHash {
-        self.with_globals(self.sprite_hash)
+        let mut sum = self.sprite_hash;
+        for &slot in &self.stale {
+            let (sprite, share) = (self.sprite(slot), self.shares[usize::from(slot)]);
+            sum = sum.wrapping_sub(share.hash).wrapping_add(self.share(sprite, share.still).hash);
+        }
+        let memory = if self.memory_is_stale { self.hash_memory() } else { self.memory_hash };
+        self.with_globals(sum, memory)
+    }
+
+    /// Renews the running hash, so that [`State::state_hash`] need not look at what changed since the last time.
+    ///
+    /// Stepping does not do so by itself: planners, which ask for few hashes, do not pay for all. Cost: O(sprites changed
+    /// since the last time).
+    pub fn settle_hash(&mut self) {
+        let mut stale = std::mem::take(&mut self.stale);
+        for &slot in &stale {
+            let at = usize::from(slot);
+            let (sprite, old) = (&self.sprites[at], self.shares[at]);
+            let share = self.share(sprite, old.still);
+            self.sprites[at].flags &= !(flag::STALE | flag::CHANGED);
+            self.shares[at] = share;
+            self.sprite_hash = self.sprite_hash.wrapping_sub(old.hash).wrapping_add(share.hash);
+        }
+        stale.clear();
+        self.stale = stale;
+        if self.memory_is_stale {
+            self.memory_hash = self.hash_memory();
+            self.memory_is_stale = false;
+        }
+    }
+
+    /// The share of a sprite, given what it was of it that seldom changes.
+    fn share(&self, sprite: &Sprite, still: u64) -> Share {
+        if sprite.is(flag::GONE) {
+            return Share { hash: 0, still };
+        }
+        let still = if sprite.is(flag::CHANGED) { still_hash(sprite) } else { still };
+        Share { hash: sprite_hash(sprite, still, self.tick), still }
     }
 
     /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).
     pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
-        let slots = game.sprite_types().flat_map(|stype| self.slots(stype));
-        let sum = slots.map(|slot| sprite_hash(self.sprite(slot))).fold(0u128, u128::wrapping_add);
-        self.with_globals(sum)
+        let sprites = game.sprite_types().flat_map(|stype| self.slots(stype)).map(|slot| self.sprite(slot));
+        let shares = sprites.map(|sprite| sprite_hash(sprite, still_hash(sprite), self.tick));
+        self.with_globals(shares.fold(0u128, u128::wrapping_add), self.hash_memory())
     }
 
-    fn with_globals(&self, sprites: u128) -> StateHash {
-        debug_assert!(self.stale.is_empty(), "a state is hashed between steps");
+    /// What effects remember, and of which types there was a sprite.
+    fn hash_memory(&self) -> u64 {
+        let mut mixer = Mixer::new(0x4D65_6D6F);
+        for bytes in [&self.memory, &self.templates] {
+            for (chunk, bytes) in bytes.chunks(8).enumerate() {
+                mixer.pair(chunk as u64, bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
+            }
+        }
+        mixer.finish() as u64
+    }
+
+    fn with_globals(&self, sprites: u128, memory: u64) -> StateHash {
         let mut mixer = Mixer::new(0x5374_6174);
         mixer.pair(sprites as u64, (sprites >> 64) as u64);
         mixer.pair(two(self.tick, self.messages as i32), self.score as u64);
         mixer.pair(self.chance.state(), two(self.next_id as i32, self.population));
-        mixer.pair(self.avatar_id().map_or(u64::MAX, u64::from), self.outcome_code());
-        let mut held: Vec<_> = self.held.iter().map(|held| (self.sprite(held.holder).id, *held)).collect();
-        held.sort_unstable_by_key(|(id, held)| (*id, held.resource));
-        for (id, held) in held {
-            mixer.pair(u64::from(id), two(i32::from(held.resource.0), held.amount));
+        // No sprite has the largest number as its id.
+        let avatar = u64::from(self.avatar_id().unwrap_or(u32::MAX));
+        let few = self.outcome_code() << 1 | u64::from(self.can_end);
+        mixer.pair(avatar << 32 | few << 24 | self.timers.len() as u64, memory);
+        if self.jumps != self.chance {
+            mixer.pair(self.jumps.state(), 0);
         }
-        let mut extras: Vec<_> =
-            self.extras.iter().map(|extra| (self.sprite(extra.holder).id, extra)).collect();
-        extras.sort_unstable_by_key(|(id, _)| *id);
-        for (id, extra) in extras {
-            mixer.pair(u64::from(id), u64::from(extra.block_time as u32));
-            self.all_words_of_extra(extra, &mut mixer);
+        if !self.held.is_empty() {
+            self.held_words(&mut mixer);
         }
-        let mut replaced: Vec<_> =
-            self.replaced.iter().map(|one| (self.sprite(one.holder).id, one.place, one.stype.0)).collect();
-        replaced.sort_unstable();
-        for (id, place, stype) in replaced {
-            mixer.pair(u64::from(id) << 32 | u64::from(place), u64::from(stype));
+        if !self.extras.is_empty() || !self.replaced.is_empty() {
+            self.words_of_extras(&mut mixer);
         }
         for timer in self.timers.iter().rev() {
             mixer.pair(u64::from(timer.timed), timer.due as u64);
-        }
-        mixer.pair(self.jumps.state(), (self.timers.len() as u64) << 1 | u64::from(self.can_end));
-        for (chunk, bytes) in self.memory.chunks(8).enumerate() {
-            mixer.pair(chunk as u64, bytes.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
-        }
-        for (stype, _) in self.templates.iter().enumerate().filter(|(_, made)| **made) {
-            mixer.pair(stype as u64, 1);
         }
         for (at, &counter) in self.counters.iter().enumerate() {
             mixer.pair(at as u64, u64::from(counter as u32) | 1 << 32);
         }
         StateHash(mixer.finish())
+    }
+
+    fn held_words(&self, mixer: &mut Mixer) {
+        let held = self.held.iter().map(|held| (self.sprite(held.holder).id, held.resource.0, held.amount));
+        let mut held: Vec<_> = held.collect();
+        held.sort_unstable();
+        for (id, resource, amount) in held {
+            mixer.pair(u64::from(id), two(i32::from(resource), amount));
+        }
+    }
+
+    fn words_of_extras(&self, mixer: &mut Mixer) {
+        if !self.extras.is_empty() {
+            let extras = self.extras.iter().map(|extra| (self.sprite(extra.holder).id, extra));
+            let mut extras: Vec<_> = extras.collect();
+            extras.sort_unstable_by_key(|(id, _)| *id);
+            for (id, extra) in extras {
+                mixer.pair(u64::from(id), u64::from(extra.block_time as u32));
+                self.all_words_of_extra(extra, mixer);
+            }
+        }
+        if !self.replaced.is_empty() {
+            let replaced =
+                self.replaced.iter().map(|one| (self.sprite(one.holder).id, one.place, one.stype.0));
+            let mut replaced: Vec<_> = replaced.collect();
+            replaced.sort_unstable();
+            for (id, place, stype) in replaced {
+                mixer.pair(u64::from(id) << 32 | u64::from(place), u64::from(stype));
+            }
+        }
     }
 
     fn all_words_of_extra(&self, extra: &Extra, mixer: &mut Mixer) {

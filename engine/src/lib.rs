@@ -30,11 +30,13 @@ pub mod analysis;
 mod causes;
 mod chance;
 mod compile;
+mod contacts;
 pub mod describe;
 mod diagnostic;
 mod digest;
 mod episode;
 mod events;
+mod flight;
 mod game;
 mod geometry;
 mod hash;
@@ -46,6 +48,7 @@ mod occupancy;
 mod ontology;
 mod paths;
 mod recount;
+mod rest;
 mod sampler;
 mod search_key;
 mod seed;
@@ -77,4 +80,4 @@ pub use step::Watch;
 pub use syntax::Description;
 
 /// Bumped when any golden trace moves: witnesses replay only under the same number.
-pub const SEMANTICS: u32 = 1;
+pub const SEMANTICS: u32 = 2;

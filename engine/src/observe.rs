@@ -59,7 +59,7 @@ impl Game {
                 continue;
             }
             for slot in state.slots(stype) {
-                let sprite = state.sprite(slot);
+                let sprite = state.present(slot);
                 let span = |from: i32, size: i32, limit: i32| {
                     let first = from.div_euclid(state.block).clamp(0, limit);
                     let last = from
@@ -96,7 +96,7 @@ impl Game {
         let slots = self.sprite_types().flat_map(|stype| state.slots(stype));
         let mut records: Vec<SpriteRecord> = slots
             .map(|slot| {
-                let sprite = state.sprite(slot);
+                let sprite = state.present(slot);
                 let held = state.held_by(slot).iter();
                 let resources = held.map(|held| (held.resource.0, held.amount)).collect();
                 SpriteRecord {
@@ -106,7 +106,7 @@ impl Game {
                     orientation: (sprite.orientation.x, sprite.orientation.y),
                     speed: sprite.speed,
                     health: sprite.health,
-                    flags: sprite.flags & flag::RECORDED,
+                    flags: (sprite.flags & flag::RECORDED) as u16,
                     resources,
                     rotation: state.rotation(&self.0, slot),
                 }

@@ -1,10 +1,29 @@
 //! Who is where: each cell of the board, and of a ring around it, has a chain of the sprites whose top-left corner lies
 //! in it. Kept as sprites move, so asking who overlaps a rectangle costs what stands there.
 
+use crate::contacts::Contacts;
 use crate::game::{Rules, TypeInfo};
 use crate::geometry::Rect;
 use crate::state::{NONE, Slot, Sprite, State, flag};
 use smallvec::SmallVec;
+
+/// One side of a pass: the types of a tree, and their bits.
+#[derive(Clone, Copy)]
+pub(crate) struct Side<'a> {
+    pub(crate) family: &'a TypeInfo,
+    pub(crate) bits: u64,
+}
+
+/// Cells of a sprite that are looked at one by one; what is larger counts as everywhere.
+const MAX_COVERED: i32 = 100;
+
+/// The cell of a sprite's top-left corner, and how the sprite lies in it: the flags of [`flag::LYING`].
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Located {
+    column: i16,
+    row: i16,
+    flags: u32,
+}
 
 /// The slots that overlap a sprite; seldom more than a few.
 pub(crate) type Hits = SmallVec<[Slot; 8]>;
@@ -19,8 +38,17 @@ impl State {
         y.div_euclid(self.block).clamp(-1, self.rows) + 1
     }
 
-    fn cell(&self, column: i32, row: i32) -> usize {
+    pub(crate) fn cell(&self, column: i32, row: i32) -> usize {
         (row * (self.columns + 2) + column) as usize
+    }
+
+    fn cell_of(&self, sprite: &Sprite) -> usize {
+        self.cell(i32::from(sprite.column), i32::from(sprite.row))
+    }
+
+    /// The game's screen, in pixels.
+    pub(crate) fn screen(&self) -> Rect {
+        Rect { x: 0, y: 0, w: self.columns * self.block, h: self.rows * self.block }
     }
 
     /// How many cells the board has with its ring.
@@ -28,105 +56,350 @@ impl State {
         ((columns + 2) * (rows + 2)) as usize
     }
 
-    /// Puts a sprite into the chain of its cell. `column` and `row` of the sprite are where it was last: most moves end
-    /// there or next to it, which saves a division.
-    pub(crate) fn enter_cell(&mut self, slot: Slot) {
-        let Sprite { rect, column, row, .. } = *self.sprite(slot);
-        let (column, right) = near(rect.x, i32::from(column), self.block, self.columns);
-        let (row, below) = near(rect.y, i32::from(row), self.block, self.rows);
-        let cell = self.cell(column, row);
+    /// Where a rectangle is; `column` and `row` are a guess. Most moves end in the same cell or next to it, which saves a
+    /// division.
+    #[inline]
+    fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
+        let block = self.block;
+        let sized = rect.w > 0 && rect.h > 0 && rect.w <= block && rect.h <= block;
+        if sized
+            && let Some((column, wide)) = near(rect.x, rect.w, column, block, self.columns)
+            && let Some((row, tall)) = near(rect.y, rect.h, row, block, self.rows)
+        {
+            let off = wide && i32::from(column) == self.columns || tall && i32::from(row) == self.rows;
+            let flags = bit(wide, flag::RIGHT) | bit(tall, flag::BELOW) | bit(off, flag::OFF);
+            return Located { column, row, flags };
+        }
+        self.locate_afar(rect)
+    }
+
+    /// Where any rectangle is.
+    #[inline(never)]
+    fn locate_afar(&self, rect: Rect) -> Located {
+        let (column, row) = (self.column(rect.x), self.row(rect.y));
+        let wide = self.column(rect.x.saturating_add(rect.w.saturating_sub(1))) > column;
+        let tall = self.row(rect.y.saturating_add(rect.h.saturating_sub(1))) > row;
+        let small = rect.w <= self.block && rect.h <= self.block;
+        let lies = if small { bit(wide, flag::RIGHT) | bit(tall, flag::BELOW) } else { flag::BIG };
+        let flags = lies | bit(!self.screen().contains(rect), flag::OFF);
+        Located { column: column as i16, row: row as i16, flags }
+    }
+
+    /// For how many more moves by (`dx`, `dy`) a small sprite stays in the cells in which it lies, and as it lies in them.
+    #[inline]
+    pub(crate) fn moves_within(&self, sprite: &Sprite, dx: i32, dy: i32) -> i32 {
+        let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
+        let along = |at: i32, size: i32, by: i32, cell: i32, cells: i32| {
+            if by == 0 {
+                return i32::MAX;
+            }
+            let start = (cell - 1).wrapping_mul(self.block);
+            match cell {
+                // Outside, and on the way further out.
+                0 if by < 0 && size <= at.wrapping_neg() => i32::MAX,
+                0 => 0,
+                cell if cell > cells => {
+                    if by > 0 {
+                        i32::MAX
+                    } else {
+                        0
+                    }
+                }
+                _ => {
+                    let offset = at - start;
+                    let reach = self.block - size.max(0);
+                    let (low, high) = if offset > reach { (reach + 1, self.block - 1) } else { (0, reach) };
+                    let (room, by) = if by > 0 { (high - offset, by) } else { (offset - low, -by) };
+                    if room < by { 0 } else { room / by }
+                }
+            }
+        };
+        let x = along(sprite.rect.x, sprite.rect.w, dx, column, self.columns);
+        let y = along(sprite.rect.y, sprite.rect.h, dy, row, self.rows);
+        x.min(y)
+    }
+
+    /// Puts a sprite into the chain of its cell.
+    pub(crate) fn enter_cell(&mut self, rules: &Rules, slot: Slot) {
+        let to = self.locate_afar(self.sprite(slot).rect);
+        let cell = self.cell(i32::from(to.column), i32::from(to.row));
+        let sprite = &mut self.sprites[usize::from(slot)];
+        (sprite.column, sprite.row) = (to.column, to.row);
+        sprite.flags = sprite.flags & !flag::LYING | to.flags;
+        let stype = sprite.stype.index();
+        self.link(slot, cell);
+        self.lie(&rules.contacts, stype, 0, to.flags);
+        self.arrive(&rules.contacts, &rules.contacts.kinds[stype], self.span(cell, to.flags));
+        if self.meeting && to.flags & flag::BIG != 0 {
+            self.cover_cells(&rules.contacts, slot);
+        }
+    }
+
+    pub(crate) fn leave_cell(&mut self, rules: &Rules, slot: Slot) {
+        let sprite = self.sprite(slot);
+        let (cell, stype, flags) = (self.cell_of(sprite), sprite.stype.index(), sprite.flags);
+        self.unlink(slot, cell);
+        self.sprites[usize::from(slot)].flags &= !flag::LYING;
+        self.lie(&rules.contacts, stype, flags, 0);
+        self.depart(&rules.contacts, &rules.contacts.kinds[stype], self.span(cell, flags));
+    }
+
+    /// Changes the rectangle of a sprite.
+    pub(crate) fn relocate(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
+        if !self.rests.is_empty() {
+            self.touch(slot);
+        }
+        let old = self.sprite(slot).rect;
+        let same = (old.w, old.h) == (rect.w, rect.h);
+        let sprite = if same { self.edit_motion(slot) } else { self.edit(slot) };
+        sprite.rect = rect;
+        self.enter_anew(rules, slot, rect);
+    }
+
+    /// Puts a sprite that is elsewhere now into its cells.
+    #[inline]
+    pub(crate) fn enter_anew(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
+        let &Sprite { column, row, flags, .. } = self.sprite(slot);
+        let from = Located { column, row, flags: flags & flag::LYING };
+        let to = self.locate(rect, column, row);
+        if from != to {
+            self.shift(rules, slot, from, to);
+        }
+        if to.flags & flag::BIG != 0 && self.meeting {
+            self.cover_cells(&rules.contacts, slot);
+        }
+        if !self.rests.is_empty() {
+            self.touch(slot);
+        }
+    }
+
+    fn shift(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
+        let before = self.span(self.cell(i32::from(from.column), i32::from(from.row)), from.flags);
+        let after = self.span(self.cell(i32::from(to.column), i32::from(to.row)), to.flags);
+        let sprite = &mut self.sprites[usize::from(slot)];
+        let stype = sprite.stype.index();
+        sprite.flags = sprite.flags & !flag::LYING | to.flags;
+        if before.cell != after.cell {
+            (sprite.column, sprite.row) = (to.column, to.row);
+            self.unlink(slot, before.cell);
+            self.link(slot, after.cell);
+        }
+        if from.flags != to.flags {
+            self.lie(&rules.contacts, stype, from.flags, to.flags);
+        }
+        let kind = &rules.contacts.kinds[stype];
+        if kind.own != 0 && before != after {
+            let (gone, new) = before.apart(after);
+            self.depart(&rules.contacts, kind, gone);
+            self.arrive(&rules.contacts, kind, new);
+        }
+    }
+
+    #[inline]
+    fn link(&mut self, slot: Slot, cell: usize) {
         let head = std::mem::replace(&mut self.cells[cell], slot);
         if head != NONE {
             self.sprites[usize::from(head)].cell_previous = slot;
         }
-        let loose = right != 0 || below != 0 || rect.w > self.block || rect.h > self.block;
         let sprite = &mut self.sprites[usize::from(slot)];
-        (sprite.column, sprite.row) = (column as i16, row as i16);
         (sprite.cell_next, sprite.cell_previous) = (head, NONE);
-        sprite.set(flag::LOOSE, loose);
-        self.groups[sprite.stype.index()].loose += u16::from(loose);
     }
 
-    pub(crate) fn leave_cell(&mut self, slot: Slot) {
-        let Sprite { stype, column, row, cell_next, cell_previous, flags, .. } = *self.sprite(slot);
+    #[inline]
+    fn unlink(&mut self, slot: Slot, cell: usize) {
+        let &Sprite { cell_next, cell_previous, .. } = self.sprite(slot);
         match cell_previous {
-            NONE => {
-                let cell = self.cell(i32::from(column), i32::from(row));
-                self.cells[cell] = cell_next;
-            }
+            NONE => self.cells[cell] = cell_next,
             previous => self.sprites[usize::from(previous)].cell_next = cell_next,
         }
         if cell_next != NONE {
             self.sprites[usize::from(cell_next)].cell_previous = cell_previous;
         }
-        self.groups[stype.index()].loose -= u16::from(flags & flag::LOOSE != 0);
     }
 
-    /// Collects the sprites of `family`'s tree that overlap a sprite, itself left out, in no particular order. `above`
+    /// Counts how the sprites of a type lie.
+    fn lie(&mut self, contacts: &Contacts, stype: usize, from: u32, to: u32) {
+        let on = |flags: u32, bits: u32| u16::from(flags & bits != 0);
+        let group = &mut self.groups[stype];
+        group.off = group.off + on(to, flag::OFF) - on(from, flag::OFF);
+        match (from & flag::LOOSE != 0, to & flag::LOOSE != 0) {
+            (false, true) => {
+                group.loose += 1;
+                if group.loose == 1 {
+                    self.loose_bits |= contacts.kinds[stype].own;
+                }
+            }
+            (true, false) => {
+                group.loose -= 1;
+                if group.loose == 0 {
+                    self.loose_bits &= !contacts.sole_bit(stype);
+                }
+            }
+            _ => {}
+        }
+        let group = &mut self.groups[stype];
+        match (from & flag::BIG != 0, to & flag::BIG != 0) {
+            (false, true) => {
+                group.big += 1;
+                self.big += 1;
+                if group.big == 1 {
+                    self.enlarged(contacts, stype);
+                }
+            }
+            (true, false) => {
+                group.big -= 1;
+                self.big -= 1;
+                if group.big == 0 {
+                    self.reduced(contacts, stype);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The cells that a sprite of such flags covers, of a big one only its corner's.
+    pub(crate) fn span(&self, cell: usize, flags: u32) -> Span {
+        let stride = (self.columns + 2) as usize;
+        let right = if flags & flag::RIGHT != 0 { 0b0011 } else { 0b0001 };
+        let bits = if flags & flag::BELOW != 0 { right | right << 2 } else { right };
+        Span { cell, stride, bits }
+    }
+
+    /// Calls `visit` with the cells that a sprite covers; false, and no call, if these are more than [`MAX_COVERED`].
+    pub(crate) fn covered_by(&self, sprite: &Sprite, mut visit: impl FnMut(usize)) -> bool {
+        let stride = (self.columns + 2) as usize;
+        let cell = self.cell_of(sprite);
+        if !sprite.is(flag::BIG) {
+            visit(cell);
+            if sprite.is(flag::RIGHT) {
+                visit(cell + 1);
+            }
+            if sprite.is(flag::BELOW) {
+                visit(cell + stride);
+                if sprite.is(flag::RIGHT) {
+                    visit(cell + stride + 1);
+                }
+            }
+            return true;
+        }
+        let (rect, column, row) = (sprite.rect, i32::from(sprite.column), i32::from(sprite.row));
+        let right = self.column(rect.x.saturating_add(rect.w.saturating_sub(1))).max(column);
+        let below = self.row(rect.y.saturating_add(rect.h.saturating_sub(1))).max(row);
+        if (right - column + 1) * (below - row + 1) > MAX_COVERED {
+            return false;
+        }
+        for row in row..below + 1 {
+            for column in column..right + 1 {
+                visit(self.cell(column, row));
+            }
+        }
+        true
+    }
+
+    /// Column and row of a rectangle's top-left corner, counted with the ring.
+    pub(crate) fn place_of(&self, rect: Rect) -> (i16, i16) {
+        (self.column(rect.x) as i16, self.row(rect.y) as i16)
+    }
+
+    /// Calls `visit` with every sprite that may overlap a rectangle.
+    pub(crate) fn near_rect(&self, rules: &Rules, rect: Rect, mut visit: impl FnMut(Slot)) {
+        let reach = rules.reach.saturating_mul(self.block) - 1;
+        let left = self.column(rect.x.saturating_sub(reach));
+        let right = self.column(rect.x.saturating_add(rect.w - 1));
+        let top = self.row(rect.y.saturating_sub(reach));
+        let bottom = self.row(rect.y.saturating_add(rect.h - 1));
+        for row in top..bottom + 1 {
+            for column in left..right + 1 {
+                let mut at = self.cells[self.cell(column, row)];
+                while at != NONE {
+                    visit(at);
+                    at = self.sprite(at).cell_next;
+                }
+            }
+        }
+    }
+
+    /// Whether a sprite of a side, itself left out, may overlap a sprite: whether one shares a cell with it.
+    #[inline]
+    pub(crate) fn may_overlap(&self, rules: &Rules, side: Side<'_>, sprite: &Sprite) -> bool {
+        let own = rules.contacts.kinds[sprite.stype.index()].own;
+        let others = |cell: usize| {
+            let mask = self.masks[cell];
+            (mask.any & !own | mask.many | self.covered[cell]) & side.bits != 0
+        };
+        let cell = self.cell_of(sprite);
+        if others(cell) || self.vast & side.bits != 0 {
+            return true;
+        }
+        let lies = sprite.flags & flag::LOOSE;
+        lies != 0 && (lies & flag::BIG != 0 || self.span(cell, lies).cells().skip(1).any(others))
+    }
+
+    /// Collects the sprites of a side that overlap a sprite, itself left out, in no particular order. `above`
     /// excludes sprites created since that id was next. Returns how many cells and sprites it looked at.
     pub(crate) fn overlapping(
         &self,
         rules: &Rules,
-        family: &TypeInfo,
+        side: Side<'_>,
         slot: Slot,
         above: u32,
         hits: &mut Hits,
     ) -> usize {
-        let Sprite { rect, column, row, flags, .. } = *self.sprite(slot);
-        let (column, row) = (i32::from(column), i32::from(row));
-        // Sprites that are not aligned to one cell may reach over from the cells left and above.
-        let reached = family.tree.iter().any(|&stype| self.group(stype).loose > 0);
-        if flags & flag::LOOSE == 0 && !reached {
-            return self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
+        let sprite = self.sprite(slot);
+        let rect = self.rect(sprite);
+        if sprite.is(flag::BIG) {
+            return self.overlapping_rect(rules, side, (slot, rect), above, hits);
         }
-        let reach = if reached { rules.reach.saturating_mul(self.block) - 1 } else { 0 };
-        self.overlapping_around(family, (slot, rect), reach, above, hits)
+        let span = self.span(self.cell_of(sprite), sprite.flags);
+        let covered = span.cells().fold(self.vast, |bits, cell| bits | self.covered[cell]);
+        if covered & side.bits != 0 {
+            return self.overlapping_rect(rules, side, (slot, rect), above, hits);
+        }
+        // Those that lie in several cells may reach over from the cells left and above.
+        let reached = i32::from(self.loose_bits & side.bits != 0);
+        let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
+        let mut looked = 0;
+        for row in (row - reached).max(0)..row + span.below() + 1 {
+            for column in (column - reached).max(0)..column + span.right() + 1 {
+                looked += self.overlapping_in(self.cell(column, row), side, (slot, rect), above, hits);
+            }
+        }
+        looked
     }
 
-    /// The sprites of `family`'s tree that overlap a rectangle around a sprite, itself left out.
+    /// The sprites of a side that overlap a rectangle around a sprite, itself left out.
     pub(crate) fn overlapping_rect(
         &self,
         rules: &Rules,
-        family: &TypeInfo,
+        side: Side<'_>,
         (slot, rect): (Slot, Rect),
         above: u32,
         hits: &mut Hits,
     ) -> usize {
         let reach = rules.reach.saturating_mul(self.block) - 1;
-        self.overlapping_around(family, (slot, rect), reach, above, hits)
-    }
-
-    /// Looks into all cells from which sprites can reach into the rectangle, or, if these are more than there are
-    /// sprites, at all sprites. Returns at how many.
-    fn overlapping_around(
-        &self,
-        family: &TypeInfo,
-        (slot, rect): (Slot, Rect),
-        reach: i32,
-        above: u32,
-        hits: &mut Hits,
-    ) -> usize {
         let first_column = self.column(rect.x.saturating_sub(reach));
         let last_column = self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
         let first_row = self.row(rect.y.saturating_sub(reach));
         let last_row = self.row(rect.y.saturating_add(rect.h.saturating_sub(1)));
         let cells = (last_column - first_column + 1) * (last_row - first_row + 1);
+        let family = side.family;
         let sprites = family.tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum::<i32>();
         if cells > sprites {
+            // All sprites are fewer than all cells from which they can reach into the rectangle.
             let types = family.tree.iter().enumerate();
             let types = types.filter(|(at, stype)| usize::from(family.rank[stype.index()]) == *at);
             let all = types.flat_map(|(_, &stype)| self.slots(stype));
             let overlaps = |at: &Slot| {
                 let sprite = self.sprite(*at);
-                *at != slot && sprite.id < above && sprite.rect.intersects(rect)
+                *at != slot && sprite.id < above && self.rect(sprite).intersects(rect)
             };
             hits.extend(all.filter(overlaps));
             return family.tree.len() + sprites as usize;
         }
         let mut looked = 0;
-        for row in first_row..=last_row {
-            for column in first_column..=last_column {
-                looked += self.overlapping_in(self.cell(column, row), family, (slot, rect), above, hits);
+        for row in first_row..last_row + 1 {
+            for column in first_column..last_column + 1 {
+                looked += self.overlapping_in(self.cell(column, row), side, (slot, rect), above, hits);
             }
         }
         looked
@@ -135,17 +408,23 @@ impl State {
     fn overlapping_in(
         &self,
         cell: usize,
-        family: &TypeInfo,
+        side: Side<'_>,
         (slot, rect): (Slot, Rect),
         above: u32,
         hits: &mut Hits,
     ) -> usize {
+        if self.masks[cell].any & side.bits == 0 {
+            return 1;
+        }
         let mut at = self.cells[cell];
         let mut looked = 1;
         while at != NONE {
             looked += 1;
             let sprite = self.sprite(at);
-            if family.in_tree(sprite.stype) && at != slot && sprite.id < above && sprite.rect.intersects(rect)
+            if side.family.in_tree(sprite.stype)
+                && at != slot
+                && sprite.id < above
+                && self.rect(sprite).intersects(rect)
             {
                 hits.push(at);
             }
@@ -155,42 +434,123 @@ impl State {
     }
 }
 
-/// The cell of a pixel along one axis, counted with the ring, and the pixel's distance from the cell's start (0 only if
-/// it is aligned and on the board); `guess` is a cell close by.
-fn near(pixel: i32, guess: i32, block: i32, cells: i32) -> (i32, i32) {
-    let mut cell = guess - 1;
-    let mut rest = pixel.wrapping_sub(cell.wrapping_mul(block));
-    if rest < 0 {
-        cell -= 1;
-        rest += block;
-    } else if rest >= block {
-        cell += 1;
-        rest -= block;
+/// The cells that a sprite covers that is no larger than one: up to four, its corner's first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Span {
+    cell: usize,
+    stride: usize,
+    /// A bit each for the corner's cell, the one to the right, the one below, and the one below that to the right.
+    bits: u32,
+}
+
+impl Span {
+    #[inline]
+    pub(crate) fn cells(self) -> impl Iterator<Item = usize> {
+        let Span { cell, stride, mut bits } = self;
+        std::iter::from_fn(move || {
+            if bits == 0 {
+                return None;
+            }
+            let at = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            Some(cell + (at & 1) + if at & 2 != 0 { stride } else { 0 })
+        })
     }
-    if !(0..block).contains(&rest) {
-        cell = pixel.div_euclid(block);
-        rest = pixel.rem_euclid(block);
+
+    /// The cells of this span that are not in another one of the same board, and those of the other that are not in this.
+    #[inline]
+    pub(crate) fn apart(self, other: Span) -> (Span, Span) {
+        let (mine, others) = (self.bits, other.bits);
+        let ahead = other.cell.wrapping_sub(self.cell) as isize;
+        let stride = self.stride as isize;
+        // What both have, as bits of this one and of the other: the other's corner lies somewhere around this one's.
+        let shared = |mine: u32, others: u32, shift: u32| (mine & others << shift, mine >> shift & others);
+        let (left, right, top, bottom) = (0b0101, 0b1010, 0b0011, 0b1100);
+        let (common, commons) = match ahead {
+            0 => shared(mine, others, 0),
+            1 => shared(mine & right, others & left, 1),
+            -1 => swap(shared(others & right, mine & left, 1)),
+            _ if ahead == stride => shared(mine & bottom, others & top, 2),
+            _ if ahead == -stride => swap(shared(others & bottom, mine & top, 2)),
+            _ if ahead == stride + 1 => shared(mine & 0b1000, others & 0b0001, 3),
+            _ if ahead == -stride - 1 => swap(shared(others & 0b1000, mine & 0b0001, 3)),
+            _ if ahead == stride - 1 => shared(mine & 0b0100, others & 0b0010, 1),
+            _ if ahead == -stride + 1 => swap(shared(others & 0b0100, mine & 0b0010, 1)),
+            _ => (0, 0),
+        };
+        (Span { bits: mine & !common, ..self }, Span { bits: others & !commons, ..other })
     }
-    if (-1..=cells).contains(&cell) { (cell + 1, rest) } else { (cell.clamp(-1, cells) + 1, 1) }
+
+    fn right(self) -> i32 {
+        i32::from(self.bits & 0b0010 != 0)
+    }
+
+    fn below(self) -> i32 {
+        i32::from(self.bits & 0b0100 != 0)
+    }
+}
+
+fn bit(on: bool, bit: u32) -> u32 {
+    if on { bit } else { 0 }
+}
+
+fn swap((one, two): (u32, u32)) -> (u32, u32) {
+    (two, one)
+}
+
+/// Along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next to it; and whether what
+/// begins there, and is no larger than a cell, reaches into the next one.
+#[inline]
+fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
+    let mut cell = i32::from(guess) - 1;
+    let mut offset = pixel.wrapping_sub(cell.wrapping_mul(block));
+    if offset as u32 >= block as u32 {
+        if offset >= block {
+            (cell, offset) = (cell + 1, offset - block);
+        } else {
+            (cell, offset) = (cell - 1, offset + block);
+        }
+        if offset as u32 >= block as u32 {
+            return None;
+        }
+    }
+    (0..cells).contains(&cell).then_some(((cell + 1) as i16, offset + size > block))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::near;
+    use super::{Span, near};
 
     #[test]
     fn a_guess_never_changes_the_answer() {
         for pixel in
-            [i32::MIN, -1000, -21, -20, -11, -10, -1, 0, 1, 9, 10, 19, 49, 50, 59, 60, 1000, i32::MAX]
+            [i32::MIN, -1000, -21, -20, -11, -10, -1, 0, 1, 4, 9, 10, 19, 49, 50, 59, 60, 1000, i32::MAX]
         {
             for guess in 0..=6 {
-                let (cell, rest) = near(pixel, guess, 10, 5);
-                let expected = pixel.div_euclid(10);
-                assert_eq!(cell, expected.clamp(-1, 5) + 1, "pixel {pixel}, guess {guess}");
-                if (-1..=5).contains(&expected) {
-                    assert_eq!(rest, pixel.rem_euclid(10), "pixel {pixel}, guess {guess}");
-                }
+                let (cell, offset) = (pixel.div_euclid(10), pixel.rem_euclid(10));
+                let close = (0..5).contains(&cell) && (cell + 1).abs_diff(i32::from(guess)) <= 1;
+                let expected = close.then_some(((cell + 1) as i16, offset + 6 > 10));
+                assert_eq!(near(pixel, 6, guess, 10, 5), expected, "pixel {pixel}, guess {guess}");
             }
+        }
+    }
+
+    #[test]
+    fn what_spans_do_not_share_is_what_lists_of_cells_do_not_share() {
+        const STRIDE: usize = 5;
+        let spans = || {
+            (6..30).flat_map(|cell| {
+                [0b0001, 0b0011, 0b0101, 0b1111].map(|bits| Span { cell, stride: STRIDE, bits })
+            })
+        };
+        for (one, two) in spans().flat_map(|one| spans().map(move |two| (one, two))) {
+            let (gone, new) = one.apart(two);
+            let list = |span: Span| span.cells().collect::<Vec<usize>>();
+            let without = |span: Span, other: Span| {
+                let other = list(other);
+                list(span).into_iter().filter(|cell| !other.contains(cell)).collect::<Vec<usize>>()
+            };
+            assert_eq!((list(gone), list(new)), (without(one, two), without(two, one)), "{one:?} {two:?}");
         }
     }
 }

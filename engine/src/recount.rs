@@ -1,7 +1,9 @@
 //! What a state keeps incrementally, counted again: chains, cells, counts and lists. For tests and fuzzing.
 
 use crate::game::Game;
-use crate::state::{Group, NONE, Slot, State, flag};
+use crate::geometry::Rect;
+use crate::rest::mark;
+use crate::state::{Group, NONE, Slot, Sprite, State, flag};
 
 impl State {
     /// Compares everything that is kept as sprites move with a count from nothing. Returns how many sprites there are of
@@ -16,14 +18,45 @@ impl State {
         for stype in game.sprite_types() {
             let counted = self.recount_group(game, stype, &mut alive)?;
             let kept = self.group(stype);
-            if (counted.count, counted.disabled, counted.loose) != (kept.count, kept.disabled, kept.loose) {
+            if counted != *kept {
                 return Err(format!("`{}`: counted {counted:?}, kept {kept:?}", game.name(stype)));
             }
             counts.push(usize::from(counted.count));
         }
         self.recount_cells(&alive)?;
+        self.recount_contacts(game)?;
         self.recount_lists(game, &alive)?;
         Ok(counts)
+    }
+
+    /// How a sprite lies in its cell; see `occupancy.rs`.
+    fn recounted_flags(&self, sprite: &Sprite) -> u32 {
+        let Rect { x, y, w, h } = sprite.rect;
+        let over = |at: i32, size: i32, cell: i16, cells: i32| {
+            let last = at.saturating_add(size.saturating_sub(1)).div_euclid(self.block).clamp(-1, cells) + 1;
+            last > i32::from(cell)
+        };
+        let off = if self.screen().contains(sprite.rect) { 0 } else { flag::OFF };
+        if w > self.block || h > self.block {
+            return off | flag::BIG;
+        }
+        let right = if over(x, w, sprite.column, self.columns) { flag::RIGHT } else { 0 };
+        off | right | if over(y, h, sprite.row, self.rows) { flag::BELOW } else { 0 }
+    }
+
+    /// Which types share cells, and which rules are possible therefore.
+    fn recount_contacts(&self, game: &Game) -> Result<(), String> {
+        let fresh = self.contacts_from_scratch(&game.0);
+        let kept = (&self.masks, &self.together, &self.reasons, &self.possible, self.big);
+        let counted = (&fresh.masks, &fresh.together, &fresh.reasons, &fresh.possible, fresh.big);
+        if kept != counted {
+            return Err(format!("contacts: counted {counted:?}, kept {kept:?}"));
+        }
+        let nothing = self.covered.iter().all(|&bits| bits == 0) && self.vast == 0 && self.touched.is_empty();
+        if fresh.loose_bits & !self.loose_bits != 0 || !nothing {
+            return Err("contacts: something is left over from the last event phase".to_owned());
+        }
+        Ok(())
     }
 
     /// Walks the chain of a type.
@@ -49,6 +82,12 @@ impl State {
             counted.count += 1;
             counted.disabled += u16::from(sprite.is(flag::DISABLED));
             counted.loose += u16::from(sprite.is(flag::LOOSE));
+            counted.big += u16::from(sprite.is(flag::BIG));
+            counted.off += u16::from(sprite.is(flag::OFF));
+            counted.asleep += u16::from(sprite.rest & mark::ASLEEP != 0);
+            if self.recounted_flags(sprite) != sprite.flags & flag::LYING {
+                return Err(format!("slot {slot} of `{name}` lies otherwise than its flags say"));
+            }
         }
         if counted.tail != kept.tail {
             return Err(format!(
@@ -104,14 +143,21 @@ impl State {
             return Err(format!("the list of those that moved is {moved:?}"));
         }
         for (at, sprite) in self.sprites.iter().enumerate().filter(|&(at, _)| alive[at]) {
-            if sprite.last != sprite.rect && !sprite.is(flag::MOVED) {
+            let flies = self.flights.iter().filter(|flight| usize::from(flight.slot) == at).count();
+            let rests = self.rests.iter().filter(|rest| usize::from(rest.slot) == at).count();
+            let asleep =
+                (usize::from(sprite.rest == mark::FLYING), usize::from(sprite.rest == mark::RESTING));
+            if (flies, rests) != asleep {
+                return Err(format!("slot {at} flies {flies} and rests {rests} times, not {asleep:?}"));
+            }
+            if sprite.last != sprite.rect && !sprite.is(flag::MOVED) && flies == 0 {
                 return Err(format!("slot {at} moved and is not in the list"));
             }
             let is_avatar = game.class(sprite.stype).is_some_and(crate::SpriteClass::is_avatar);
             if is_avatar && !sprite.is(flag::FROZEN) && at != usize::from(self.avatar) {
                 return Err(format!("slot {at} is an avatar that nobody controls and still updated"));
             }
-            if sprite.is(flag::STALE | flag::KILLED) {
+            if sprite.is(flag::KILLED) || sprite.is(flag::STALE) != self.stale.contains(&(at as Slot)) {
                 return Err(format!("slot {at} was left half-way by the last step"));
             }
             let extra = self.extras.get(usize::from(sprite.extra)).map(|extra| usize::from(extra.holder));

@@ -8,7 +8,7 @@ use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::state::{Extra, Replaced, Slot, Sprite, State, Target, flag, memory};
 
 /// Flags that a later step can read; all others say what the type says already, or where the sprite came from.
-const LIVE: u16 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
+const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
 
 impl State {
     /// The hash of live behaviour only. For states of one game and level, equal keys mean equal keys, outcomes and gains of
@@ -65,13 +65,13 @@ impl State {
     }
 
     fn live_words(&self, rules: &Rules, slot: Slot, mixer: &mut Mixer) {
-        let sprite = self.sprite(slot);
+        let sprite = &self.present(slot);
         let info = &rules.types[sprite.stype.index()];
         let extra = self.extras.get(usize::from(sprite.extra));
         let held = self.held_by(slot).iter().filter(|held| held.amount != 0);
         // What follows for this sprite is told apart by this word.
         let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
-        mixer.pair(two(i32::from(sprite.flags & LIVE), follows), two(sprite.health, sprite.max_health));
+        mixer.pair(two((sprite.flags & LIVE) as i32, follows), two(sprite.health, sprite.max_health));
         mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
         mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
         mixer.pair(bits(sprite.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));
@@ -149,7 +149,7 @@ impl State {
             mixer.pair(u64::from(effect), u64::from(self.memory[usize::from(effect)] & credits));
         }
         for (stype, info) in rules.types.iter().enumerate() {
-            if info.first_differs && self.templates[stype] {
+            if info.first_differs && self.templates[stype] != 0 {
                 mixer.pair(stype as u64, 2);
             }
         }

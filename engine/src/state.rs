@@ -6,10 +6,13 @@
 //! without them.
 
 use crate::chance::Chance;
+use crate::contacts::Mask;
+use crate::flight::Flight;
 use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::limits::MAX_SLOTS;
 use crate::ontology::class::SpriteClass;
+use crate::rest::Rest;
 
 /// An index into the sprites of a state.
 pub(crate) type Slot = u16;
@@ -19,30 +22,44 @@ pub(crate) const NONE: Slot = u16::MAX;
 /// Bits of [`Sprite::flags`]; the first four are those that traces record.
 pub(crate) mod flag {
     /// A killed avatar: stays in its group, is no longer updated.
-    pub(crate) const DISABLED: u16 = 1;
-    pub(crate) const AVATAR: u16 = 2;
-    pub(crate) const FROM_AVATAR: u16 = 4;
+    pub(crate) const DISABLED: u32 = 1;
+    pub(crate) const AVATAR: u32 = 2;
+    pub(crate) const FROM_AVATAR: u32 = 4;
     /// Stands on something solid; of classes that notice.
-    pub(crate) const ON_GROUND: u16 = 8;
+    pub(crate) const ON_GROUND: u32 = 8;
     /// What traces record.
-    pub(crate) const RECORDED: u16 = 15;
-    pub(crate) const FIRST_TICK: u16 = 16;
-    pub(crate) const ORIENTED: u16 = 32;
+    pub(crate) const RECORDED: u32 = 15;
+    pub(crate) const FIRST_TICK: u32 = 16;
+    pub(crate) const ORIENTED: u32 = 32;
     /// In the kill list.
-    pub(crate) const KILLED: u16 = 64;
+    pub(crate) const KILLED: u32 = 64;
     /// The sprite is not updated, and `moved_at` holds its age: its type is not in the update order, or it is of an avatar
     /// class and not the player's, or disabled.
-    pub(crate) const FROZEN: u16 = 128;
+    pub(crate) const FROZEN: u32 = 128;
     /// In `State::moved`: the last rectangle differs from the rectangle, or may.
-    pub(crate) const MOVED: u16 = 256;
-    /// In `State::stale`: the running hash does not hold this sprite at the moment.
-    pub(crate) const STALE: u16 = 512;
+    pub(crate) const MOVED: u32 = 256;
+    /// In `State::stale`: the running hash may hold an older form of this sprite.
+    pub(crate) const STALE: u32 = 512;
     /// The slot is free.
-    pub(crate) const GONE: u16 = 1024;
-    /// Not aligned to one cell.
-    pub(crate) const LOOSE: u16 = 2048;
+    pub(crate) const GONE: u32 = 1024;
+    /// Not wholly on the screen.
+    pub(crate) const OFF: u32 = 2048;
+    /// No larger than a cell, and covers the cell to the right too.
+    pub(crate) const RIGHT: u32 = 4096;
+    /// No larger than a cell, and covers the cell below too.
+    pub(crate) const BELOW: u32 = 8192;
+    /// Larger than a cell.
+    pub(crate) const BIG: u32 = 16_384;
+    /// Covers more than one cell, or may.
+    pub(crate) const LOOSE: u32 = RIGHT | BELOW | BIG;
+    /// Its cooldown never holds it up, so it does not matter when it moved last.
+    pub(crate) const BRISK: u32 = 32_768;
+    /// More is to be renewed of its share of the hash than what comes with moving.
+    pub(crate) const CHANGED: u32 = 65_536;
+    /// How a sprite lies in its cell.
+    pub(crate) const LYING: u32 = LOOSE | OFF;
     /// Book-keeping that two equal states may differ in.
-    pub(crate) const TRANSIENT: u16 = MOVED | STALE | LOOSE;
+    pub(crate) const TRANSIENT: u32 = MOVED | STALE | CHANGED | LYING | BRISK;
 }
 
 /// One sprite.
@@ -65,7 +82,9 @@ pub(crate) struct Sprite {
     /// Spawner: the tick of its first update.
     pub(crate) start: i32,
     pub(crate) stype: SpriteType,
-    pub(crate) flags: u16,
+    /// What has happened to it in this tick, as far as rest is concerned (`rest.rs`).
+    pub(crate) rest: u16,
+    pub(crate) flags: u32,
     /// Spawners: what they make now; updateSpawnType changes it.
     pub(crate) spawns: SpriteType,
     /// Index into `State::extras`, or NONE.
@@ -84,11 +103,11 @@ pub(crate) struct Sprite {
 }
 
 impl Sprite {
-    pub(crate) fn is(&self, flag: u16) -> bool {
+    pub(crate) fn is(&self, flag: u32) -> bool {
         self.flags & flag != 0
     }
 
-    pub(crate) fn set(&mut self, flag: u16, on: bool) {
+    pub(crate) fn set(&mut self, flag: u32, on: bool) {
         if on {
             self.flags |= flag;
         } else {
@@ -97,19 +116,33 @@ impl Sprite {
     }
 }
 
+/// The share of a sprite in the hash of the state, and the part of it that moving does not change.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Share {
+    pub(crate) hash: u128,
+    pub(crate) still: u64,
+}
+
 /// The sprites of one type, in order of creation.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Group {
     pub(crate) head: Slot,
     pub(crate) tail: Slot,
     pub(crate) count: u16,
     pub(crate) disabled: u16,
-    /// How many are not aligned to one cell.
+    /// How many cover more than one cell, or may.
     pub(crate) loose: u16,
+    /// How many are larger than a cell.
+    pub(crate) big: u16,
+    /// How many are not wholly on the screen.
+    pub(crate) off: u16,
+    /// How many are at rest or in flight.
+    pub(crate) asleep: u16,
 }
 
 impl Group {
-    pub(crate) const EMPTY: Group = Group { head: NONE, tail: NONE, count: 0, disabled: 0, loose: 0 };
+    pub(crate) const EMPTY: Group =
+        Group { head: NONE, tail: NONE, count: 0, disabled: 0, loose: 0, big: 0, off: 0, asleep: 0 };
 }
 
 /// A number of a resource that a sprite holds; entries stay at 0 (`spec/02` §1.1).
@@ -194,24 +227,63 @@ pub struct State {
     pub(crate) free: Slot,
     /// Written by StopCounter: whether counters may end the game.
     pub(crate) can_end: bool,
-    /// Sum over the sprites of the hash of each, those in `stale` apart.
+    /// Sum of the hashes in `shares`.
     pub(crate) sprite_hash: u128,
+    /// How many sprites are larger than a cell.
+    pub(crate) big: u32,
+    /// The bits of the types with sprites that cover more than one cell.
+    pub(crate) loose_bits: u64,
     pub(crate) sprites: Vec<Sprite>,
+    /// By slot: the share of the sprite in the hash when it was last settled.
+    pub(crate) shares: Vec<Share>,
     pub(crate) groups: Vec<Group>,
+    /// Whether the counts of `groups` have changed since terminations looked at them.
+    pub(crate) census_changed: bool,
     pub(crate) cells: Vec<Slot>,
+    /// By cell: the bits of the types that cover it (`contacts.rs`).
+    pub(crate) masks: Vec<Mask>,
+    /// While pairs are looked for, by cell: the bits of the sprites larger than a cell that cover it, or did;
+    /// 0 at all other times, so copies need not copy it.
+    pub(crate) covered: Vec<u64>,
+    /// The cells of `covered` that are not 0.
+    pub(crate) covered_cells: Vec<u32>,
+    /// The bits of sprites so large that they count as everywhere, while pairs are looked for.
+    pub(crate) vast: u64,
+    /// Whether pairs are being looked for.
+    pub(crate) meeting: bool,
+    /// By pair of bits: in how many cells both are.
+    pub(crate) together: Vec<u16>,
+    /// By pass: how many reasons there are to look at it.
+    pub(crate) reasons: Vec<u16>,
+    /// The passes with a reason, a bit each.
+    pub(crate) possible: Vec<u64>,
     pub(crate) moved: Vec<Slot>,
     pub(crate) stale: Vec<Slot>,
     pub(crate) killed: Vec<Slot>,
     /// Sorted by holder and resource.
     pub(crate) held: Vec<Held>,
     pub(crate) memory: Vec<u8>,
+    /// Of `memory` and `templates`, when last settled.
+    pub(crate) memory_hash: u64,
+    pub(crate) memory_is_stale: bool,
     /// Types of which a sprite was made before: later ones are copies (`spec/02` §1.3).
-    pub(crate) templates: Vec<bool>,
+    pub(crate) templates: Vec<u8>,
     /// This tick's shields, sorted: type, partner, effect keyword (`spec/03` §5.7).
     pub(crate) shields: Vec<(SpriteType, SpriteType, u16)>,
     /// Sprites that a pullWithIt effect has carried in this tick, sorted.
     pub(crate) pulled: Vec<(u16, Slot)>,
     pub(crate) extras: Vec<Extra>,
+    /// Sprites at rest (`rest.rs`).
+    pub(crate) rests: Vec<Rest>,
+    /// By cell: around how many sprites at rest it is.
+    pub(crate) watched: Vec<u8>,
+    /// By cell: the tick of the last change that was not undone, or the tick up to which something flies there.
+    pub(crate) stamps: Vec<i16>,
+    /// Sprites in flight (`flight.rs`), and when the next one is due.
+    pub(crate) flights: Vec<Flight>,
+    pub(crate) next_due: i32,
+    /// Watched cells that something has come to or left, within a step.
+    pub(crate) touched: Vec<u32>,
     /// Planned time effects, the next one last (`spec/03` §6.2).
     pub(crate) timers: Vec<Timer>,
     /// Cells that path finding goes around; empty without `obs=`.
@@ -227,25 +299,32 @@ pub struct State {
 }
 
 macro_rules! clone_fields {
-    ($to:ident, $from:ident; copy $($scalar:ident)*; buffers $($buffer:ident)*) => {
+    ($to:ident, $from:ident; copy $($scalar:ident)*; buffers $($buffer:ident)*; empty $($empty:ident)*) => {
         impl Clone for State {
             fn clone(&self) -> State {
                 let $from = self;
-                State { $($scalar: $from.$scalar,)* $($buffer: $from.$buffer.clone(),)* }
+                State {
+                    $($scalar: $from.$scalar,)*
+                    $($buffer: $from.$buffer.clone(),)*
+                    $($empty: vec![0; $from.$empty.len()],)*
+                }
             }
 
             fn clone_from(&mut self, $from: &State) {
                 let $to = self;
                 $($to.$scalar = $from.$scalar;)*
                 $($to.$buffer.clone_from(&$from.$buffer);)*
+                // These hold nothing but zeros between steps.
+                $($to.$empty.resize($from.$empty.len(), 0);)*
             }
         }
     };
 }
 
 clone_fields! { to, from;
-    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash jumps sideways;
-    buffers sprites groups cells moved stale killed held memory templates shields pulled extras timers obstacles replaced counters
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big loose_bits next_due census_changed jumps vast meeting sideways;
+    buffers sprites shares groups cells masks together reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers obstacles replaced counters;
+    empty covered covered_cells touched
 }
 
 impl State {
@@ -288,6 +367,37 @@ impl State {
     pub fn fork_from(&mut self, source: &State, chance: Chance) {
         self.clone_from(source);
         (self.chance, self.jumps) = (chance, chance);
+    }
+
+    /// Bytes that a copy copies.
+    pub fn size_in_bytes(&self) -> usize {
+        fn bytes<T>(buffer: &[T]) -> usize {
+            size_of_val(buffer)
+        }
+        size_of::<State>()
+            + bytes(&self.sprites)
+            + bytes(&self.groups)
+            + bytes(&self.shares)
+            + bytes(&self.cells)
+            + bytes(&self.masks)
+            + bytes(&self.together)
+            + bytes(&self.reasons)
+            + bytes(&self.possible)
+            + bytes(&self.moved)
+            + bytes(&self.stale)
+            + bytes(&self.killed)
+            + bytes(&self.held)
+            + bytes(&self.memory)
+            + bytes(&self.templates)
+            + bytes(&self.shields)
+            + bytes(&self.pulled)
+            + bytes(&self.extras)
+            + bytes(&self.rests)
+            + bytes(&self.watched)
+            + bytes(&self.stamps)
+            + bytes(&self.flights)
+            + bytes(&self.timers)
+            + bytes(&self.obstacles)
     }
 
     /// Pixels of a cell.
@@ -370,31 +480,28 @@ impl State {
         &self.held[start..end]
     }
 
-    /// A sprite, to be changed: takes it out of the running hash until the end of the step.
+    /// A sprite, to be changed: its share of the running hash is to be renewed.
     pub(crate) fn edit(&mut self, slot: Slot) -> &mut Sprite {
+        let sprite = self.edit_motion(slot);
+        sprite.flags |= flag::CHANGED;
+        sprite
+    }
+
+    /// A sprite of which only flags, place, age, time to live, count and heading are to be changed.
+    pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = &mut self.sprites[usize::from(slot)];
-        if !sprite.is(flag::STALE) {
-            self.sprite_hash = self.sprite_hash.wrapping_sub(crate::hash::sprite_hash(sprite));
-            sprite.set(flag::STALE, true);
+        if sprite.flags & flag::STALE == 0 {
+            sprite.flags |= flag::STALE;
             self.stale.push(slot);
         }
         sprite
     }
 
-    /// Puts the changed sprites back into the running hash.
-    pub(crate) fn freshen(&mut self) {
-        for slot in self.stale.drain(..) {
-            let sprite = &mut self.sprites[usize::from(slot)];
-            sprite.set(flag::STALE, false);
-            self.sprite_hash = self.sprite_hash.wrapping_add(crate::hash::sprite_hash(sprite));
-        }
-    }
-
-    /// Takes a slot out of its chains and frees it. The caller has taken it out of the running hash, and calls
-    /// [`State::forget_gone`] after the last one.
-    pub(crate) fn release(&mut self, slot: Slot) {
+    /// Takes a slot out of its chains and frees it. The caller calls [`State::forget_gone`] after the last one.
+    pub(crate) fn release(&mut self, rules: &Rules, slot: Slot) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
-        self.leave_cell(slot);
+        self.leave_cell(rules, slot);
+        self.census_changed = true;
         let group = &mut self.groups[stype.index()];
         group.count -= 1;
         if flags & flag::DISABLED != 0 {
@@ -419,9 +526,10 @@ impl State {
             self.replaced.drain(start..start + count);
         }
         self.release_extra(slot);
-        let sprite = &mut self.sprites[usize::from(slot)];
-        (sprite.next, sprite.flags) = (self.free, flag::GONE);
-        self.free = slot;
+        let next = std::mem::replace(&mut self.free, slot);
+        let sprite = self.edit(slot);
+        // It stays among the stale, once.
+        (sprite.next, sprite.flags) = (next, flag::GONE | flag::STALE);
     }
 
     fn release_extra(&mut self, slot: Slot) {
@@ -436,9 +544,8 @@ impl State {
 
     /// What refers to slots that have been freed forgets them. Pursuers keep the last rectangle of whom they pursued.
     pub(crate) fn forget_gone(&mut self) {
-        let State { stale, moved, extras, sprites, .. } = self;
+        let State { moved, extras, sprites, .. } = self;
         let gone = |slot: Slot| sprites[usize::from(slot)].is(flag::GONE);
-        stale.retain(|&slot| !gone(slot));
         moved.retain(|&slot| !gone(slot));
         for extra in extras {
             if let Target::Sprite(slot) = extra.target
@@ -525,33 +632,35 @@ impl State {
     }
 
     /// Takes a slot for `sprite`, at the end of its type's chain; None if there are no more.
-    pub(crate) fn admit(&mut self, sprite: Sprite) -> Option<Slot> {
+    pub(crate) fn admit(&mut self, rules: &Rules, sprite: Sprite) -> Option<Slot> {
         let slot = match self.free {
             NONE => {
                 let slot =
                     Slot::try_from(self.sprites.len()).ok().filter(|&slot| usize::from(slot) < MAX_SLOTS)?;
                 self.sprites.push(sprite);
+                self.shares.push(Share::default());
                 slot
             }
             slot => {
-                self.free = self.sprite(slot).next;
+                let old = self.sprites[usize::from(slot)];
+                self.free = old.next;
                 self.sprites[usize::from(slot)] = sprite;
+                self.sprites[usize::from(slot)].set(flag::STALE, old.is(flag::STALE));
                 slot
             }
         };
         let group = &mut self.groups[sprite.stype.index()];
         let tail = std::mem::replace(&mut group.tail, slot);
         group.count += 1;
+        self.census_changed = true;
         if tail == NONE {
             group.head = slot;
         } else {
             self.sprites[usize::from(tail)].next = slot;
         }
-        let sprite = &mut self.sprites[usize::from(slot)];
+        let sprite = self.edit(slot);
         (sprite.next, sprite.previous) = (NONE, tail);
-        sprite.set(flag::STALE, true);
-        self.stale.push(slot);
-        self.enter_cell(slot);
+        self.enter_cell(rules, slot);
         Some(slot)
     }
 }

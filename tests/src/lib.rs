@@ -10,6 +10,7 @@ pub mod mutation;
 pub mod robustness;
 pub mod vocabulary;
 
+use engine::{Game, Level};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -71,6 +72,20 @@ pub fn public_games() -> Option<PathBuf> {
         let _ = writeln!(io::stderr(), "SKIPPED: no games in {}", games.display());
     }
     found.then_some(games)
+}
+
+/// The games in the folders of a folder, by name, loaded as the reference loads them, with their levels; those that load.
+pub fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
+    let mut folders: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    folders.sort();
+    let load = |folder: &PathBuf| {
+        let read = |file: &str| fs::read_to_string(folder.join(file)).ok();
+        let game = Game::from_source_as_reference(&read("game.vgdl").or_else(|| read("game.txt"))?).ok()?;
+        let texts = (0..5).map_while(|number| read(&format!("lvl{number}.txt")));
+        let levels: Vec<Level> = texts.filter_map(|text| game.level(&text).ok()).collect();
+        Some((folder.file_name()?.to_string_lossy().into_owned(), game, levels))
+    };
+    folders.iter().filter_map(load).filter(|(.., levels)| !levels.is_empty()).collect()
 }
 
 /// The text of a file of the repository, named relative to [`workspace_root`].

@@ -4,28 +4,12 @@ use agents::{Batch, BatchError};
 use engine::{Action, Game, Level, Sampler, Seed, State, StateHash};
 use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use std::fs;
-use std::path::Path;
 use tests::any_game::any_game;
 use tests::choices::Choices;
-use tests::{public_games, workspace_root};
+use tests::{games, public_games, workspace_root};
 
 fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
-}
-
-/// The games in the folders of a folder, those that load, with their levels.
-fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
-    let mut folders: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    folders.sort();
-    let load = |folder: &std::path::PathBuf| {
-        let read = |file: &str| fs::read_to_string(folder.join(file)).ok();
-        let game = Game::from_source_as_reference(&read("game.vgdl").or_else(|| read("game.txt"))?).ok()?;
-        let texts = (0..5).map_while(|number| read(&format!("lvl{number}.txt")));
-        let levels: Vec<Level> = texts.filter_map(|text| game.level(&text).ok()).collect();
-        Some((folder.file_name()?.to_string_lossy().into_owned(), game, levels))
-    };
-    folders.iter().filter_map(load).filter(|(.., levels)| !levels.is_empty()).collect()
 }
 
 fn any_actions(count: usize, sampler: &mut Sampler) -> Vec<Action> {

@@ -12,13 +12,15 @@ mod terminations;
 pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;
+use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TICKS, MAX_TYPES};
 use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites as behaviour;
-use crate::ontology::terminations::{Condition, Decision};
+use crate::ontology::terminations::{Condition, Decision, Termination};
+use crate::rest::foresight;
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
@@ -99,6 +101,7 @@ fn compile_with(
     };
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
+    let foresight = foresight(&types, &program.passes, &program.effects);
     // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
@@ -130,12 +133,17 @@ fn compile_with(
         remembering: program.remembering(&types),
         effects: program.effects,
         edge: program.edge,
+        any_rests: foresight.iter().any(|of_type| of_type.rests),
+        any_flies: foresight.iter().any(|of_type| of_type.flies),
+        foresight,
+        contacts: Contacts::of(&types, &program.passes),
         passes: program.passes,
         timed: program.timed,
         finds_paths: header.obstacles.is_some(),
         obstacles,
         reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. }))
             || spawners().any(|traits| traits.start > i32::MAX - 2 * MAX_TICKS),
+        first_timeout: terminations.iter().filter_map(Termination::timeout).min().unwrap_or(i32::MAX),
         reads_counters: terminations
             .iter()
             .any(|end| matches!(end.decided_by, Decision::Difference | Decision::Value(_))),

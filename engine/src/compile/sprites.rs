@@ -4,7 +4,7 @@ use super::params::{set_trait, takes, unknown_parameter};
 use super::references::{Subject, references};
 use super::{Names, Policy, ranks};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::game::{SpriteType, TypeInfo};
+use crate::game::{Action, SpriteType, TypeInfo};
 use crate::limits::{MAX_PARAMETERS, MAX_REACH};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::traits::Traits;
@@ -285,6 +285,10 @@ fn type_info<'a>(
         incomplete: false,
         unknown_parameters,
         first_differs: scales || unknown_parameters > 0 || class == Some(SpriteClass::OngoingTurningAvatar),
+        actions: match class.map(SpriteClass::actions) {
+            None | Some([]) => &[Action::Nil],
+            Some(actions) => actions,
+        },
         ground_aware: class.is_some_and(SpriteClass::is_ground_aware),
     }
 }

@@ -24,7 +24,7 @@ fn is_continuous(rules: &Rules, step: &Step<'_>, slot: Slot) -> bool {
 
 /// Moves a sprite along its own orientation, unless it is static. The first call only marks the sprite as having had it.
 pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
-    let sprite = *step.state.sprite(slot);
+    let sprite = step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.is_static || traits.only_active {
         return;
@@ -37,7 +37,8 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
         if sprite.speed == 0.0 {
             return;
         }
-        step.displace(slot, sprite.orientation, sprite.speed as i32);
+        let (orientation, amount) = (sprite.orientation, sprite.speed as i32);
+        step.displace(slot, orientation, amount);
         let gravity = step.state.gravity(step.rules, slot);
         if gravity > 0.0 && traits.mass > 0.0 && !step.state.sprite(slot).is(flag::ON_GROUND) {
             active(step, slot, Direction { x: 0.0, y: gravity * traits.mass }, 0.0);
@@ -49,9 +50,20 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
     }
     let speed = if sprite.speed == -1.0 { 1.0 } else { sprite.speed };
     if speed != 0.0 && sprite.is(flag::ORIENTED) {
-        let block = f64::from(step.state.block);
-        step.displace(slot, sprite.orientation, (speed * block) as i32);
+        let (orientation, block) = (sprite.orientation, f64::from(step.state.block));
+        step.displace(slot, orientation, (speed * block) as i32);
     }
+}
+
+/// Where passive movement takes a sprite of grid physics; None if nowhere.
+pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
+    let sprite = step.state.sprite(slot);
+    let speed = if sprite.speed == -1.0 { 1.0 } else { sprite.speed };
+    if speed == 0.0 || !sprite.is(flag::ORIENTED) {
+        return None;
+    }
+    let block = f64::from(step.state.block);
+    step.shifted(slot, sprite.orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
 /// Moves a sprite where it, or its player, wants to go. A speed of 0 stands for the sprite's own.

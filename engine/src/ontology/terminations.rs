@@ -60,6 +60,14 @@ pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
 }
 
 impl Termination {
+    /// The tick from which on it holds, of those that hold by the tick.
+    pub(crate) fn timeout(&self) -> Option<i32> {
+        match self.condition {
+            Condition::Timeout { limit } => Some(limit),
+            _ => None,
+        }
+    }
+
     /// Whether the game ends by it now.
     pub(crate) fn holds(&self, rules: &Rules, state: &State) -> bool {
         let sum =

@@ -264,6 +264,23 @@ impl Effect {
         resource.filter(|&resource| resource != SpriteType::NONE)
     }
 
+    /// Whether it can change, or read the place of, sprites that take no part in the meeting.
+    pub(crate) fn reaches_afar(&self) -> bool {
+        matches!(
+            self,
+            Effect::KillAll { .. }
+                | Effect::SubtractHealthPoints { stype: Some(_), .. }
+                | Effect::UndoAll { .. }
+                | Effect::ChangeSpeed { .. }
+                | Effect::TransformToAll { .. }
+                | Effect::TransformToSingleton { .. }
+                | Effect::TransformIfCount(_)
+                | Effect::UpdateSpawnType { .. }
+                | Effect::TeleportToExit
+                | Effect::AddTimer { .. }
+        )
+    }
+
     /// Whether it can give speed to a sprite of grid physics that has none.
     pub(crate) fn gives_speed(&self) -> bool {
         matches!(self, Effect::ChangeSpeed { .. } | Effect::WallStop | Effect::WallReverse)
@@ -477,6 +494,7 @@ impl Step<'_> {
 
     fn remember(&mut self, index: u16, bit: u8, on: bool) {
         let byte = &mut self.state.memory[usize::from(index)];
-        *byte = if on { *byte | bit } else { *byte & !bit };
+        let before = std::mem::replace(byte, if on { *byte | bit } else { *byte & !bit });
+        self.state.memory_is_stale |= before != *byte;
     }
 }

@@ -81,7 +81,7 @@ pub(super) fn flip(step: &mut Step<'_>, one: Slot) {
 
 /// To the opposite edge along the orientation, one axis only.
 pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
-    let screen = step.screen();
+    let screen = step.state.screen();
     let sprite = step.state.sprite(one);
     let (facing, rect) = (sprite.orientation, sprite.rect);
     let near = |size: i32| (offset * f64::from(size)) as i32;

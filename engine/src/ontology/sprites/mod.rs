@@ -2,13 +2,13 @@
 
 mod npcs;
 mod plain;
-mod producers;
+pub(crate) mod producers;
 pub(in crate::ontology) mod walkers;
 
 use super::class::SpriteClass;
 use super::traits::Traits;
 use crate::ontology::physics;
-use crate::state::Slot;
+use crate::state::{Slot, Sprite, State, flag};
 use crate::step::Step;
 
 /// `heading` of an NPC that has not drawn a direction.
@@ -35,6 +35,38 @@ pub(crate) fn draws(class: SpriteClass) -> bool {
         || class.is_a(C::SpawnPoint)
         || class.is_a(C::Walker)
         || matches!(class, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
+}
+
+/// Whether [`base`] does nothing to a sprite in this tick: it does not move by itself, or not yet again.
+#[inline]
+pub(crate) fn stays(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
+    let waits = || {
+        let age = state.tick.wrapping_sub(sprite.moved_at);
+        traits.cooldown > age && !sprite.is(flag::FIRST_TICK | flag::FROZEN) && !traits.continuous
+    };
+    sprite.time_to_live < 0 && (traits.is_static || traits.only_active || waits())
+}
+
+/// How the updates of a type begin.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Habit {
+    /// With a draw; without a sprite made, [`base`] is all that follows.
+    Draws,
+    /// With [`base`], and that is all.
+    Moves,
+    Other,
+}
+
+/// The habit of a type.
+pub(crate) fn habit(class: SpriteClass, traits: &Traits) -> Habit {
+    use SpriteClass as C;
+    match class {
+        _ if traits.oriented_image => Habit::Other,
+        C::SpawnPoint | C::Bomber => Habit::Draws,
+        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => Habit::Moves,
+        C::Portal | C::SpriteProducer | C::Missile | C::ErraticMissile => Habit::Moves,
+        _ => Habit::Other,
+    }
 }
 
 /// One update. The avatar is updated in `avatars`.
@@ -90,7 +122,7 @@ fn base(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
     let time_to_live = step.state.sprite(slot).time_to_live;
     if time_to_live > 0 {
-        step.state.edit(slot).time_to_live -= 1;
+        step.state.edit_motion(slot).time_to_live -= 1;
     } else if time_to_live == 0 {
         step.kill(slot);
     }

@@ -26,10 +26,10 @@ fn walk(step: &mut Step<'_>, slot: Slot, direction: Direction) {
 fn random_move(step: &mut Step<'_>, slot: Slot) -> Direction {
     let cons = step.rules.types[step.state.sprite(slot).stype.index()].traits.cons;
     if step.state.sprite(slot).count < cons {
-        step.state.edit(slot).count += 1;
+        step.state.edit_motion(slot).count += 1;
     } else {
         let heading = step.state.chance.below(4) as u16;
-        let sprite = step.state.edit(slot);
+        let sprite = step.state.edit_motion(slot);
         (sprite.count, sprite.heading) = (0, heading);
     }
     heading(step, slot)

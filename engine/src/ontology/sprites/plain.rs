@@ -21,7 +21,7 @@ pub(super) fn flicker(step: &mut Step<'_>, slot: Slot) {
     if sprite.count > step.rules.types[sprite.stype.index()].traits.limit {
         step.kill(slot);
     }
-    let sprite = step.state.edit(slot);
+    let sprite = step.state.edit_motion(slot);
     sprite.count = sprite.count.wrapping_add(1);
 }
 

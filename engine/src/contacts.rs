@@ -1,0 +1,356 @@
+//! Which interactions can happen at all at the moment: kept as sprites come and go, so that a tick looks only at rules whose
+//! two sides share a cell somewhere.
+//!
+//! Every type that takes part in a rule has a bit. Each cell of the board knows the bits of the sprites in it; each pair of
+//! bits that a rule is about knows in how many cells both are; each pass of the event phase knows how many of its pairs are
+//! together anywhere. A pass without any is skipped. Sprites larger than a cell are in the masks with one cell only, so a pass
+//! with such a sprite on either side counts as possible too.
+
+use crate::game::{Pass, Rules, SpriteType, TypeInfo};
+use crate::occupancy::Span;
+use crate::state::{NONE, Slot, State, flag};
+
+/// No pair.
+const NO: u16 = u16::MAX;
+/// Types beyond share the last bit: their rules are looked at more often than needed, and found right all the same.
+const BITS: usize = 64;
+
+/// The bits of the types that cover a cell, and of those of which several sprites do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Mask {
+    pub(crate) any: u64,
+    pub(crate) many: u64,
+}
+
+/// A type in masks.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Kind {
+    /// Its bit; 0 for types of no rule.
+    pub(crate) own: u64,
+    /// The bits of types that a rule pairs it with.
+    partners: u64,
+}
+
+impl Kind {
+    fn bit(&self) -> usize {
+        self.own.trailing_zeros() as usize
+    }
+}
+
+/// The fixed tables of one game.
+#[derive(Debug, Default)]
+pub(crate) struct Contacts {
+    /// By type.
+    pub(crate) kinds: Vec<Kind>,
+    bits: usize,
+    /// By two bits: the pair's number.
+    pair: Vec<u16>,
+    /// By pair: the passes that are about it.
+    passes: Vec<Box<[u16]>>,
+    /// By type: the passes that are about it.
+    of_type: Vec<Box<[u16]>>,
+    /// By pass: the bits of its first and second side.
+    sides: Vec<(u64, u64)>,
+    /// Passes that are always looked at: testing what lies below is an effect of its own for some classes.
+    always: Vec<u16>,
+}
+
+impl Contacts {
+    /// Cost: O(types² + passes × the largest trees).
+    pub(crate) fn of(types: &[TypeInfo], passes: &[Pass]) -> Contacts {
+        let mut contacts = Contacts { kinds: vec![Kind::default(); types.len()], ..Contacts::default() };
+        for pass in passes {
+            for side in [pass.first, pass.second] {
+                for stype in &types[side.index()].tree {
+                    let own = &mut contacts.kinds[stype.index()].own;
+                    if *own == 0 {
+                        *own = 1 << contacts.bits.min(BITS - 1);
+                        contacts.bits = (contacts.bits + 1).min(BITS);
+                    }
+                }
+            }
+        }
+        let mut partners = vec![0; contacts.bits];
+        contacts.pair = vec![NO; contacts.bits * contacts.bits];
+        let mut of_pair: Vec<Vec<u16>> = Vec::new();
+        let mut of_type: Vec<Vec<u16>> = vec![Vec::new(); types.len()];
+        for (number, pass) in (0u16..).zip(passes) {
+            let (first, second) = (&types[pass.first.index()].tree, &types[pass.second.index()].tree);
+            for &stype in first.iter().chain(second) {
+                let passes = &mut of_type[stype.index()];
+                if passes.last() != Some(&number) {
+                    passes.push(number);
+                }
+            }
+            let bits = |tree: &[SpriteType]| {
+                tree.iter().fold(0, |bits: u64, stype| bits | contacts.kinds[stype.index()].own)
+            };
+            let sides = (bits(first), bits(second));
+            for one in ones(sides.0) {
+                for two in ones(sides.1) {
+                    let (low, high) = (one.min(two), one.max(two));
+                    let pair = &mut contacts.pair[low * contacts.bits + high];
+                    if *pair == NO {
+                        *pair = of_pair.len() as u16;
+                        of_pair.push(Vec::new());
+                    }
+                    let pair = *pair;
+                    contacts.pair[high * contacts.bits + low] = pair;
+                    partners[one] |= 1 << two;
+                    partners[two] |= 1 << one;
+                    let passes = &mut of_pair[usize::from(pair)];
+                    if passes.last() != Some(&number) {
+                        passes.push(number);
+                    }
+                }
+            }
+            contacts.sides.push(sides);
+            if first.iter().any(|stype| types[stype.index()].ground_aware) {
+                contacts.always.push(number);
+            }
+        }
+        for kind in contacts.kinds.iter_mut().filter(|kind| kind.own != 0) {
+            kind.partners = partners[kind.bit()];
+        }
+        contacts.passes = of_pair.into_iter().map(Vec::into_boxed_slice).collect();
+        contacts.of_type = of_type.into_iter().map(Vec::into_boxed_slice).collect();
+        contacts
+    }
+
+    pub(crate) fn sides(&self, pass: usize) -> (u64, u64) {
+        self.sides[pass]
+    }
+
+    /// Whether any rule is about sprites of the two types.
+    pub(crate) fn has_rule(&self, one: SpriteType, two: SpriteType) -> bool {
+        self.kinds[one.index()].partners & self.kinds[two.index()].own != 0
+    }
+
+    /// The bit of a type if no other type has it.
+    pub(crate) fn sole_bit(&self, stype: usize) -> u64 {
+        self.kinds[stype].own & !(1 << (BITS - 1))
+    }
+
+    /// How many pairs there are.
+    pub(crate) fn pairs(&self) -> usize {
+        self.passes.len()
+    }
+
+    fn pair(&self, one: usize, two: usize) -> usize {
+        usize::from(self.pair[one * self.bits + two])
+    }
+}
+
+/// The numbers of the bits that are set, upwards.
+fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (bit < 64).then_some(bit)
+    })
+}
+
+impl State {
+    /// Nothing is anywhere yet.
+    pub(crate) fn empty_contacts(&mut self, contacts: &Contacts) {
+        self.masks = vec![Mask::default(); self.cells.len()];
+        self.together = vec![0; contacts.pairs()];
+        self.reasons = vec![0; contacts.sides.len()];
+        self.possible = vec![0; contacts.sides.len().div_ceil(64)];
+        for &pass in &contacts.always {
+            self.allow(pass);
+        }
+    }
+
+    /// A sprite has come to cover cells.
+    #[inline]
+    pub(crate) fn arrive(&mut self, contacts: &Contacts, kind: &Kind, span: Span) {
+        if kind.own == 0 {
+            return;
+        }
+        for cell in span.cells() {
+            let mask = &mut self.masks[cell];
+            let partners = if mask.any & kind.own == 0 {
+                let others = mask.any & kind.partners;
+                mask.any |= kind.own;
+                others
+            } else {
+                mask.many |= kind.own;
+                kind.partners & kind.own
+            };
+            if partners != 0 {
+                ones(partners).for_each(|other| self.meet_more(contacts, contacts.pair(kind.bit(), other)));
+            }
+        }
+    }
+
+    /// A sprite does not cover cells any more; the chains tell so already.
+    #[inline]
+    pub(crate) fn depart(&mut self, contacts: &Contacts, kind: &Kind, span: Span) {
+        if kind.own == 0 {
+            return;
+        }
+        for cell in span.cells() {
+            let mask = &mut self.masks[cell];
+            let partners = if mask.many & kind.own == 0 {
+                mask.any &= !kind.own;
+                mask.any & kind.partners
+            } else {
+                if self.count_in(contacts, cell, kind.own) < 2 {
+                    self.masks[cell].many &= !kind.own;
+                }
+                kind.partners & kind.own
+            };
+            if partners != 0 {
+                ones(partners).for_each(|other| self.meet_less(contacts, contacts.pair(kind.bit(), other)));
+            }
+        }
+    }
+
+    /// How many sprites with the bit cover a cell; counts to two.
+    #[inline(never)]
+    fn count_in(&self, contacts: &Contacts, cell: usize, own: u64) -> u32 {
+        let stride = (self.columns + 2) as usize;
+        let mut count = 0;
+        let reaches =
+            [(0, 0), (1, flag::RIGHT), (stride, flag::BELOW), (stride + 1, flag::RIGHT | flag::BELOW)];
+        for (back, reach) in reaches {
+            let mut at = cell.checked_sub(back).map_or(NONE, |cell| self.cells[cell]);
+            while at != NONE {
+                let sprite = self.sprite(at);
+                if sprite.flags & reach == reach && contacts.kinds[sprite.stype.index()].own == own {
+                    count += 1;
+                    if count == 2 {
+                        return count;
+                    }
+                }
+                at = sprite.cell_next;
+            }
+        }
+        count
+    }
+
+    fn meet_more(&mut self, contacts: &Contacts, pair: usize) {
+        self.together[pair] += 1;
+        if self.together[pair] == 1 {
+            for &pass in &contacts.passes[pair] {
+                self.allow(pass);
+            }
+        }
+    }
+
+    fn meet_less(&mut self, contacts: &Contacts, pair: usize) {
+        self.together[pair] -= 1;
+        if self.together[pair] == 0 {
+            for &pass in &contacts.passes[pair] {
+                self.forbid(pass);
+            }
+        }
+    }
+
+    /// Notes which cells the sprites cover that are larger than one, until [`State::uncover`].
+    pub(crate) fn cover(&mut self, rules: &Rules) {
+        self.meeting = true;
+        if self.big == 0 {
+            return;
+        }
+        for stype in (0..rules.types.len() as u16).map(SpriteType) {
+            if self.group(stype).big == 0 {
+                continue;
+            }
+            let mut slot = self.group(stype).head;
+            while slot != NONE {
+                let sprite = self.sprite(slot);
+                let next = sprite.next;
+                if sprite.is(flag::BIG) {
+                    self.cover_cells(&rules.contacts, slot);
+                }
+                slot = next;
+            }
+        }
+    }
+
+    /// Notes the cells of one such sprite.
+    pub(crate) fn cover_cells(&mut self, contacts: &Contacts, slot: Slot) {
+        let own = contacts.kinds[self.sprite(slot).stype.index()].own;
+        if own == 0 {
+            return;
+        }
+        let (mut covered, mut cells) =
+            (std::mem::take(&mut self.covered), std::mem::take(&mut self.covered_cells));
+        let few = self.covered_by(self.sprite(slot), |cell| {
+            if covered[cell] == 0 {
+                cells.push(cell as u32);
+            }
+            covered[cell] |= own;
+        });
+        (self.covered, self.covered_cells) = (covered, cells);
+        if !few {
+            self.vast |= own;
+        }
+    }
+
+    pub(crate) fn uncover(&mut self) {
+        self.meeting = false;
+        self.vast = 0;
+        for cell in self.covered_cells.drain(..) {
+            self.covered[cell as usize] = 0;
+        }
+    }
+
+    /// The first sprite of the type that is larger than a cell.
+    pub(crate) fn enlarged(&mut self, contacts: &Contacts, stype: usize) {
+        for &pass in &contacts.of_type[stype] {
+            self.allow(pass);
+        }
+    }
+
+    /// There is no such sprite any more.
+    pub(crate) fn reduced(&mut self, contacts: &Contacts, stype: usize) {
+        for &pass in &contacts.of_type[stype] {
+            self.forbid(pass);
+        }
+    }
+
+    fn allow(&mut self, pass: u16) {
+        let pass = usize::from(pass);
+        self.reasons[pass] += 1;
+        self.possible[pass / 64] |= 1 << (pass % 64);
+    }
+
+    fn forbid(&mut self, pass: u16) {
+        let pass = usize::from(pass);
+        self.reasons[pass] -= 1;
+        if self.reasons[pass] == 0 {
+            self.possible[pass / 64] &= !(1 << (pass % 64));
+        }
+    }
+
+    /// The first pass from `from` on that can do something.
+    pub(crate) fn next_possible(&self, from: usize) -> Option<usize> {
+        let mut word = from / 64;
+        let mut bits = self.possible.get(word)? & (u64::MAX << (from % 64));
+        while bits == 0 {
+            word += 1;
+            bits = *self.possible.get(word)?;
+        }
+        Some(word * 64 + bits.trailing_zeros() as usize)
+    }
+
+    /// The same, computed from nothing: what tests hold the running counts against. Cost: O(sprites).
+    pub(crate) fn contacts_from_scratch(&self, rules: &Rules) -> State {
+        let mut state = self.clone();
+        state.cells.fill(NONE);
+        for group in &mut state.groups {
+            (group.loose, group.big, group.off) = (0, 0, 0);
+        }
+        (state.big, state.loose_bits) = (0, 0);
+        state.empty_contacts(&rules.contacts);
+        let slots: Vec<Slot> =
+            (0..rules.types.len() as u16).flat_map(|t| self.slots(SpriteType(t))).collect();
+        for slot in slots {
+            state.enter_cell(rules, slot);
+        }
+        state
+    }
+}

@@ -1,0 +1,161 @@
+//! Sprites in flight: those that go straight on as long as nothing happens to them.
+//!
+//! A car on its lane moves two pixels in every tick, and each tick does to it what the last one did. So it is not updated:
+//! where it is follows from where it was and how long ago, and its share of the hash stays the same (`hash.rs`). Only when it
+//! comes to cover other cells is it entered there. Which rules are about sprites that share its cells is known all the while
+//! (`contacts.rs`), and whether it overlaps them is asked of where it is now. As soon as an effect is executed on it, or can
+//! reach it, it lands: it is an ordinary sprite again.
+//!
+//! Which types may fly is decided so that no one can tell the difference (`spec/01` §4): their movement draws nothing, counts
+//! nothing and does not wait, and no other sprite looks for them.
+
+use crate::game::Rules;
+use crate::geometry::Rect;
+use crate::ontology::physics;
+use crate::rest::mark;
+use crate::state::{Slot, Sprite, State, flag};
+use crate::step::Step;
+
+/// A sprite in flight, and the tick in which it comes to cover other cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Flight {
+    pub(crate) slot: Slot,
+    due: i32,
+}
+
+/// Pixels that a sprite in flight moves in a tick at most, and that it is away from the board when it takes off: far from
+/// where numbers overflow.
+const FARTHEST: i32 = 1 << 16;
+
+/// A sprite in flight as it is in a tick.
+fn flown(sprite: &Sprite, tick: i32) -> Sprite {
+    let Sprite { rect, last, .. } = *sprite;
+    let (dx, dy) = (rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
+    let ticks = tick.wrapping_sub(sprite.moved_at);
+    let along = |at: i32, by: i32| at.wrapping_add(by.wrapping_mul(ticks));
+    let rect = rect.at(along(rect.x, dx), along(rect.y, dy));
+    let last = last.at(rect.x.wrapping_sub(dx), rect.y.wrapping_sub(dy));
+    Sprite { rect, last, moved_at: tick, ..*sprite }
+}
+
+impl State {
+    /// Where a sprite is, in flight or not; in the event phase and between steps.
+    pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
+        if sprite.rest == mark::FLYING { flown(sprite, self.tick).rect } else { sprite.rect }
+    }
+
+    /// A sprite as it is now, in flight or not; in the event phase and between steps.
+    pub(crate) fn present(&self, slot: Slot) -> Sprite {
+        let sprite = self.sprite(slot);
+        if sprite.rest == mark::FLYING { flown(sprite, self.tick) } else { *sprite }
+    }
+
+    /// Ends a flight: the sprite is as it would be after its update in `tick`.
+    fn land(&mut self, slot: Slot, tick: i32) {
+        let sprite = &mut self.sprites[usize::from(slot)];
+        *sprite = flown(sprite, tick);
+        sprite.rest = mark::TRIED;
+        sprite.set(flag::MOVED, true);
+        self.groups[sprite.stype.index()].asleep -= 1;
+        self.moved.push(slot);
+    }
+
+    /// Before the updates of a tick: those that are due come to their new cells. That is a little early for sprites whose
+    /// update comes later, but no one looks before the event phase.
+    pub(crate) fn fly(&mut self, rules: &Rules) {
+        let tick = self.tick;
+        if tick < self.next_due {
+            return;
+        }
+        let mut flights = std::mem::take(&mut self.flights);
+        let mut next = i32::MAX;
+        for flight in &mut flights {
+            if flight.due <= tick {
+                flight.due = self.hop(rules, flight.slot);
+            }
+            next = next.min(flight.due);
+        }
+        (self.flights, self.next_due) = (flights, next);
+    }
+
+    /// Enters a sprite in flight where it will be after this tick's update. Returns when to do so again.
+    fn hop(&mut self, rules: &Rules, slot: Slot) -> i32 {
+        if !self.rests.is_empty() {
+            self.touch(slot);
+        }
+        let sprite = &mut self.sprites[usize::from(slot)];
+        let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.last.x), sprite.rect.y.wrapping_sub(sprite.last.y));
+        *sprite = flown(sprite, self.tick);
+        let rect = sprite.rect;
+        self.enter_anew(rules, slot, rect);
+        let due = self.tick.saturating_add(self.moves_within(self.sprite(slot), dx, dy)).saturating_add(1);
+        if rules.any_rests {
+            let sprite = *self.sprite(slot);
+            self.stamp(&sprite, due);
+        }
+        due
+    }
+
+    /// An effect is about to be executed on a sprite.
+    pub(crate) fn land_one(&mut self, slot: Slot) {
+        if self.sprite(slot).rest == mark::FLYING {
+            let at = self.flights.iter().position(|flight| flight.slot == slot);
+            self.flights.swap_remove(at.expect("what flies is in the list"));
+            self.land(slot, self.tick);
+        }
+    }
+
+    /// Nothing flies any more. Between steps only.
+    pub(crate) fn land_all(&mut self) {
+        while let Some(flight) = self.flights.pop() {
+            self.land(flight.slot, self.tick);
+        }
+        self.next_due = i32::MAX;
+    }
+}
+
+impl Step<'_> {
+    /// Nothing flies any more. In the middle of the updates, those are a tick behind that are yet to be updated.
+    pub(crate) fn land_midway(&mut self) {
+        let mut flights = std::mem::take(&mut self.state.flights);
+        for flight in flights.drain(..) {
+            let late = !self.has_moved(flight.slot);
+            self.state.land(flight.slot, self.state.tick - i32::from(late));
+            let rect = self.state.sprite(flight.slot).rect;
+            self.state.relocate(self.rules, flight.slot, rect);
+            if late {
+                self.state.edit(flight.slot).last = rect;
+            }
+        }
+        self.state.flights = flights;
+        self.state.next_due = i32::MAX;
+    }
+
+    /// After a tick in which a sprite has moved by itself and nothing else happened to it: whether it flies from now on.
+    pub(crate) fn take_off(&mut self, slot: Slot) -> bool {
+        let sprite = *self.state.sprite(slot);
+        let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.last.x), sprite.rect.y.wrapping_sub(sprite.last.y));
+        let near =
+            [sprite.rect.x, sprite.rect.y, dx, dy].iter().all(|at| at.unsigned_abs() < FARTHEST as u32);
+        let tick = self.state.tick;
+        if !near || sprite.is(flag::BIG | flag::KILLED) || sprite.moved_at != tick {
+            return false;
+        }
+        let moves = self.state.moves_within(&sprite, dx, dy);
+        let next = sprite.rect.at(sprite.rect.x + dx, sprite.rect.y + dy);
+        if physics::aim(self, slot) != Some(next) {
+            return false;
+        }
+        let due = tick.saturating_add(moves).saturating_add(1);
+        if self.rests {
+            self.state.stamp(&sprite, due);
+        }
+        let sprite = &mut self.state.sprites[usize::from(slot)];
+        sprite.rest = mark::FLYING;
+        sprite.set(flag::MOVED, false);
+        self.state.groups[sprite.stype.index()].asleep += 1;
+        self.state.flights.push(Flight { slot, due });
+        self.state.next_due = self.state.next_due.min(due);
+        true
+    }
+}

@@ -1,0 +1,164 @@
+//! `cargo xtask bench`: how fast is the engine, game by game, and against the reference?
+//!
+//! The rules are those of the reference's own figures: level 0, actions drawn uniformly from those of the avatar, NIL left
+//! out; episodes start from copies made off the clock; on the clock are whole steps with the hash of the state after each.
+//! Time is that of the processor, in the one thread that steps.
+
+use crate::course::{Course, Subject, first_digest, subjects};
+use crate::instructions;
+use agents::{Budget, Mcts, MctsConfig, Planner};
+use anyhow::Context;
+use cpu_time::ThreadTime;
+use engine::analysis::{Analysis, Spatiality};
+use engine::{Seed, State};
+use std::fmt::Write;
+use std::fs;
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Reports ticks per second, the time of a copy, and the ratio to the reference, for every game of a folder.
+///
+/// Example: cargo xtask bench --games gvgai/games --reference gvgai/java-speed.csv --csv speed.csv
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Folder of game folders, each with game.txt or game.vgdl and lvl0.txt
+    #[arg(long, value_name = "DIR")]
+    games: PathBuf,
+    /// Only these games
+    #[arg(long, value_name = "NAME")]
+    game: Vec<String>,
+    /// The reference's figures: a CSV with the columns game and ticks_per_s
+    #[arg(long, value_name = "FILE")]
+    reference: Option<PathBuf>,
+    /// Seconds of stepping for each game, after a fifth of that to warm up
+    #[arg(long, value_name = "SECONDS", default_value_t = 5.0)]
+    seconds: f64,
+    /// Also forward-model calls per second of MCTS
+    #[arg(long)]
+    mcts: bool,
+    /// Also instructions per tick, if valgrind is installed
+    #[arg(long)]
+    instructions: bool,
+    /// Write the table to this file
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Play so many ticks and print the digest of the visited states, nothing else
+    #[arg(long, value_name = "TICKS")]
+    ticks: Option<u64>,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let subjects = subjects(&args.games, &args.game)?;
+    if let Some(ticks) = args.ticks {
+        for subject in &subjects {
+            let mut course = Course::new(subject);
+            while course.ticks < ticks {
+                course.batch(ticks);
+            }
+            println!("{} {} ticks {:032x}", subject.name, course.ticks, course.digest);
+        }
+        return Ok(());
+    }
+    let reference = args.reference.as_deref().map(figures).transpose()?.unwrap_or_default();
+    let mut csv = String::from(
+        "game,ticks_per_s,ratio,clone_ns,state_bytes,instructions_per_tick,mcts_calls_per_s,digest\n",
+    );
+    println!("{}", csv.trim_end());
+    let (mut grid, mut continuous) = (Vec::new(), Vec::new());
+    for subject in &subjects {
+        let speed = speed(subject, args.seconds);
+        let known = reference.iter().find(|(name, _)| *name == subject.name);
+        let ratio = known.map(|(_, ticks)| speed / ticks);
+        if Analysis::of(&subject.game).taxonomy().spatiality >= Spatiality::Continuous {
+            continuous.extend(ratio);
+        } else {
+            grid.extend(ratio);
+        }
+        let count = || instructions::per_tick(&args.games, &subject.name);
+        let shown = |figure: Option<f64>| figure.map_or(String::new(), |figure| format!("{figure:.0}"));
+        let row = format!(
+            "{},{speed:.0},{},{:.0},{},{},{},{:032x}",
+            subject.name,
+            ratio.map_or(String::new(), |ratio| format!("{ratio:.1}")),
+            clone_time(&subject.start) * 1e9,
+            subject.start.size_in_bytes(),
+            shown(if args.instructions { count()?.map(|count| count as f64) } else { None }),
+            shown(args.mcts.then(|| mcts_calls(subject))),
+            first_digest(subject)?,
+        );
+        println!("{row}");
+        writeln!(csv, "{row}")?;
+    }
+    summarise("grid", grid);
+    summarise("continuous", continuous);
+    if let Some(path) = &args.csv {
+        fs::write(path, csv).with_context(|| path.display().to_string())?;
+    }
+    Ok(())
+}
+
+/// Ticks per second, warm.
+fn speed(subject: &Subject, seconds: f64) -> f64 {
+    let mut course = Course::new(subject);
+    while course.time.as_secs_f64() < seconds / 5.0 {
+        course.batch(u64::MAX);
+    }
+    let mut course = Course::new(subject);
+    while course.time.as_secs_f64() < seconds {
+        course.batch(u64::MAX);
+    }
+    course.ticks as f64 / course.time.as_secs_f64()
+}
+
+fn summarise(kind: &str, mut ratios: Vec<f64>) {
+    ratios.sort_by(f64::total_cmp);
+    if let Some(least) = ratios.first() {
+        let median = ratios[ratios.len() / 2];
+        println!("{} {kind} games: ratio {median:.1} in the median, {least:.1} at least", ratios.len());
+    }
+}
+
+/// The reference's ticks per second by game.
+fn figures(path: &Path) -> anyhow::Result<Vec<(String, f64)>> {
+    let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    let row = |line: &str| {
+        let mut fields = line.split(',');
+        Some((fields.next()?.to_owned(), fields.next()?.parse().ok()?))
+    };
+    Ok(text.lines().skip(1).filter_map(row).collect())
+}
+
+/// Seconds of a warm `clone_from`.
+fn clone_time(start: &State) -> f64 {
+    let mut copy = start.clone();
+    let mut best = f64::INFINITY;
+    for _ in 0..5 {
+        const COPIES: u32 = 20_000;
+        let clock = ThreadTime::now();
+        for _ in 0..COPIES {
+            copy.clone_from(black_box(start));
+            black_box(&copy);
+        }
+        best = best.min(clock.elapsed().as_secs_f64() / f64::from(COPIES));
+    }
+    best
+}
+
+/// Forward-model calls per second of MCTS deciding along an episode, its copies included.
+fn mcts_calls(subject: &Subject) -> f64 {
+    let mut planner = Mcts::new(MctsConfig::default(), Seed::from_text("bench"));
+    let mut state = subject.start.clone();
+    let (mut calls, mut time) = (0, Duration::ZERO);
+    while time < Duration::from_secs(2) {
+        if state.is_over() {
+            state.clone_from(&subject.start);
+        }
+        let clock = ThreadTime::now();
+        let (action, cost) = planner.plan(&subject.game, &state, Budget(1000));
+        time += clock.elapsed();
+        calls += cost;
+        subject.game.step(&mut state, action);
+    }
+    calls as f64 / time.as_secs_f64()
+}

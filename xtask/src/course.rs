@@ -1,0 +1,143 @@
+//! Random episodes of a game, one after the other: what is timed, and what is counted.
+
+use anyhow::{Context, bail};
+use cpu_time::ThreadTime;
+use engine::{Chance, Game, Seed, State};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Ticks of an episode at most, as in the reference's figures.
+const EPISODE: usize = 2001;
+/// Episodes that are prepared at once, off the clock.
+const BATCH: usize = 16;
+
+/// Random numbers that are drawn beforehand.
+const DRAWS: usize = 1 << 16;
+
+/// A game at the start of its level 0, loaded as the reference loads it.
+pub(crate) struct Subject {
+    pub(crate) name: String,
+    pub(crate) game: Game,
+    pub(crate) start: State,
+}
+
+/// The games in the folders of a folder, by name; all of them if `only` names none.
+pub(crate) fn subjects(games: &Path, only: &[String]) -> anyhow::Result<Vec<Subject>> {
+    let mut folders: Vec<PathBuf> = fs::read_dir(games)
+        .with_context(|| games.display().to_string())?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<Result<_, _>>()?;
+    folders.sort();
+    let mut subjects = Vec::new();
+    for folder in folders {
+        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if only.is_empty() || only.contains(&name) {
+            subjects.push(subject(name, &folder)?);
+        }
+    }
+    if subjects.is_empty() {
+        bail!("{}: no such game there", games.display());
+    }
+    Ok(subjects)
+}
+
+fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {
+    let file = ["game.txt", "game.vgdl"].iter().map(|file| folder.join(file)).find(|path| path.exists());
+    let file = file.with_context(|| format!("{}: no game.txt or game.vgdl", folder.display()))?;
+    let game = Game::from_source_as_reference(&fs::read_to_string(&file)?)
+        .with_context(|| file.display().to_string())?;
+    let level = game.level(&fs::read_to_string(folder.join("lvl0.txt"))?)?;
+    let start = game.start_with(&level, Chance::from_java(0));
+    Ok(Subject { name, game, start })
+}
+
+/// Random episodes of a game, one after the other.
+pub(crate) struct Course<'a> {
+    subject: &'a Subject,
+    episodes: u64,
+    states: Vec<State>,
+    draws: Vec<u32>,
+    pub(crate) ticks: u64,
+    /// Of the processor, on stepping.
+    pub(crate) time: Duration,
+    /// Of the hash of every visited state, in order.
+    pub(crate) digest: u128,
+}
+
+impl<'a> Course<'a> {
+    pub(crate) fn new(subject: &'a Subject) -> Course<'a> {
+        let mut sampler = Seed::from_text(&subject.name).sampler();
+        let draws = (0..DRAWS).map(|_| sampler.bits() as u32).collect();
+        let (states, digest) = (vec![subject.start.clone(); BATCH], 0);
+        Course { subject, episodes: 0, states, draws, ticks: 0, time: Duration::ZERO, digest }
+    }
+
+    /// Plays [`BATCH`] episodes, or fewer if `ticks` are reached before.
+    pub(crate) fn batch(&mut self, ticks: u64) {
+        for state in &mut self.states {
+            state.fork_from(&self.subject.start, Chance::from_java(self.episodes as i64));
+            self.episodes += 1;
+        }
+        let clock = ThreadTime::now();
+        self.play_on_the_clock(ticks);
+        self.time += clock.elapsed();
+    }
+
+    /// All that is on the clock, and, by its name, all of which instructions are counted.
+    #[inline(never)]
+    fn play_on_the_clock(&mut self, ticks: u64) {
+        let mut draw = (self.episodes as usize).wrapping_mul(7919);
+        for state in &mut self.states {
+            for _ in 0..EPISODE {
+                if self.ticks == ticks || state.is_over() {
+                    break;
+                }
+                let actions = self.subject.game.actions(state);
+                let drawn = u64::from(self.draws[draw & (DRAWS - 1)]);
+                draw += 1;
+                let action = actions[((drawn * actions.len() as u64) >> 32) as usize];
+                self.subject.game.step(state, action);
+                state.settle_hash();
+                self.digest = chain(self.digest, state.state_hash().0);
+                self.ticks += 1;
+            }
+        }
+    }
+}
+
+fn chain(digest: u128, hash: u128) -> u128 {
+    (digest.rotate_left(5) ^ hash).wrapping_mul(0x2360_ED05_1FC6_5DA4_4385_DF64_9FCC_F645)
+}
+
+/// The digest of the states of the first batch. It must be what stepping with hashes from scratch gives.
+pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
+    const TICKS: u64 = 300;
+    let mut course = Course::new(subject);
+    course.batch(TICKS);
+    let mut digest = 0;
+    let (mut ticks, mut draw) = (0, BATCH.wrapping_mul(7919));
+    for episode in 0..BATCH {
+        let mut state = subject.start.clone();
+        state.fork_from(&subject.start, Chance::from_java(episode as i64));
+        for _ in 0..EPISODE {
+            if ticks == TICKS || state.is_over() {
+                break;
+            }
+            let actions = subject.game.actions(&state);
+            let drawn = u64::from(course.draws[draw & (DRAWS - 1)]);
+            draw += 1;
+            subject.game.step_plainly(
+                &mut state,
+                actions[((drawn * actions.len() as u64) >> 32) as usize],
+                &mut (),
+            );
+            digest = chain(digest, state.state_hash_from_scratch(&subject.game).0);
+            ticks += 1;
+        }
+    }
+    if digest != course.digest {
+        bail!("{}: the running hash is not the hash from scratch", subject.name);
+    }
+    Ok(digest)
+}

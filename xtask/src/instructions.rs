@@ -1,0 +1,94 @@
+//! `cargo xtask instructions`: has a step become slower? Instructions are counted, not time: the counts are the same on a
+//! busy machine, so that a change of a few per cent can be told.
+
+use crate::course::subjects;
+use anyhow::{Context, bail};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+/// Counts the instructions of a tick, of games of a folder, and compares them with a file.
+///
+/// Needs valgrind; without it, says so and passes. Another compiler makes other instructions: after an update of the
+/// toolchain, write the file anew with --bless.
+///
+/// Example: cargo xtask instructions
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Folder of game folders
+    #[arg(long, value_name = "DIR", default_value = "corpora")]
+    games: PathBuf,
+    /// What is expected: a CSV with the columns game and instructions_per_tick
+    #[arg(long, value_name = "FILE", default_value = "xtask/instructions.csv")]
+    expected: PathBuf,
+    /// How much more a tick may cost than expected, in per cent
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
+    tolerance: f64,
+    /// Write the file instead
+    #[arg(long)]
+    bless: bool,
+}
+
+/// Ticks that are counted.
+const TICKS: u64 = 2000;
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let mut counts = BTreeMap::new();
+    for subject in subjects(&args.games, &[])? {
+        let Some(count) = per_tick(&args.games, &subject.name)? else {
+            println!("SKIPPED: valgrind is not installed, no instructions are counted");
+            return Ok(());
+        };
+        counts.insert(subject.name, count);
+    }
+    let path = args.expected.display();
+    if args.bless {
+        let mut csv = String::from("game,instructions_per_tick\n");
+        for (name, count) in &counts {
+            writeln!(csv, "{name},{count}")?;
+        }
+        return fs::write(&args.expected, csv).with_context(|| path.to_string());
+    }
+    let text = fs::read_to_string(&args.expected).with_context(|| path.to_string())?;
+    let mut slower = false;
+    for line in text.lines().skip(1) {
+        let (name, expected) = line.split_once(',').with_context(|| format!("{path}: `{line}` is no row"))?;
+        let expected: u64 = expected.parse().with_context(|| format!("{path}: `{line}` holds no number"))?;
+        let count = *counts.get(name).with_context(|| format!("{path}: there is no game `{name}`"))?;
+        let change = 100.0 * (count as f64 / expected as f64 - 1.0);
+        println!("{name}: {count} instructions a tick, expected {expected} ({change:+.1} %)");
+        slower |= change > args.tolerance;
+    }
+    if slower {
+        bail!(
+            "a tick costs over {} % more than {path} says; if that is meant, or the compiler is another one, \
+             run this with --bless",
+            args.tolerance
+        );
+    }
+    Ok(())
+}
+
+/// Instructions of a tick of a game's level 0, the hash included; None without valgrind.
+pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"])
+        .arg("--toggle-collect=*play_on_the_clock*")
+        .arg(env::current_exe()?)
+        .arg("bench")
+        .arg("--games")
+        .arg(games)
+        .args(["--game", name, "--ticks", &TICKS.to_string()])
+        .output();
+    let output = match output {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        output => output.context("valgrind")?,
+    };
+    let text = String::from_utf8_lossy(&output.stderr);
+    let collected =
+        text.lines().find_map(|line| line.split_once("Collected :")?.1.trim().parse::<u64>().ok());
+    let collected = collected.with_context(|| format!("{name}: valgrind counted nothing:\n{text}"))?;
+    Ok(Some(collected / TICKS))
+}

@@ -1,0 +1,30 @@
+//! Chores of the repository, `cargo xtask <chore>`.
+
+#![allow(clippy::print_stdout, reason = "a chore talks to whoever runs it")]
+
+mod bench;
+mod course;
+mod instructions;
+
+use clap::{Parser, Subcommand};
+
+/// Chores of the repository.
+#[derive(Parser)]
+#[command(name = "xtask")]
+struct Args {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand)]
+enum Chore {
+    Bench(bench::Args),
+    Instructions(instructions::Args),
+}
+
+fn main() -> anyhow::Result<()> {
+    match Args::parse().chore {
+        Chore::Bench(args) => bench::run(&args),
+        Chore::Instructions(args) => instructions::run(&args),
+    }
+}
