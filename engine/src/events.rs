@@ -1,9 +1,9 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
-use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed, TypeInfo};
+use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
-use crate::occupancy::{Hits, Side};
+use crate::occupancy::{Hit, Hits, Partners, Side};
 use crate::ontology::effects;
 use crate::state::{NONE, Slot, Timer, flag, memory};
 use crate::step::{Step, Watch};
@@ -223,25 +223,26 @@ impl Step<'_> {
                 };
                 self.work(looked);
                 if hits.len() > 1 {
-                    hits.sort_unstable_by_key(|&hit| self.rank(second.family, hit));
+                    hits.sort_unstable();
                 }
                 if pass.repeats {
                     let once = std::mem::take(&mut hits);
                     self.work(second.family.tree.len() * once.len() / 8);
                     for &stype in &second.family.tree {
-                        let of_type = |hit: &&Slot| self.state.sprite(**hit).stype == stype;
+                        let of_type = |hit: &&Hit| self.state.sprite(hit.slot()).stype == stype;
                         hits.extend(once.iter().filter(of_type).copied());
                     }
                 }
                 if in_batch && !hits.is_empty() {
-                    self.execute_batch(pass.effect, slot, &mut hits, watch);
+                    let mut partners = hits.iter().map(|hit| hit.slot()).collect();
+                    self.execute_batch(pass.effect, slot, &mut partners, watch);
                     if self.stopped.is_some() {
                         return;
                     }
                     hits.clear();
                 }
-                for &hit in &hits {
-                    self.meet(pass, slot, hit, watch);
+                for hit in &hits {
+                    self.meet(pass, slot, hit.slot(), watch);
                     if self.stopped.is_some() {
                         return;
                     }
@@ -264,7 +265,7 @@ impl Step<'_> {
         newborn: u32,
         watch: &mut impl Watch,
     ) {
-        let mut pairs: SmallVec<[(Slot, Slot); 16]> = SmallVec::new();
+        let mut pairs: SmallVec<[(Hit, Hit); 16]> = SmallVec::new();
         let mut hits = Hits::new();
         let mut visited = 0;
         for &stype in &second.family.tree {
@@ -279,7 +280,8 @@ impl Step<'_> {
                 hits.clear();
                 let looked = self.state.overlapping(self.rules, first, slot, newborn, &mut hits);
                 self.work(looked);
-                pairs.extend(hits.iter().map(|&hit| (hit, slot)));
+                let own = self.state.hit(second, slot);
+                pairs.extend(hits.iter().map(|&hit| (hit, own)));
                 if self.stopped.is_some() {
                     return;
                 }
@@ -288,22 +290,14 @@ impl Step<'_> {
         }
         self.work(visited);
         if pairs.len() > 1 {
-            pairs.sort_unstable_by_key(|&(one, two)| {
-                (self.rank(first.family, one), self.rank(second.family, two))
-            });
+            pairs.sort_unstable();
         }
         for (one, two) in pairs {
-            self.meet(pass, one, two, watch);
+            self.meet(pass, one.slot(), two.slot(), watch);
             if self.stopped.is_some() {
                 return;
             }
         }
-    }
-
-    /// The order of a sprite among those of a tree: by type in tree order, then by creation.
-    fn rank(&self, family: &TypeInfo, slot: Slot) -> (u16, u32) {
-        let sprite = self.state.sprite(slot);
-        (family.rank[sprite.stype.index()], sprite.id)
     }
 
     /// The second check before a hit counts: the first sprite is not dead and still there.
@@ -334,7 +328,7 @@ impl Step<'_> {
     }
 
     /// All partners at once; the score counts as often as the effect says.
-    fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Hits, watch: &mut impl Watch) {
+    fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Partners, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
         self.work(EFFECT_WORK * partners.len());
@@ -355,10 +349,10 @@ impl Step<'_> {
         let rect = self.state.sprite(slot).rect;
         let around = Rect { h: rect.h.saturating_add(GROUND), ..rect };
         let looked = self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);
-        for &hit in hits.iter() {
-            self.notice_ground(slot, hit);
+        for hit in hits.iter() {
+            self.notice_ground(slot, hit.slot());
         }
-        hits.retain(|hit| self.state.sprite(*hit).rect.intersects(rect));
+        hits.retain(|hit| self.state.sprite(hit.slot()).rect.intersects(rect));
         looked
     }
 

@@ -73,6 +73,11 @@ impl Mixer {
         self.high = fold(self.high ^ b, SECRET[3] ^ a);
     }
 
+    /// The two lanes as they are: where sums of hashes are hashed again.
+    fn lanes(self) -> u128 {
+        u128::from(self.high) << 64 | u128::from(self.low)
+    }
+
     pub(crate) fn finish(self) -> u128 {
         let low = fold(self.low ^ SECRET[3], self.high ^ SECRET[2]);
         let high = fold(self.high ^ SECRET[0], self.low ^ SECRET[1]);
@@ -111,17 +116,17 @@ pub(crate) fn still_hash(sprite: &Sprite) -> u64 {
 pub(crate) fn sprite_hash(sprite: &Sprite, still: u64, tick: i32) -> u128 {
     let &Sprite { rect, last, .. } = sprite;
     let tick = if sprite.rest == mark::FLYING { sprite.moved_at } else { tick };
-    let flags = sprite.flags & !flag::TRANSIENT;
-    let kind = u64::from(sprite.stype.0) << 32 | u64::from(sprite.heading) << 16 | u64::from(flags);
+    // Of the flags, those that are not transient are the lowest eight bits; headings are less than eight.
+    let flags = sprite.flags & !flag::TRANSIENT & 0xFF;
+    let kind = u32::from(sprite.stype.0) << 16 | u32::from(sprite.heading) << 8 | flags;
     // When it moved last matters only where a cooldown may hold it up, or where that is its age.
     let moved_at = if sprite.is(flag::BRISK) && !sprite.is(flag::FROZEN) { 0 } else { sprite.moved_at };
     let (dx, dy) = (rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
     let origin = |at: i32, by: i32| at.wrapping_sub(by.wrapping_mul(tick));
     let mut mixer = Mixer::new(still);
     mixer.pair(two(origin(rect.x, dx), origin(rect.y, dy)), two(dx, dy));
-    mixer.pair(kind, two(moved_at, 0));
-    mixer.pair(two(sprite.count, sprite.time_to_live), 0);
-    mixer.finish()
+    mixer.pair(two(moved_at, kind as i32), two(sprite.count, sprite.time_to_live));
+    mixer.lanes()
 }
 
 impl State {
@@ -130,7 +135,7 @@ impl State {
         let mut sum = self.sprite_hash;
         for &slot in &self.stale {
             let (sprite, share) = (self.sprite(slot), self.shares[usize::from(slot)]);
-            sum = sum.wrapping_sub(share.hash).wrapping_add(self.share(sprite, share.still).hash);
+            sum = sum.wrapping_sub(share.hash()).wrapping_add(self.share(sprite, share.still).hash());
         }
         let memory = if self.memory_is_stale { self.hash_memory() } else { self.memory_hash };
         self.with_globals(sum, memory)
@@ -148,7 +153,7 @@ impl State {
             let share = self.share(sprite, old.still);
             self.sprites[at].flags &= !(flag::STALE | flag::CHANGED);
             self.shares[at] = share;
-            self.sprite_hash = self.sprite_hash.wrapping_sub(old.hash).wrapping_add(share.hash);
+            self.sprite_hash = self.sprite_hash.wrapping_sub(old.hash()).wrapping_add(share.hash());
         }
         stale.clear();
         self.stale = stale;
@@ -161,10 +166,10 @@ impl State {
     /// The share of a sprite, given what it was of it that seldom changes.
     fn share(&self, sprite: &Sprite, still: u64) -> Share {
         if sprite.is(flag::GONE) {
-            return Share { hash: 0, still };
+            return Share::new(0, still);
         }
         let still = if sprite.is(flag::CHANGED) { still_hash(sprite) } else { still };
-        Share { hash: sprite_hash(sprite, still, self.tick), still }
+        Share::new(sprite_hash(sprite, still, self.tick), still)
     }
 
     /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).

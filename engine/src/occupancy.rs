@@ -2,7 +2,7 @@
 //! in it. Kept as sprites move, so asking who overlaps a rectangle costs what stands there.
 
 use crate::contacts::Contacts;
-use crate::game::{Rules, TypeInfo};
+use crate::game::{NOT_IN_TREE, Rules, TypeInfo};
 use crate::geometry::Rect;
 use crate::state::{NONE, Slot, Sprite, State, flag};
 use smallvec::SmallVec;
@@ -25,8 +25,25 @@ struct Located {
     flags: u32,
 }
 
-/// The slots that overlap a sprite; seldom more than a few.
-pub(crate) type Hits = SmallVec<[Slot; 8]>;
+/// A sprite that overlaps another one. Hits order as their sprites do among those of a tree: by type in tree order, then by
+/// creation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Hit(u64);
+
+impl Hit {
+    fn new(rank: u16, id: u32, slot: Slot) -> Hit {
+        Hit(u64::from(rank) << 48 | u64::from(id) << 16 | u64::from(slot))
+    }
+
+    pub(crate) fn slot(self) -> Slot {
+        self.0 as Slot
+    }
+}
+
+/// What overlaps a sprite; seldom more than a few.
+pub(crate) type Hits = SmallVec<[Hit; 8]>;
+/// The slots of hits.
+pub(crate) type Partners = SmallVec<[Slot; 8]>;
 
 impl State {
     /// Column of a pixel, counted with the ring: 0 is left of the board.
@@ -319,6 +336,12 @@ impl State {
         }
     }
 
+    /// A sprite of a side as a hit.
+    pub(crate) fn hit(&self, side: Side<'_>, slot: Slot) -> Hit {
+        let sprite = self.sprite(slot);
+        Hit::new(side.family.rank[sprite.stype.index()], sprite.id, slot)
+    }
+
     /// Whether a sprite of a side, itself left out, may overlap a sprite: whether one shares a cell with it.
     #[inline]
     pub(crate) fn may_overlap(&self, rules: &Rules, side: Side<'_>, sprite: &Sprite) -> bool {
@@ -393,7 +416,7 @@ impl State {
                 let sprite = self.sprite(*at);
                 *at != slot && sprite.id < above && self.rect(sprite).intersects(rect)
             };
-            hits.extend(all.filter(overlaps));
+            hits.extend(all.filter(overlaps).map(|at| self.hit(side, at)));
             return family.tree.len() + sprites as usize;
         }
         let mut looked = 0;
@@ -421,12 +444,9 @@ impl State {
         while at != NONE {
             looked += 1;
             let sprite = self.sprite(at);
-            if side.family.in_tree(sprite.stype)
-                && at != slot
-                && sprite.id < above
-                && self.rect(sprite).intersects(rect)
-            {
-                hits.push(at);
+            let rank = side.family.rank[sprite.stype.index()];
+            if rank != NOT_IN_TREE && at != slot && sprite.id < above && self.rect(sprite).intersects(rect) {
+                hits.push(Hit::new(rank, sprite.id, at));
             }
             at = sprite.cell_next;
         }

@@ -102,6 +102,7 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
                     | C::ResourcePack
                     | C::Missile
                     | C::ErraticMissile
+                    | C::RandomMissile
             )
         );
         plain
@@ -196,22 +197,21 @@ impl Step<'_> {
         if self.rests {
             self.stamp_moved();
         }
-        let mut moved = std::mem::take(&mut self.state.moved);
-        moved.retain(|&slot| {
+        let mut kept = 0;
+        for at in 0..self.state.moved.len() {
+            let slot = self.state.moved[at];
             let sprite = self.state.sprite(slot);
-            if sprite.rest == mark::NOTHING || sprite.rest == mark::SPOILED {
-                return true;
+            let (rest, back) = (sprite.rest, sprite.rect == sprite.last);
+            if rest == mark::TRIED && !back && self.take_off(slot) {
+                continue;
             }
-            let back = sprite.rect == sprite.last;
-            if sprite.rest == mark::TRIED {
-                return back || !self.take_off(slot);
+            if rest < mark::SPOILED && rest != mark::NOTHING && back && self.rests {
+                self.try_rest(slot, rest - 1);
             }
-            if back && self.rests {
-                self.try_rest(slot, sprite.rest - 1);
-            }
-            true
-        });
-        self.state.moved = moved;
+            self.state.moved[kept] = slot;
+            kept += 1;
+        }
+        self.state.moved.truncate(kept);
     }
 
     /// All other changes were noted when they happened; of a try, it shows now that it was none.

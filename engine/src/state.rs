@@ -116,11 +116,22 @@ impl Sprite {
     }
 }
 
-/// The share of a sprite in the hash of the state, and the part of it that moving does not change.
+/// The share of a sprite in the hash of the state, and the part of it that moving does not change. Copies of states copy
+/// one for each slot, so it has no gaps, which a `u128` would bring.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Share {
-    pub(crate) hash: u128,
+    halves: [u64; 2],
     pub(crate) still: u64,
+}
+
+impl Share {
+    pub(crate) fn new(hash: u128, still: u64) -> Share {
+        Share { halves: [hash as u64, (hash >> 64) as u64], still }
+    }
+
+    pub(crate) fn hash(self) -> u128 {
+        u128::from(self.halves[1]) << 64 | u128::from(self.halves[0])
+    }
 }
 
 /// The sprites of one type, in order of creation.

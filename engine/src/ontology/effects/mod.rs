@@ -12,7 +12,7 @@ mod walls;
 
 use crate::game::{EffectInfo, Limit, Pass, SpriteType};
 use crate::limits::MAX_TIMERS;
-use crate::occupancy::Hits;
+use crate::occupancy::Partners;
 use crate::state::{Slot, Timer, flag, memory};
 use crate::step::Step;
 pub use build::NAMES;
@@ -413,7 +413,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
 }
 
 /// Runs a batch effect on a sprite and all its partners; returns how often it counts.
-pub(crate) fn execute_batch(step: &mut Step<'_>, effect: &Effect, one: Slot, partners: &mut Hits) -> i32 {
+pub(crate) fn execute_batch(step: &mut Step<'_>, effect: &Effect, one: Slot, partners: &mut Partners) -> i32 {
     match effect {
         Effect::WallBounce => walls::bounce_batch(step, one, partners),
         Effect::WallReverse => walls::reverse_batch(step, one, partners),

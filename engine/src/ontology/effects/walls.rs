@@ -2,7 +2,7 @@
 
 use super::motion::pixel_perfect;
 use crate::geometry::{Direction, Rect};
-use crate::occupancy::Hits;
+use crate::occupancy::Partners;
 use crate::ontology::physics;
 use crate::state::Slot;
 use crate::step::Step;
@@ -38,7 +38,7 @@ fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
 }
 
 /// The rectangle that several partners make together, and how many of them it is: two that are aligned count as two.
-fn joined(step: &Step<'_>, one: Slot, partners: &mut Hits) -> (i32, Rect) {
+fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.state.sprite(slot).rect;
     if let [first, second] = partners[..] {
         let (a, b) = (rect(first), rect(second));
@@ -81,7 +81,7 @@ fn reflect(step: &mut Step<'_>, one: Slot, wall: Rect) {
     }
 }
 
-pub(super) fn bounce_batch(step: &mut Step<'_>, one: Slot, partners: &mut Hits) -> i32 {
+pub(super) fn bounce_batch(step: &mut Step<'_>, one: Slot, partners: &mut Partners) -> i32 {
     let (count, wall) = joined(step, one, partners);
     reflect(step, one, wall);
     separate(step, one, partners);
@@ -115,7 +115,7 @@ fn turn_back(step: &mut Step<'_>, one: Slot, wall: Rect) {
     slow(step, one, Direction { x: if vertical { ahead } else { -ahead }, y: 0.0 });
 }
 
-pub(super) fn reverse_batch(step: &mut Step<'_>, one: Slot, partners: &mut Hits) -> i32 {
+pub(super) fn reverse_batch(step: &mut Step<'_>, one: Slot, partners: &mut Partners) -> i32 {
     let (count, wall) = joined(step, one, partners);
     turn_back(step, one, wall);
     separate(step, one, partners);
