@@ -257,15 +257,22 @@ impl<'a> Step<'a> {
                 self.turn_picture(avatar);
             }
             avatars::update(self, avatar, action);
+            if self.stopped.is_some() {
+                return;
+            }
         }
         for &stype in &self.rules.movers {
             let group = *self.state.group(stype);
+            let info = &self.rules.types[stype.index()];
+            self.updating = i32::from(info.order.expect("movers are in the update order"));
+            self.updating_id = 0;
             self.work(usize::from(group.count));
+            if self.stopped.is_some() {
+                return;
+            }
             if group.asleep == group.count {
                 continue;
             }
-            let info = &self.rules.types[stype.index()];
-            self.updating = i32::from(info.order.expect("movers are in the update order"));
             let mut slot = group.head;
             let habit = info.class.map_or(Habit::Other, |class| sprites::habit(class, &info.traits));
             let foreseen = self.flies && self.rules.foresight[stype.index()].flies;

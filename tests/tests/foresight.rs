@@ -9,19 +9,22 @@ use tests::{games, public_games, workspace_root};
 
 /// Plays random actions twice, with foresight and without; the two must not differ in anything.
 fn play(name: &str, game: &Game, level: &Level, ticks: usize) {
-    let seed = Seed::from_text(name);
-    let mut sampler = seed.child("actions", 0).sampler();
-    let mut state = game.start(level, seed.child("chance", 0));
+    let mut sampler = Seed::from_text(name).child("actions", 0).sampler();
+    play_actions(name, game, level, (0..ticks).map(|_| *sampler.choose(&Action::ALL)));
+}
+
+/// Plays actions twice. Returns the last state.
+fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<Item = Action>) -> State {
+    let mut state = game.start(level, Seed::from_text(name).child("chance", 0));
     let mut plain = state.clone();
-    for _ in 0..ticks {
+    for action in actions {
         if state.is_over() {
             break;
         }
-        let action = *sampler.choose(&Action::ALL);
         let outcomes = (game.step(&mut state, action), game.step_plainly(&mut plain, action, &mut ()));
         if outcomes.1 == Outcome::Stopped(Limit::Work) {
             // What rests is no work.
-            return;
+            return state;
         }
         assert_eq!(outcomes.0, outcomes.1, "{name}");
         if state.state_hash() != plain.state_hash() {
@@ -31,6 +34,7 @@ fn play(name: &str, game: &Game, level: &Level, ticks: usize) {
     let written = |state: &State| format!("{:?} {:?}", game.records(state), state.search_key(game));
     assert_eq!(written(&state), written(&plain), "{name}");
     state.recount(game).unwrap_or_else(|found| panic!("{name}: {found}"));
+    state
 }
 
 /// The first sprites that differ.
@@ -97,8 +101,31 @@ BasicGame
 ";
     let game = Game::from_source_as_reference(source).expect("it loads");
     let level = game.level("d  o  k\nA      \n").expect("it loads");
-    let mut state = game.start(&level, Seed::from_text("stop"));
-    while game.step(&mut state, Action::Nil) == Outcome::Ongoing {}
+    let state = play_actions("stop", &game, &level, [Action::Nil; 5].into_iter());
     assert_eq!((state.outcome(), state.tick()), (Outcome::Stopped(Limit::SpawnIntoUpdatedType), 2));
-    play("stop", &game, &level, 20);
+}
+
+/// The avatar's own update stops the tick: then nobody else is updated, whoever of them flies.
+#[test]
+fn a_stop_by_the_avatar_ends_the_updates() {
+    let source = "\
+BasicGame
+    SpriteSet
+        stray > RandomNPC
+        dart > Missile orientation=LEFT speed=0.1
+        avatar > BirdAvatar orientedImg=bird
+    LevelMapping
+        s > stray
+        d > dart
+        A > avatar
+    InteractionSet
+        avatar dart > killSprite
+    TerminationSet
+        SpriteCounter stype=avatar limit=0 win=False
+";
+    let game = Game::from_source_as_reference(source).expect("it loads");
+    let level = game.level("s    d\nA     \n      \n").expect("it loads");
+    let actions = [Action::Nil, Action::Nil, Action::Left, Action::Use, Action::Use, Action::Use];
+    let state = play_actions("stop", &game, &level, actions.into_iter());
+    assert_eq!((state.outcome(), state.tick()), (Outcome::Stopped(Limit::UnfitSprite), 4));
 }
