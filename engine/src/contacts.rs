@@ -163,7 +163,7 @@ impl State {
     }
 
     /// A sprite has come to cover cells.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn arrive(&mut self, contacts: &Contacts, kind: &Kind, span: Span) {
         if kind.own == 0 {
             return;
@@ -185,7 +185,7 @@ impl State {
     }
 
     /// A sprite does not cover cells any more; the chains tell so already.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn depart(&mut self, contacts: &Contacts, kind: &Kind, span: Span) {
         if kind.own == 0 {
             return;
@@ -230,6 +230,7 @@ impl State {
         count
     }
 
+    #[inline(never)]
     fn meet_more(&mut self, contacts: &Contacts, pair: usize) {
         self.together[pair] += 1;
         if self.together[pair] == 1 {
@@ -239,6 +240,7 @@ impl State {
         }
     }
 
+    #[inline(never)]
     fn meet_less(&mut self, contacts: &Contacts, pair: usize) {
         self.together[pair] -= 1;
         if self.together[pair] == 0 {

@@ -205,13 +205,14 @@ impl Step<'_> {
         for &stype in &first.family.tree {
             let mut slot = self.state.group(stype).head;
             let aware = self.rules.types[stype.index()].ground_aware;
+            let own = self.rules.contacts.kinds[stype.index()].own;
             while slot != NONE {
                 let sprite = self.state.sprite(slot);
                 if sprite.id >= newborn {
                     break;
                 }
                 visited += 1;
-                if !aware && !self.state.may_overlap(self.rules, second, sprite) {
+                if !aware && !self.state.may_overlap(own, second, sprite) {
                     slot = sprite.next;
                     continue;
                 }
@@ -269,11 +270,12 @@ impl Step<'_> {
         let mut hits = Hits::new();
         let mut visited = 0;
         for &stype in &second.family.tree {
+            let own = self.rules.contacts.kinds[stype.index()].own;
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 let sprite = self.state.sprite(slot);
                 visited += 1;
-                if !self.state.may_overlap(self.rules, first, sprite) {
+                if !self.state.may_overlap(own, first, sprite) {
                     slot = sprite.next;
                     continue;
                 }

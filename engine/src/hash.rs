@@ -100,6 +100,7 @@ pub(crate) fn bits(value: f64) -> u64 {
 }
 
 /// What seldom changes of a sprite, hashed.
+#[inline(never)]
 pub(crate) fn still_hash(sprite: &Sprite) -> u64 {
     let mut mixer = Mixer::new(u64::from(sprite.id));
     mixer.pair(two(sprite.rect.w, sprite.rect.h), two(sprite.last.w, sprite.last.h));
@@ -113,6 +114,7 @@ pub(crate) fn still_hash(sprite: &Sprite) -> u64 {
 ///
 /// A sprite that keeps moving as it moves has the same share tick after tick: with the tick, which is hashed by itself,
 /// where it would have been at tick 0 says where it is.
+#[inline(always)]
 pub(crate) fn sprite_hash(sprite: &Sprite, still: u64, tick: i32) -> u128 {
     let &Sprite { rect, last, .. } = sprite;
     let tick = if sprite.rest == mark::FLYING { sprite.moved_at } else { tick };
@@ -164,6 +166,7 @@ impl State {
     }
 
     /// The share of a sprite, given what it was of it that seldom changes.
+    #[inline(always)]
     fn share(&self, sprite: &Sprite, still: u64) -> Share {
         if sprite.is(flag::GONE) {
             return Share::new(0, still);

@@ -75,7 +75,7 @@ impl State {
 
     /// Where a rectangle is; `column` and `row` are a guess. Most moves end in the same cell or next to it, which saves a
     /// division.
-    #[inline]
+    #[inline(always)]
     fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
         let block = self.block;
         let sized = rect.w > 0 && rect.h > 0 && rect.w <= block && rect.h <= block;
@@ -174,7 +174,7 @@ impl State {
     }
 
     /// Puts a sprite that is elsewhere now into its cells.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn enter_anew(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
         let &Sprite { column, row, flags, .. } = self.sprite(slot);
         let from = Located { column, row, flags: flags & flag::LYING };
@@ -190,6 +190,7 @@ impl State {
         }
     }
 
+    #[inline(always)]
     fn shift(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
         let before = self.span(self.cell(i32::from(from.column), i32::from(from.row)), from.flags);
         let after = self.span(self.cell(i32::from(to.column), i32::from(to.row)), to.flags);
@@ -235,6 +236,7 @@ impl State {
     }
 
     /// Counts how the sprites of a type lie.
+    #[inline]
     fn lie(&mut self, contacts: &Contacts, stype: usize, from: u32, to: u32) {
         let on = |flags: u32, bits: u32| u16::from(flags & bits != 0);
         let group = &mut self.groups[stype];
@@ -342,10 +344,10 @@ impl State {
         Hit::new(side.family.rank[sprite.stype.index()], sprite.id, slot)
     }
 
-    /// Whether a sprite of a side, itself left out, may overlap a sprite: whether one shares a cell with it.
-    #[inline]
-    pub(crate) fn may_overlap(&self, rules: &Rules, side: Side<'_>, sprite: &Sprite) -> bool {
-        let own = rules.contacts.kinds[sprite.stype.index()].own;
+    /// Whether a sprite of a side, itself left out, may overlap a sprite, whose own bit is given: whether one shares a cell
+    /// with it.
+    #[inline(always)]
+    pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
         let others = |cell: usize| {
             let mask = self.masks[cell];
             (mask.any & !own | mask.many | self.covered[cell]) & side.bits != 0
