@@ -148,17 +148,15 @@ impl State {
     /// Stepping does not do so by itself: planners, which ask for few hashes, do not pay for all. Cost: O(sprites changed
     /// since the last time).
     pub fn settle_hash(&mut self) {
-        let mut stale = std::mem::take(&mut self.stale);
-        for &slot in &stale {
-            let at = usize::from(slot);
+        for at in 0..self.stale.len() {
+            let at = usize::from(self.stale[at]);
             let (sprite, old) = (&self.sprites[at], self.shares[at]);
             let share = self.share(sprite, old.still);
             self.sprites[at].flags &= !(flag::STALE | flag::CHANGED);
             self.shares[at] = share;
             self.sprite_hash = self.sprite_hash.wrapping_sub(old.hash()).wrapping_add(share.hash());
         }
-        stale.clear();
-        self.stale = stale;
+        self.stale.clear();
         if self.memory_is_stale {
             self.memory_hash = self.hash_memory();
             self.memory_is_stale = false;
@@ -205,11 +203,20 @@ impl State {
         if self.jumps != self.chance {
             mixer.pair(self.jumps.state(), 0);
         }
+        let others = self.held.len() | self.extras.len() | self.replaced.len();
+        if others | self.timers.len() | self.counters.len() != 0 {
+            self.words_of_others(&mut mixer);
+        }
+        StateHash(mixer.finish())
+    }
+
+    #[inline(never)]
+    fn words_of_others(&self, mixer: &mut Mixer) {
         if !self.held.is_empty() {
-            self.held_words(&mut mixer);
+            self.held_words(mixer);
         }
         if !self.extras.is_empty() || !self.replaced.is_empty() {
-            self.words_of_extras(&mut mixer);
+            self.words_of_extras(mixer);
         }
         for timer in self.timers.iter().rev() {
             mixer.pair(u64::from(timer.timed), timer.due as u64);
@@ -217,7 +224,6 @@ impl State {
         for (at, &counter) in self.counters.iter().enumerate() {
             mixer.pair(at as u64, u64::from(counter as u32) | 1 << 32);
         }
-        StateHash(mixer.finish())
     }
 
     fn held_words(&self, mixer: &mut Mixer) {

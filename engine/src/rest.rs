@@ -191,7 +191,7 @@ impl Step<'_> {
     /// After a tick: what was put back, in a place where nothing else changed, rests from now on; what has moved, and will
     /// go on so, flies.
     pub(crate) fn settle_down(&mut self) {
-        if !self.flies || self.stopped.is_some() {
+        if !self.tried || self.stopped.is_some() {
             return;
         }
         if self.rests {
@@ -271,7 +271,14 @@ impl Step<'_> {
     }
 
     /// Wakes what rests around the touched cells.
+    #[inline]
     pub(crate) fn wake(&mut self) {
+        if !self.state.touched.is_empty() {
+            self.wake_touched();
+        }
+    }
+
+    fn wake_touched(&mut self) {
         while let Some(cell) = self.state.touched.pop() {
             let stride = (self.state.columns + 2) as u32;
             let (column, row) = ((cell % stride) as i16, (cell / stride) as i16);
@@ -304,6 +311,7 @@ impl Step<'_> {
             && let Some(aim) = physics::aim(self, slot)
         {
             self.state.sprites[usize::from(slot)].rest = mark::TRIED;
+            self.tried = true;
             self.place(slot, aim);
             self.set_age(slot, 0);
         }

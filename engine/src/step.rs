@@ -48,6 +48,8 @@ pub(crate) struct Step<'a> {
     pub(crate) rests: bool,
     /// Whether sprites may be in flight.
     pub(crate) flies: bool,
+    /// Whether a sprite that may rest or fly has moved by itself.
+    pub(crate) tried: bool,
 }
 
 impl Game {
@@ -181,7 +183,18 @@ impl Game {
 impl<'a> Step<'a> {
     fn new(rules: &'a Rules, state: &'a mut State) -> Step<'a> {
         let (updating, updating_id, pass) = (i32::MAX, 0, -1);
-        Step { rules, state, updating, updating_id, stopped: None, work: 0, pass, rests: false, flies: false }
+        Step {
+            rules,
+            state,
+            updating,
+            updating_id,
+            stopped: None,
+            work: 0,
+            pass,
+            rests: false,
+            flies: false,
+            tried: false,
+        }
     }
 
     fn cycle(&mut self, action: Action, watch: &mut impl Watch) {
@@ -221,27 +234,29 @@ impl<'a> Step<'a> {
     /// The last rectangle becomes the rectangle. The reference does so for every sprite before its own update; only
     /// those that moved since can tell the difference, and nothing reads another's last rectangle before the events.
     fn settle_moved(&mut self) {
+        let State { sprites, moved, stale, .. } = &mut *self.state;
         let mut kept = 0;
-        for at in 0..self.state.moved.len() {
-            let slot = self.state.moved[at];
-            let sprite = self.state.sprite(slot);
-            let (rect, last) = (sprite.rect, sprite.last);
-            let (back, settles) = (last == rect, !sprite.is(flag::FROZEN));
-            if settles && !back {
-                let same = (last.w, last.h) == (rect.w, rect.h);
-                let sprite = if same { self.state.edit_motion(slot) } else { self.state.edit(slot) };
-                sprite.last = rect;
+        for at in 0..moved.len() {
+            let slot = moved[at];
+            let sprite = &mut sprites[usize::from(slot)];
+            let back = sprite.last == sprite.rect;
+            if !back && !sprite.is(flag::STALE) {
+                sprite.flags |= flag::STALE;
+                stale.push(slot);
             }
-            let keep = !settles && !back;
-            self.state.sprites[usize::from(slot)].set(flag::MOVED, keep);
-            if keep {
+            if back || !sprite.is(flag::FROZEN) {
+                if (sprite.last.w, sprite.last.h) != (sprite.rect.w, sprite.rect.h) {
+                    sprite.flags |= flag::CHANGED;
+                }
+                sprite.last = sprite.rect;
+                sprite.flags &= !flag::MOVED;
+            } else {
                 // It goes on as having moved, and its share of the hash with the tick.
-                self.state.edit_motion(slot);
-                self.state.moved[kept] = slot;
+                moved[kept] = slot;
                 kept += 1;
             }
         }
-        self.state.moved.truncate(kept);
+        moved.truncate(kept);
     }
 
     /// Whether the sprite's class is an avatar's; what the sprite passes for is [`flag::AVATAR`].
@@ -307,6 +322,7 @@ impl<'a> Step<'a> {
                 let sprite = &mut self.state.sprites[usize::from(slot)];
                 let tried = foreseen && sprite.rect != sprite.last;
                 sprite.rest = if tried { mark::TRIED } else { mark::NOTHING };
+                self.tried |= tried;
                 slot = sprite.next;
             }
         }
@@ -363,6 +379,15 @@ impl<'a> Step<'a> {
 
     /// Removes what was killed in this tick (`spec/01` §4.10).
     fn clear(&mut self) {
+        if !self.state.killed.is_empty() {
+            self.clear_killed();
+        }
+        self.wake();
+        self.state.shields.clear();
+        self.state.pulled.clear();
+    }
+
+    fn clear_killed(&mut self) {
         let mut killed = std::mem::take(&mut self.state.killed);
         for &slot in &killed {
             // The kill list may name a sprite twice; the counter goes down twice, as in the reference.
@@ -380,14 +405,9 @@ impl<'a> Step<'a> {
             }
             self.state.release(self.rules, slot);
         }
-        if !killed.is_empty() {
-            self.state.forget_gone();
-            killed.clear();
-        }
+        self.state.forget_gone();
+        killed.clear();
         self.state.killed = killed;
-        self.wake();
-        self.state.shields.clear();
-        self.state.pulled.clear();
     }
 
     fn terminate(&mut self) {
