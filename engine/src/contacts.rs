@@ -7,7 +7,6 @@
 //! with such a sprite on either side counts as possible too.
 
 use crate::game::{Pass, Rules, SpriteType, TypeInfo};
-use crate::occupancy::Span;
 use crate::state::{NONE, Slot, State, flag};
 
 /// No pair.
@@ -162,48 +161,38 @@ impl State {
         }
     }
 
-    /// A sprite has come to cover cells.
+    /// A sprite has come to cover a cell.
     #[inline(always)]
-    pub(crate) fn arrive(&mut self, contacts: &Contacts, kind: &Kind, span: Span) {
-        if kind.own == 0 {
-            return;
-        }
-        for cell in span.cells() {
-            let mask = &mut self.masks[cell];
-            let partners = if mask.any & kind.own == 0 {
-                let others = mask.any & kind.partners;
-                mask.any |= kind.own;
-                others
-            } else {
-                mask.many |= kind.own;
-                kind.partners & kind.own
-            };
-            if partners != 0 {
-                ones(partners).for_each(|other| self.meet_more(contacts, contacts.pair(kind.bit(), other)));
-            }
+    pub(crate) fn arrive(&mut self, contacts: &Contacts, kind: &Kind, cell: usize) {
+        let mask = &mut self.masks[cell];
+        let partners = if mask.any & kind.own == 0 {
+            let others = mask.any & kind.partners;
+            mask.any |= kind.own;
+            others
+        } else {
+            mask.many |= kind.own;
+            kind.partners & kind.own
+        };
+        if partners != 0 {
+            ones(partners).for_each(|other| self.meet_more(contacts, contacts.pair(kind.bit(), other)));
         }
     }
 
-    /// A sprite does not cover cells any more; the chains tell so already.
+    /// A sprite does not cover a cell any more; the chains tell so already.
     #[inline(always)]
-    pub(crate) fn depart(&mut self, contacts: &Contacts, kind: &Kind, span: Span) {
-        if kind.own == 0 {
-            return;
-        }
-        for cell in span.cells() {
-            let mask = &mut self.masks[cell];
-            let partners = if mask.many & kind.own == 0 {
-                mask.any &= !kind.own;
-                mask.any & kind.partners
-            } else {
-                if self.count_in(contacts, cell, kind.own) < 2 {
-                    self.masks[cell].many &= !kind.own;
-                }
-                kind.partners & kind.own
-            };
-            if partners != 0 {
-                ones(partners).for_each(|other| self.meet_less(contacts, contacts.pair(kind.bit(), other)));
+    pub(crate) fn depart(&mut self, contacts: &Contacts, kind: &Kind, cell: usize) {
+        let mask = &mut self.masks[cell];
+        let partners = if mask.many & kind.own == 0 {
+            mask.any &= !kind.own;
+            mask.any & kind.partners
+        } else {
+            if self.count_in(contacts, cell, kind.own) < 2 {
+                self.masks[cell].many &= !kind.own;
             }
+            kind.partners & kind.own
+        };
+        if partners != 0 {
+            ones(partners).for_each(|other| self.meet_less(contacts, contacts.pair(kind.bit(), other)));
         }
     }
 

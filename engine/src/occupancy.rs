@@ -146,7 +146,13 @@ impl State {
         let stype = sprite.stype.index();
         self.link(slot, cell);
         self.lie(&rules.contacts, stype, 0, to.flags);
-        self.arrive(&rules.contacts, &rules.contacts.kinds[stype], self.span(cell, to.flags));
+        let kind = &rules.contacts.kinds[stype];
+        if kind.own != 0 {
+            let span = self.span(cell, to.flags);
+            for cell in span.cells() {
+                self.arrive(&rules.contacts, kind, cell);
+            }
+        }
         if self.meeting && to.flags & flag::BIG != 0 {
             self.cover_cells(&rules.contacts, slot);
         }
@@ -158,7 +164,13 @@ impl State {
         self.unlink(slot, cell);
         self.sprites[usize::from(slot)].flags &= !flag::LYING;
         self.lie(&rules.contacts, stype, flags, 0);
-        self.depart(&rules.contacts, &rules.contacts.kinds[stype], self.span(cell, flags));
+        let kind = &rules.contacts.kinds[stype];
+        if kind.own != 0 {
+            let span = self.span(cell, flags);
+            for cell in span.cells() {
+                self.depart(&rules.contacts, kind, cell);
+            }
+        }
     }
 
     /// Changes the rectangle of a sprite.
@@ -207,9 +219,14 @@ impl State {
         }
         let kind = &rules.contacts.kinds[stype];
         if kind.own != 0 && before != after {
-            let (gone, new) = before.apart(after);
-            self.depart(&rules.contacts, kind, gone);
-            self.arrive(&rules.contacts, kind, new);
+            let apart = before.is_one() && after.is_one();
+            let (gone, new) = if apart { (before, after) } else { before.apart(after) };
+            for cell in gone.cells() {
+                self.depart(&rules.contacts, kind, cell);
+            }
+            for cell in new.cells() {
+                self.arrive(&rules.contacts, kind, cell);
+            }
         }
     }
 
@@ -501,6 +518,10 @@ impl Span {
             _ => (0, 0),
         };
         (Span { bits: mine & !common, ..self }, Span { bits: others & !commons, ..other })
+    }
+
+    fn is_one(self) -> bool {
+        self.bits == 0b0001
     }
 
     fn right(self) -> i32 {
