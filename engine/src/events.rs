@@ -307,8 +307,8 @@ impl Step<'_> {
         if self.rules.types[self.state.sprite(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
         }
-        self.state.land_one(one);
-        self.state.land_one(two);
+        self.land_one(one);
+        self.land_one(two);
         let (first, second) = (self.state.sprite(one), self.state.sprite(two));
         if !first.is(flag::KILLED) && first.rect.intersects(second.rect) {
             self.execute(pass.effect, one, Some(two), watch);
@@ -337,7 +337,7 @@ impl Step<'_> {
         if self.flies {
             self.prepare(&info.effect, one);
             for &partner in partners.iter() {
-                self.state.land_one(partner);
+                self.land_one(partner);
                 self.note(&info.effect, false, one, Some(partner));
             }
         }

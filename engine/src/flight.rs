@@ -96,15 +96,6 @@ impl State {
         due
     }
 
-    /// An effect is about to be executed on a sprite.
-    pub(crate) fn land_one(&mut self, slot: Slot) {
-        if self.sprite(slot).rest == mark::FLYING {
-            let at = self.flights.iter().position(|flight| flight.slot == slot);
-            self.flights.swap_remove(at.expect("what flies is in the list"));
-            self.land(slot, self.tick);
-        }
-    }
-
     /// Nothing flies any more. Between steps only.
     pub(crate) fn land_all(&mut self) {
         while let Some(flight) = self.flights.pop() {
@@ -115,6 +106,16 @@ impl State {
 }
 
 impl Step<'_> {
+    /// An effect is about to be executed on a sprite. Cost: O(sprites in flight), if it flies.
+    pub(crate) fn land_one(&mut self, slot: Slot) {
+        if self.state.sprite(slot).rest == mark::FLYING {
+            self.work(self.state.flights.len() / 64);
+            let at = self.state.flights.iter().position(|flight| flight.slot == slot);
+            self.state.flights.swap_remove(at.expect("what flies is in the list"));
+            self.state.land(slot, self.state.tick);
+        }
+    }
+
     /// Nothing flies any more. In the middle of the updates, those are a tick behind that are yet to be updated.
     pub(crate) fn land_midway(&mut self) {
         let mut flights = std::mem::take(&mut self.state.flights);
@@ -147,7 +148,7 @@ impl Step<'_> {
             return false;
         }
         let due = tick.saturating_add(moves).saturating_add(1);
-        if self.rests {
+        if self.rules.any_rests {
             self.state.stamp(&sprite, due);
         }
         let sprite = &mut self.state.sprites[usize::from(slot)];

@@ -159,7 +159,7 @@ impl Step<'_> {
 
     /// An effect is about to be executed on a sprite.
     pub(crate) fn prepare(&mut self, effect: &Effect, one: Slot) {
-        self.state.land_one(one);
+        self.land_one(one);
         if effect.reaches_afar() {
             self.rouse_all();
         } else if matches!(effect, Effect::ShieldFrom { .. }) {
@@ -280,6 +280,10 @@ impl Step<'_> {
 
     fn wake_touched(&mut self) {
         while let Some(cell) = self.state.touched.pop() {
+            if self.state.watched[cell as usize] == 0 {
+                continue;
+            }
+            self.work(self.state.rests.len() / 64);
             let stride = (self.state.columns + 2) as u32;
             let (column, row) = ((cell % stride) as i16, (cell / stride) as i16);
             let mut at = 0;
