@@ -56,7 +56,9 @@ impl Reader {
         for token in self.tokens(line) {
             match token {
                 Token::Word(word) if sprite.name.text.is_empty() && !arrow => sprite.name = word,
-                Token::Word(word) if sprite.class.is_none() && !glued(&word) => sprite.class = Some(word),
+                Token::Word(word) if arrow && sprite.class.is_none() && !glued(&word) => {
+                    sprite.class = Some(word);
+                }
                 Token::Word(word) => strays.push(word),
                 Token::Arrow(_) => arrow = true,
                 Token::Param(param) => sprite.params.push(param),
