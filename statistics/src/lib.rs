@@ -1,6 +1,7 @@
-//! Statistics for win rates and scores: intervals and summaries that are the same bits on every machine.
+//! Statistics for win rates and scores: intervals, tests, corrections and summaries that are the same bits on every machine.
 //!
-//! Depends on nothing of ours. Only `+ - * /` and square roots are used, in a stated order.
+//! Depends on nothing of ours. Only `+ - * /` and square roots are used, in a stated order; what is drawn is drawn from
+//! ChaCha8 with the caller's seed.
 //!
 //! ```
 //! use statistics::{Summary, Z95, wilson};
@@ -10,8 +11,16 @@
 //! assert_eq!(Summary::of(&[3.0, 1.0, 2.0]).map(|summary| summary.median), Some(2.0));
 //! ```
 
+mod bootstrap;
+mod correction;
+mod difference;
+mod fisher;
 mod summary;
 mod wilson;
 
+pub use bootstrap::bootstrap;
+pub use correction::benjamini_hochberg;
+pub use difference::difference;
+pub use fisher::fisher;
 pub use summary::Summary;
 pub use wilson::{Interval, Z95, wilson};

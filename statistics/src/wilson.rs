@@ -5,12 +5,12 @@
 /// The quantile of the normal distribution for a two-sided interval of 95 %.
 pub const Z95: f64 = 1.959963984540054;
 
-/// A closed interval of proportions, `0 ≤ low ≤ high ≤ 1`.
+/// A closed interval, `low ≤ high`; of proportions within [0, 1], of their differences within [−1, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// The smallest plausible proportion.
+    /// The smallest plausible value.
     pub low: f64,
-    /// The largest plausible proportion.
+    /// The largest plausible value.
     pub high: f64,
 }
 

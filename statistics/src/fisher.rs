@@ -1,0 +1,142 @@
+//! Fisher's exact test: do two groups succeed equally often? (R. A. Fisher, "On the interpretation of χ² from contingency
+//! tables, and the calculation of P", 1922.)
+//!
+//! The probabilities are those of the hypergeometric distribution. They come from the ratios of neighbours, so only
+//! `* /` and sums in a stated order are used: no logarithm of a factorial, whose last bits differ between platforms.
+
+/// How much more likely than the observed table another one may seem and still count as equally likely: beyond rounding,
+/// below any true difference between tables of counts that fit in memory.
+const SAME: f64 = 1.0 + 1e-7;
+
+/// The two-sided p-value of `successes` among `trials` in each of two groups: the probability, the totals being what they
+/// are, of a table no more likely than this one.
+///
+/// 1 where there is nothing to compare: no trials, or nothing but successes, or none. Cost: O(number of tables with these
+/// totals), that is at most the smaller group.
+///
+/// # Panics
+/// If a group has more successes than trials.
+///
+/// ```
+/// // 16 wins of 25 against 4 of 25.
+/// assert!((statistics::fisher([16, 4], [25, 25]) - 0.001208589982).abs() < 1e-11);
+/// ```
+pub fn fisher(successes: [u64; 2], trials: [u64; 2]) -> f64 {
+    for (k, n) in successes.into_iter().zip(trials) {
+        assert!(k <= n, "{k} successes in {n} trials");
+    }
+    let won = successes[0] + successes[1];
+    // A table is told by the successes of the first group; the others follow from the totals.
+    let (first, last) = (won.saturating_sub(trials[1]), won.min(trials[0]));
+    // The ratio of the next table's probability to this one's.
+    let ratio = |k: u64| {
+        let up = (trials[0] - k) as f64 * (won - k) as f64;
+        let down = (k + 1) as f64 * (trials[1] + k + 1 - won) as f64;
+        up / down
+    };
+    let mode = (first..last).find(|&k| ratio(k) < 1.0).unwrap_or(last);
+    // Weights relative to the likeliest table: none overflows, and what underflows adds nothing.
+    let mut weights = vec![1.0; (last - first + 1) as usize];
+    for k in mode..last {
+        weights[(k + 1 - first) as usize] = weights[(k - first) as usize] * ratio(k);
+    }
+    for k in (first..mode).rev() {
+        weights[(k - first) as usize] = weights[(k + 1 - first) as usize] / ratio(k);
+    }
+    let observed = weights[(successes[0] - first) as usize] * SAME;
+    let total = ascending(weights.iter().copied());
+    let extreme = ascending(weights.iter().copied().filter(|&weight| weight <= observed));
+    (extreme / total).min(1.0)
+}
+
+/// The sum from the smallest value up, which loses least to rounding.
+fn ascending(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_unstable_by(f64::total_cmp);
+    values.iter().sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(n: u64, a: u64, b: u64, expect: f64) {
+        for (a, b) in [(a, b), (b, a), (n - a, n - b)] {
+            let p = fisher([a, b], [n, n]);
+            // To the ten digits that are printed.
+            assert!((p - expect).abs() <= 5.1e-10 * expect, "{a} and {b} of {n}: {p}, not {expect}");
+        }
+    }
+
+    /// The vectors of `spec/06` §3.1.
+    #[test]
+    fn published_vectors() {
+        for (a, b, expect) in [
+            (5, 0, 0.0079365079),
+            (4, 0, 0.0476190476),
+            (3, 0, 0.1666666667),
+            (2, 0, 0.4444444444),
+            (1, 0, 1.0),
+            (5, 1, 0.0476190476),
+            (4, 1, 0.2063492063),
+            (3, 1, 0.5238095238),
+            (5, 2, 0.1666666667),
+            (5, 3, 0.4444444444),
+            (4, 2, 0.5238095238),
+            (3, 2, 1.0),
+        ] {
+            let p = fisher([a, b], [5, 5]);
+            assert!((p - expect).abs() <= 1e-10, "{a} and {b} of 5: {p}, not {expect}");
+        }
+        for (a, b, expect) in [
+            (0, 1, 1.0),
+            (0, 2, 0.4897959184),
+            (0, 4, 0.1098567086),
+            (0, 13, 2.930898044e-5),
+            (2, 7, 0.1383332155),
+            (8, 2, 0.07375494096),
+            (9, 2, 0.03742966153),
+            (13, 4, 0.01565261089),
+            (16, 4, 0.001208589982),
+            (18, 10, 0.04500454048),
+            (20, 13, 0.07176742642),
+            (15, 6, 0.0208617051),
+            (24, 0, 4.113578873e-13),
+        ] {
+            check(25, a, b, expect);
+        }
+    }
+
+    /// Worked by hand: the totals allow 0, 1 or 2 in the first group, with 10, 20 and 6 of 36 chances, of which 10 are not
+    /// likelier than 10 and 6 are not likelier than 6.
+    #[test]
+    fn groups_of_different_size() {
+        for (k, expect) in [(0, 16.0 / 36.0), (1, 1.0), (2, 6.0 / 36.0)] {
+            let p = fisher([k, 2 - k], [4, 5]);
+            assert!((p - expect).abs() < 1e-15, "{k}: {p}");
+        }
+    }
+
+    #[test]
+    fn nothing_to_compare() {
+        assert_eq!(fisher([0, 0], [0, 0]), 1.0);
+        assert_eq!(fisher([0, 0], [7, 3]), 1.0);
+        assert_eq!(fisher([7, 3], [7, 3]), 1.0);
+        assert_eq!(fisher([4, 0], [7, 0]), 1.0);
+    }
+
+    #[test]
+    fn large_tables_neither_overflow_nor_vanish() {
+        assert_eq!(fisher([5000, 0], [5000, 5000]), 0.0);
+        assert!(fisher([2500, 2500], [5000, 5000]) > 0.999_999);
+        let p = fisher([2600, 2500], [5000, 5000]);
+        assert!((0.04..0.05).contains(&p), "{p}");
+    }
+
+    #[test]
+    #[should_panic(expected = "3 successes in 2 trials")]
+    fn more_successes_than_trials() {
+        fisher([3, 0], [2, 2]);
+    }
+}
