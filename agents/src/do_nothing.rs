@@ -2,9 +2,10 @@
 
 use crate::planner::{Budget, Planner};
 use engine::{Action, Game, State};
+use serde::{Deserialize, Serialize};
 
 /// Always [`Action::Nil`].
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct DoNothing;
 
 impl Planner for DoNothing {

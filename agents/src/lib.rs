@@ -5,17 +5,29 @@
 //! chance are three separate streams: it never sees the game's true future (`docs/decisions/0003-determinism.md`).
 
 mod batch;
+mod branches;
 mod do_nothing;
+mod heuristics;
 mod mcts;
+mod olets;
+mod one_step;
 mod planner;
 mod play;
 mod random;
+mod random_search;
 mod registry;
+mod rhea;
+mod sequences;
 
 pub use batch::{Batch, BatchError};
 pub use do_nothing::DoNothing;
+pub use heuristics::Heuristic;
 pub use mcts::{Mcts, MctsConfig};
+pub use olets::{Olets, OletsConfig};
+pub use one_step::{OneStep, OneStepConfig};
 pub use planner::{Budget, Planner};
 pub use play::{Limits, Play, play};
 pub use random::Random;
-pub use registry::{PLANNERS, UnknownPlanner, planner};
+pub use random_search::{RandomSearch, RandomSearchConfig};
+pub use registry::{PLANNERS, PlannerSpec, Player, UnknownPlanner, planner};
+pub use rhea::{Rhea, RheaConfig};

@@ -5,15 +5,13 @@
 //! (Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning"; Browne et al. 2012, "A survey of Monte Carlo tree
 //! search methods".)
 
-use crate::planner::{Budget, Planner};
-use engine::{Action, Chance, Game, Outcome, Sampler, Seed, State};
+use crate::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
+use crate::planner::{Budget, Planner, Streams};
+use engine::{Action, Game, Outcome, Sampler, Seed, State};
 use serde::{Deserialize, Serialize};
 
 /// Breaks ties and guards divisions; the reference's value.
 const EPSILON: f64 = 1e-6;
-/// Actions at most.
-const WIDTH: usize = Action::ALL.len();
-const UNEXPANDED: u32 = u32::MAX;
 
 /// The parameters of the search. The default is the reference's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,13 +43,15 @@ impl Default for MctsConfig {
 }
 
 /// The planner: plans each decision from nothing, on a fresh tree.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Mcts {
     config: MctsConfig,
-    seed: Seed,
-    decisions: u64,
+    streams: Streams,
+    #[serde(skip)]
     tree: Vec<Node>,
-    path: Vec<u32>,
+    #[serde(skip)]
+    path: Vec<usize>,
+    #[serde(skip)]
     scratch: Option<State>,
 }
 
@@ -80,7 +80,7 @@ impl Node {
 impl Mcts {
     /// A planner of its own streams of choices and imagined chance.
     pub fn new(config: MctsConfig, seed: Seed) -> Mcts {
-        Mcts { config, seed, decisions: 0, tree: Vec::new(), path: Vec::new(), scratch: None }
+        Mcts { config, streams: Streams::new(seed), tree: Vec::new(), path: Vec::new(), scratch: None }
     }
 
     /// One iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls.
@@ -91,7 +91,7 @@ impl Mcts {
         self.path.clear();
         self.path.push(0);
         while !state.is_over() && depth < self.config.depth {
-            let (branch, new) = match self.unexpanded(node, actions.len(), choices) {
+            let (branch, new) = match unexpanded(&self.tree[node].children[..actions.len()], choices) {
                 Some(branch) => (branch, true),
                 None => (self.select(node, actions.len(), choices), false),
             };
@@ -99,10 +99,10 @@ impl Mcts {
             calls += 1;
             depth += 1;
             if new {
-                self.tree[node as usize].children[branch] = self.tree.len() as u32;
+                self.tree[node].children[branch] = self.tree.len() as u32;
                 self.tree.push(Node::new());
             }
-            node = self.tree[node as usize].children[branch];
+            node = self.tree[node].children[branch] as usize;
             self.path.push(node);
             if new {
                 break;
@@ -119,7 +119,7 @@ impl Mcts {
             Outcome::Ongoing | Outcome::Ended => state.score(),
         };
         for &node in &self.path {
-            let node = &mut self.tree[node as usize];
+            let node = &mut self.tree[node];
             node.visits += 1.0;
             node.total += result;
             node.least = node.least.min(result);
@@ -128,91 +128,56 @@ impl Mcts {
         calls
     }
 
-    /// A branch without a node, uniformly.
-    fn unexpanded(&self, node: u32, width: usize, choices: &mut Sampler) -> Option<usize> {
-        let children = &self.tree[node as usize].children[..width];
-        let open = children.iter().filter(|&&child| child == UNEXPANDED).count();
-        if open == 0 {
-            return None;
-        }
-        let drawn = choices.below(open);
-        children
-            .iter()
-            .enumerate()
-            .filter(|(_, child)| **child == UNEXPANDED)
-            .nth(drawn)
-            .map(|(branch, _)| branch)
-    }
-
     /// The branch of the greatest UCT value: the mean, normalised to what was seen through the node, and exploration.
-    fn select(&self, node: u32, width: usize, choices: &mut Sampler) -> usize {
-        let Node { children, visits, least, greatest, .. } = &self.tree[node as usize];
+    fn select(&self, node: usize, width: usize, choices: &mut Sampler) -> usize {
+        let Node { children, visits, least, greatest, .. } = &self.tree[node];
         let logarithm = libm::log(visits + 1.0);
         let value = |branch: usize, noise: f64| {
             let child = &self.tree[children[branch] as usize];
             let mean = child.value();
             let mean = if least < greatest { (mean - least) / (greatest - least) } else { mean };
             let explore = (logarithm / (child.visits + EPSILON)).sqrt();
-            blurred(mean + self.config.exploration * explore, noise)
+            blurred(mean + self.config.exploration * explore, EPSILON, noise)
         };
         best(width, |branch| value(branch, choices.unit()))
     }
 
-    /// The most visited branch; the best mean if all are visited alike.
+    /// The most visited branch; the best mean if all that are visited are visited alike.
     fn decide(&self, width: usize, choices: &mut Sampler) -> usize {
         let root = &self.tree[0];
         let child = |branch: usize| self.tree.get(root.children[branch] as usize);
         let visits = |branch: usize| child(branch).map_or(0.0, |child| child.visits);
-        let alike = (1..width).all(|branch| visits(branch) == visits(0));
+        let mut visited = (0..width).map(visits).filter(|&visits| visits > 0.0);
+        let alike = visited.next().is_none_or(|first| visited.all(|visits| visits == first));
         best(width, |branch| match child(branch) {
-            Some(child) if alike => blurred(child.value(), choices.unit()),
-            Some(child) => blurred(child.visits, choices.unit()),
+            Some(child) if alike => blurred(child.value(), EPSILON, choices.unit()),
+            Some(child) => blurred(child.visits, EPSILON, choices.unit()),
             None => f64::NEG_INFINITY,
         })
     }
 }
 
-/// The reference's tie-breaking noise: multiplicative, so nothing at 0 and several units at a win.
-fn blurred(value: f64, noise: f64) -> f64 {
-    (value + EPSILON) * (1.0 + EPSILON * (noise - 0.5))
-}
-
-/// The first branch of the greatest value.
-fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
-    let mut best = (0, f64::NEG_INFINITY);
-    for branch in 0..width {
-        let value = value(branch);
-        if value > best.1 {
-            best = (branch, value);
-        }
-    }
-    best.0
-}
-
 impl Planner for Mcts {
     fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64) {
         let actions = game.actions(state);
-        let seed = self.seed.child("decision", self.decisions);
-        self.decisions += 1;
+        let mut decision = self.streams.next();
         if actions.len() == 1 {
             return (actions[0], 0);
         }
-        let mut choices = seed.child("choices", 0).sampler();
-        let mut imagined = seed.child("imagined", 0).sampler();
         self.tree.clear();
         self.tree.push(Node::new());
         let mut scratch = self.scratch.take().unwrap_or_else(|| state.clone());
         let mut calls = 0;
         while calls < budget.0 {
-            scratch.fork_from(state, Chance::from_java(imagined.bits() as i64));
-            let cost = self.iterate(game, &mut scratch, actions, &mut choices);
+            decision.imagine(&mut scratch, state);
+            let cost = self.iterate(game, &mut scratch, actions, &mut decision.choices);
             calls += cost;
             if cost == 0 {
                 break; // The episode is over: nothing to plan.
             }
         }
         self.scratch = Some(scratch);
-        (actions[self.decide(actions.len(), &mut choices)], calls)
+        (actions[self.decide(actions.len(), &mut decision.choices)], calls)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a player is shown, and the full record of a state that traces are compared with.
 
-use crate::game::{Game, Outcome};
+use crate::game::{Game, Outcome, SpriteType};
 use crate::geometry::Rect;
 use crate::limits::MAX_SEEN;
 use crate::state::{State, flag};
@@ -47,7 +47,42 @@ pub struct SpriteRecord {
     pub rotation: f64,
 }
 
+/// How the reference sorts what its planners see (`spec/01` §9.5): the first that fits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Category {
+    /// The player can control it.
+    Avatar,
+    /// It can be held.
+    Resource,
+    /// Doors, portals, and what is declared to be one.
+    Portal,
+    /// It moves by a will of its own.
+    Npc,
+    /// It stands still.
+    Static,
+    /// It moves.
+    Movable,
+}
+
 impl Game {
+    /// The category of a type's sprites, those of an avatar's own making apart: of these the last two would be another one.
+    pub fn category(&self, stype: SpriteType) -> Category {
+        let info = &self.0.types[stype.index()];
+        match &info.traits {
+            _ if info.is_like_avatar() => Category::Avatar,
+            traits if traits.is_resource => Category::Resource,
+            traits if traits.portal => Category::Portal,
+            traits if traits.is_npc => Category::Npc,
+            traits if traits.is_static => Category::Static,
+            _ => Category::Movable,
+        }
+    }
+
+    /// Whether sprites of the type are left out of what players are shown.
+    pub fn is_hidden(&self, stype: SpriteType) -> bool {
+        self.0.types[stype.index()].traits.hidden
+    }
+
     /// What the player is shown. Cost: O(sprites + cells). Of a board full of giants, the first [`MAX_SEEN`] names.
     pub fn observe(&self, state: &State) -> Observation {
         let (columns, rows) = (state.columns as usize, state.rows as usize);
@@ -126,6 +161,23 @@ impl State {
     /// Messages that the reference engine would have logged so far; more than 25 end a game.
     pub fn messages(&self) -> u32 {
         self.messages
+    }
+
+    /// The top-left corners of a type's sprites in pixels, in the order of their creation. Cost: O(such sprites).
+    pub fn places(&self, stype: SpriteType) -> impl Iterator<Item = (i32, i32)> + '_ {
+        self.slots(stype).map(|slot| {
+            let rect = self.present(slot).rect;
+            (rect.x, rect.y)
+        })
+    }
+
+    /// The top-left corner of the player's avatar in pixels, disabled or not; none once the episode is over.
+    pub fn avatar_place(&self) -> Option<(i32, i32)> {
+        let there = !self.is_over() && usize::from(self.avatar) < self.sprites.len();
+        there.then(|| {
+            let rect = self.present(self.avatar).rect;
+            (rect.x, rect.y)
+        })
     }
 
     /// The creation number of the player's avatar, disabled or not.

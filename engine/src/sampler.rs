@@ -4,12 +4,37 @@
 //! the values that its distributions yield in a minor release, and minted bytes depend on them
 //! (`docs/decisions/0003-determinism.md`).
 
+use crate::seed::Seed;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
 
-/// A stream of draws.
-#[derive(Clone, Debug)]
+/// A stream of draws. It is saved as its seed and how far it has been drawn from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(into = "Saved", from = "Saved")]
 pub struct Sampler(ChaCha8Rng);
+
+#[derive(Serialize, Deserialize)]
+struct Saved {
+    seed: Seed,
+    /// 64-bit draws so far.
+    drawn: u64,
+}
+
+impl From<Sampler> for Saved {
+    fn from(Sampler(stream): Sampler) -> Saved {
+        // Two words of 32 bits a draw, and nothing draws one alone.
+        Saved { seed: Seed::from_bytes(stream.get_seed()), drawn: (stream.get_word_pos() / 2) as u64 }
+    }
+}
+
+impl From<Saved> for Sampler {
+    fn from(Saved { seed, drawn }: Saved) -> Sampler {
+        let mut sampler = seed.sampler();
+        sampler.0.set_word_pos(u128::from(drawn) * 2);
+        sampler
+    }
+}
 
 impl Sampler {
     pub(crate) fn new(seed: [u8; 32]) -> Sampler {
@@ -85,6 +110,7 @@ impl Sampler {
 
 #[cfg(test)]
 mod tests {
+    use super::Sampler;
     use crate::Seed;
 
     /// Golden vectors: if they move, GENERATION must be bumped.
@@ -100,6 +126,15 @@ mod tests {
             format!("{below:?} {deck:?} {weighted:?} {unit:?}"),
             "[689, 939, 409, 440, 878, 202, 696, 398] [5, 4, 7, 0, 8, 2, 6, 1, 9, 3] [2, 0, 0, 2, 2, 2] 0.3425580970223794"
         );
+    }
+
+    #[test]
+    fn a_saved_stream_goes_on() {
+        let mut sampler = Seed::from_text("saved").sampler();
+        (0..37).for_each(|_| drop(sampler.bits()));
+        let saved = serde_json::to_string(&sampler).unwrap();
+        let mut loaded: Sampler = serde_json::from_str(&saved).unwrap();
+        assert!((0..100).all(|_| sampler.bits() == loaded.bits()), "{saved}");
     }
 
     #[test]

@@ -4,6 +4,7 @@
 
 mod bench;
 mod course;
+mod fidelity;
 mod instructions;
 
 use clap::{Parser, Subcommand};
@@ -19,12 +20,14 @@ struct Args {
 #[derive(Subcommand)]
 enum Chore {
     Bench(bench::Args),
+    Fidelity(fidelity::Args),
     Instructions(instructions::Args),
 }
 
 fn main() -> anyhow::Result<()> {
     match Args::parse().chore {
         Chore::Bench(args) => bench::run(&args),
+        Chore::Fidelity(args) => fidelity::run(&args),
         Chore::Instructions(args) => instructions::run(&args),
     }
 }

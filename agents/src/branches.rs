@@ -1,0 +1,36 @@
+//! What the tree searches share: branches of a node, one an action.
+
+use engine::{Action, Sampler};
+
+/// Actions at most.
+pub(crate) const WIDTH: usize = Action::ALL.len();
+/// A branch without a node.
+pub(crate) const UNEXPANDED: u32 = u32::MAX;
+
+/// A branch without a node, uniformly.
+pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usize> {
+    let open = children.iter().filter(|&&child| child == UNEXPANDED).count();
+    if open == 0 {
+        return None;
+    }
+    let drawn = choices.below(open);
+    let mut branches = children.iter().enumerate().filter(|(_, child)| **child == UNEXPANDED);
+    branches.nth(drawn).map(|(branch, _)| branch)
+}
+
+/// The reference's tie-breaking noise, for a draw in [0, 1): multiplicative, so nothing at 0 and several units at a win.
+pub(crate) fn blurred(value: f64, epsilon: f64, noise: f64) -> f64 {
+    (value + epsilon) * (1.0 + epsilon * (noise - 0.5))
+}
+
+/// The first branch of the greatest value.
+pub(crate) fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
+    let mut best = (0, f64::NEG_INFINITY);
+    for branch in 0..width {
+        let value = value(branch);
+        if value > best.1 {
+            best = (branch, value);
+        }
+    }
+    best.0
+}

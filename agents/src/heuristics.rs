@@ -1,0 +1,115 @@
+//! What a state is worth by its looks: the reference's two heuristics (`spec/04` §9), quirks included.
+
+use engine::{Category, Game, Outcome, SpriteType, State};
+use serde::{Deserialize, Serialize};
+
+/// A value of states for players who look ahead a little.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Heuristic {
+    /// The reference's `WinScoreHeuristic`: the score; 1000 for a win and −1000 for a loss, whatever the score. So in a game
+    /// with larger scores going on is better than winning.
+    WinScore,
+    /// The reference's `SimpleStateHeuristic`: the score, less for the way to the nearest portal, or to the nearest NPC where
+    /// there are no portals. Distances are squared pixels. NPCs attract, deadly or not, and each one left costs 100 points.
+    Simple,
+}
+
+impl Heuristic {
+    /// The value of a state that was reached from `root`. Cost: O(1), or O(NPCs and portals).
+    pub fn value(self, game: &Game, root: &State, state: &State) -> f64 {
+        match (self, state.outcome()) {
+            (Heuristic::WinScore, Outcome::Won) => 1000.0,
+            (Heuristic::WinScore, Outcome::Lost | Outcome::Stopped(_)) => -1000.0,
+            (Heuristic::WinScore, _) => state.score(),
+            (Heuristic::Simple, Outcome::Lost | Outcome::Stopped(_)) => -999_999_999.0,
+            (Heuristic::Simple, _) => simple(game, root, state),
+        }
+    }
+}
+
+fn simple(game: &Game, root: &State, state: &State) -> f64 {
+    let won = if state.outcome() == Outcome::Won { 1e9 } else { 0.0 };
+    let score = state.score();
+    let portals = Sighting::of(game, root, state, Category::Portal);
+    if portals.known {
+        return match portals.nearest {
+            Some(distance) => score + 1e6 * won - 10.0 * distance,
+            None => score + 1e8 * won,
+        };
+    }
+    let npcs = Sighting::of(game, root, state, Category::Npc);
+    match npcs.nearest {
+        Some(distance) => -distance / 100.0 - 100.0 * npcs.count as f64 + score + 1e8 * won,
+        None => score + 1e8 * won,
+    }
+}
+
+/// What is seen of a category.
+struct Sighting {
+    /// There was such a type at the root, or is now. (The reference's copies remember the types of the original.)
+    known: bool,
+    count: usize,
+    /// The squared distance in pixels of the avatar to the nearest sprite of the last type of which there are any. Not of
+    /// the nearest of all: the reference goes through the types and keeps the last answer.
+    nearest: Option<f64>,
+}
+
+impl Sighting {
+    fn of(game: &Game, root: &State, state: &State, category: Category) -> Sighting {
+        // The reference's place of an avatar when the episode is over.
+        let from = state.avatar_place().unwrap_or((-1, -1));
+        let mut sighting = Sighting { known: false, count: 0, nearest: None };
+        let seen = |stype: &SpriteType| game.category(*stype) == category && !game.is_hidden(*stype);
+        for stype in game.sprite_types().filter(seen) {
+            let distances = state.places(stype).map(|place| squared_distance(from, place));
+            let (count, nearest) = distances
+                .fold((0, f64::INFINITY), |(count, nearest), distance| (count + 1, distance.min(nearest)));
+            sighting.known |= count > 0 || root.places(stype).next().is_some();
+            sighting.count += count;
+            if count > 0 {
+                sighting.nearest = Some(nearest);
+            }
+        }
+        sighting
+    }
+}
+
+fn squared_distance(from: (i32, i32), to: (i32, i32)) -> f64 {
+    let (x, y) = (f64::from(from.0) - f64::from(to.0), f64::from(from.1) - f64::from(to.1));
+    x * x + y * y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::{Action, Seed};
+
+    /// Cells have ten pixels.
+    const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    exit > Door\n    far > RandomNPC cons=100\n    near > RandomNPC cons=100\n    coin > Immovable\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    e > exit\n    f > far\n    n > near\n    c > coin\n    p > pit\n  InteractionSet\n    coin avatar > killSprite scoreChange=5\n    exit avatar > killSprite\n    avatar pit > killSprite\n  TerminationSet\n    SpriteCounter stype=coin win=True\n    SpriteCounter stype=avatar win=False\n";
+
+    #[track_caller]
+    fn check(level: &str, action: Action, win_score: f64, simple: f64) {
+        let game = Game::from_source(GAME).unwrap();
+        let root = game.start(&game.level(level).unwrap(), Seed::from_text("heuristics"));
+        let mut state = root.clone();
+        game.step(&mut state, action);
+        assert_eq!(Heuristic::WinScore.value(&game, &root, &state), win_score);
+        assert_eq!(Heuristic::Simple.value(&game, &root, &state), simple);
+    }
+
+    #[test]
+    fn values_worked_by_hand() {
+        // Nothing but the score.
+        check("Acc", Action::Right, 5.0, 5.0);
+        // Three cells to a portal: 30 × 30 × 10; NPCs do not matter then.
+        check("A n ec", Action::Right, 0.0, -9000.0);
+        // The portal is gone, but its type is known: NPCs still do not matter.
+        check("Ae n c", Action::Right, 0.0, 0.0);
+        // Two NPCs of the last type and one of the type before: three cells, not one.
+        check("Afc nn", Action::Nil, 0.0, -1600.0 / 100.0 - 300.0);
+        // Ends.
+        check("Ac", Action::Right, 1000.0, 5.0 + 1e17);
+        check("Apc", Action::Right, -1000.0, -999_999_999.0);
+    }
+}

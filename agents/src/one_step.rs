@@ -1,0 +1,68 @@
+//! One-step look-ahead: the reference's `sampleonesteplookahead` (`spec/04` §5).
+
+use crate::branches::blurred;
+use crate::heuristics::Heuristic;
+use crate::planner::{Budget, Planner, Streams};
+use engine::{Action, Game, Seed, State};
+use serde::{Deserialize, Serialize};
+
+/// Tie-breaking noise; the reference's value.
+const EPSILON: f64 = 1e-6;
+
+/// The parameters. The default is the reference's.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct OneStepConfig {
+    /// What the next states are worth.
+    pub heuristic: Heuristic,
+    /// How often each action is tried, at least once; the mean counts. The reference tries once, so one draw of the chance
+    /// decides.
+    pub samples: u32,
+}
+
+impl Default for OneStepConfig {
+    fn default() -> OneStepConfig {
+        OneStepConfig { heuristic: Heuristic::Simple, samples: 1 }
+    }
+}
+
+/// The player who looks one tick ahead. Its cost is one call an action and sample, whatever the budget.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct OneStep {
+    config: OneStepConfig,
+    streams: Streams,
+    #[serde(skip)]
+    scratch: Option<State>,
+}
+
+impl OneStep {
+    /// A planner of its own streams of choices and imagined chance.
+    pub fn new(config: OneStepConfig, seed: Seed) -> OneStep {
+        OneStep { config, streams: Streams::new(seed), scratch: None }
+    }
+}
+
+impl Planner for OneStep {
+    fn plan(&mut self, game: &Game, state: &State, _: Budget) -> (Action, u64) {
+        let mut decision = self.streams.next();
+        let mut copy = self.scratch.take().unwrap_or_else(|| state.clone());
+        let mut best = (Action::Nil, f64::NEG_INFINITY);
+        let mut calls = 0;
+        for &action in game.actions(state) {
+            let samples = self.config.samples.max(1);
+            let mut total = 0.0;
+            for _ in 0..samples {
+                decision.imagine(&mut copy, state);
+                game.step(&mut copy, action);
+                calls += 1;
+                total += self.config.heuristic.value(game, state, &copy);
+            }
+            let value = blurred(total / f64::from(samples), EPSILON, decision.choices.unit());
+            if value > best.1 {
+                best = (action, value);
+            }
+        }
+        self.scratch = Some(copy);
+        (best.0, calls)
+    }
+}

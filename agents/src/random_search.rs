@@ -1,0 +1,60 @@
+//! Random search: the reference's `sampleRS` (`spec/04` §4), the floor of evolution at equal calls.
+
+use crate::heuristics::Heuristic;
+use crate::planner::{Budget, Planner, Streams};
+use crate::sequences::Sequences;
+use engine::{Action, Game, Seed, State};
+use serde::{Deserialize, Serialize};
+
+/// The parameters. The default is the reference's.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RandomSearchConfig {
+    /// Ticks of a sequence.
+    pub horizon: usize,
+    /// What the state after a sequence is worth.
+    pub heuristic: Heuristic,
+}
+
+impl Default for RandomSearchConfig {
+    fn default() -> RandomSearchConfig {
+        RandomSearchConfig { horizon: 10, heuristic: Heuristic::WinScore }
+    }
+}
+
+/// Plays random sequences of actions, doing nothing included, and begins with the first one that ends best.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RandomSearch {
+    config: RandomSearchConfig,
+    streams: Streams,
+    #[serde(skip)]
+    scratch: Option<State>,
+}
+
+impl RandomSearch {
+    /// A planner of its own streams of choices and imagined chance.
+    pub fn new(config: RandomSearchConfig, seed: Seed) -> RandomSearch {
+        RandomSearch { config, streams: Streams::new(seed), scratch: None }
+    }
+}
+
+impl Planner for RandomSearch {
+    fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64) {
+        let mut decision = self.streams.next();
+        let mut sequences = Sequences::new(game, state, self.config.heuristic, budget, self.scratch.take());
+        let mut best = (0, f64::NEG_INFINITY);
+        loop {
+            let genes = sequences.random(self.config.horizon.max(1), &mut decision);
+            let value = sequences.value(&genes, &mut decision);
+            if value > best.1 {
+                best = (genes[0], value);
+            }
+            if sequences.is_spent() {
+                break;
+            }
+        }
+        let (action, calls) = (sequences.action(best.0), sequences.calls());
+        self.scratch = Some(sequences.into_scratch());
+        (action, calls)
+    }
+}

@@ -1,0 +1,148 @@
+//! Rolling-horizon evolution: the reference's `sampleRHEA` by calls (`spec/04` §3).
+//!
+//! (Perez Liebana et al. 2013, "Rolling horizon evolution versus tree search for navigation in single-player real-time
+//! games".)
+
+use crate::heuristics::Heuristic;
+use crate::planner::{Budget, Decision, Planner, Streams};
+use crate::sequences::{Gene, Sequences};
+use engine::{Action, Game, Seed, State};
+use serde::{Deserialize, Serialize};
+
+/// The parameters of the search. The default is the reference's.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RheaConfig {
+    /// Plans that live at a time; fewer if the budget does not suffice to try so many.
+    pub population: usize,
+    /// Ticks of a plan.
+    pub horizon: usize,
+    /// Genes of a child that are drawn anew, perhaps as they were.
+    pub mutations: usize,
+    /// What the state after a plan is worth.
+    pub heuristic: Heuristic,
+    /// A difference from the reference, which begins each decision with random plans: keep the plans of the decision before,
+    /// one tick on, with a random last action. Off by default.
+    pub shift: bool,
+}
+
+impl Default for RheaConfig {
+    fn default() -> RheaConfig {
+        RheaConfig { population: 10, horizon: 10, mutations: 1, heuristic: Heuristic::WinScore, shift: false }
+    }
+}
+
+/// The planner: in each decision evolves plans, and does what the best one begins with.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Rhea {
+    config: RheaConfig,
+    streams: Streams,
+    /// The plans of the last decision, best first; only kept for `shift`.
+    plans: Vec<Vec<Gene>>,
+    #[serde(skip)]
+    scratch: Option<State>,
+}
+
+struct Individual {
+    genes: Vec<Gene>,
+    value: f64,
+}
+
+impl Rhea {
+    /// A planner of its own streams of choices and imagined chance.
+    pub fn new(config: RheaConfig, seed: Seed) -> Rhea {
+        Rhea { config, streams: Streams::new(seed), plans: Vec::new(), scratch: None }
+    }
+
+    /// The first generation, as far as the budget goes, but at least one.
+    fn first(
+        &mut self,
+        sequences: &mut Sequences<'_>,
+        budget: Budget,
+        decision: &mut Decision,
+    ) -> Vec<Individual> {
+        let horizon = self.config.horizon.max(1);
+        let affordable = usize::try_from(budget.0 / horizon as u64).unwrap_or(usize::MAX);
+        let size = self.config.population.min(affordable).max(1);
+        let known = |genes: &Vec<Gene>| genes.iter().all(|&gene| sequences.has(gene));
+        let mut plans: Vec<Vec<Gene>> = std::mem::take(&mut self.plans);
+        plans.retain(known);
+        let mut plans = plans.into_iter();
+        let mut population: Vec<Individual> = Vec::with_capacity(size);
+        while population.len() < size && !(sequences.is_spent() && !population.is_empty()) {
+            let genes = match plans.next() {
+                Some(mut genes) => {
+                    genes.rotate_left(1);
+                    genes[horizon - 1] = sequences.gene(decision);
+                    genes
+                }
+                None => sequences.random(horizon, decision),
+            };
+            let value = sequences.value(&genes, decision);
+            population.push(Individual { genes, value });
+        }
+        best_first(&mut population);
+        population
+    }
+
+    /// A child of two different plans: each gene from either, then a few drawn anew. (The reference's tournament has as
+    /// many places as parents, so it selects nobody.) Of a single plan, a mutant.
+    fn child(
+        &self,
+        population: &[Individual],
+        sequences: &Sequences<'_>,
+        decision: &mut Decision,
+    ) -> Vec<Gene> {
+        let mut genes = if population.len() > 1 {
+            let one = decision.choices.below(population.len());
+            let other = decision.choices.below(population.len() - 1);
+            let other = if other < one { other } else { other + 1 };
+            let parents = [&population[one].genes, &population[other].genes];
+            (0..parents[0].len()).map(|at| parents[decision.choices.below(2)][at]).collect()
+        } else {
+            population[0].genes.clone()
+        };
+        for _ in 0..self.config.mutations {
+            let at = decision.choices.below(genes.len());
+            genes[at] = sequences.gene(decision);
+        }
+        genes
+    }
+}
+
+/// Stable: of equal values, the older first.
+fn best_first(population: &mut [Individual]) {
+    population.sort_by(|a, b| b.value.total_cmp(&a.value));
+}
+
+impl Planner for Rhea {
+    fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64) {
+        let mut decision = self.streams.next();
+        let heuristic = self.config.heuristic;
+        let mut sequences = Sequences::new(game, state, heuristic, budget, self.scratch.take());
+        let mut population = self.first(&mut sequences, budget, &mut decision);
+        while !sequences.is_spent() {
+            // The best one stays; as many children as there were others, or one beside a single plan.
+            let mut next = Vec::with_capacity(population.len());
+            for _ in 1..population.len().max(2) {
+                if sequences.is_spent() {
+                    break;
+                }
+                let genes = self.child(&population, &sequences, &mut decision);
+                let value = sequences.value(&genes, &mut decision);
+                next.push(Individual { genes, value });
+            }
+            let size = population.len();
+            // Where the budget ran out, those are left that would have had to go: they are no better than the best.
+            population.splice(1..(1 + next.len()).min(size), next);
+            best_first(&mut population);
+            population.truncate(size);
+        }
+        let (action, calls) = (sequences.action(population[0].genes[0]), sequences.calls());
+        if self.config.shift {
+            self.plans = population.into_iter().map(|individual| individual.genes).collect();
+        }
+        self.scratch = Some(sequences.into_scratch());
+        (action, calls)
+    }
+}

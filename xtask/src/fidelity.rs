@@ -1,0 +1,262 @@
+//! `cargo xtask fidelity`: do our planners play like the reference's own?
+//!
+//! The reference's episodes are recorded, one a row: game, level, agent, run, calls of a decision, outcome, ticks, score.
+//! Ours are played on the same cells, with the same budgets and the same limit of ticks (`spec/04` §10.2). Nothing is
+//! fitted: what differs is a difference of rules, to be found there.
+
+use agents::{Budget, Limits, PlannerSpec, Play, play};
+use anyhow::{Context, bail};
+use engine::{Game, Level, Outcome, Seed};
+use rayon::prelude::*;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Plays our MCTS, OLETS and RHEA where the reference's were recorded, and compares wins, scores and ticks.
+///
+/// Exit status 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5 %), the win rates differ by
+/// more than 10 points in the mean, or a mean score in aliens or boulderdash by more than 20 %.
+///
+/// Example: cargo xtask fidelity --games gvgai/games --recorded agents-1000.csv
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Folder of game folders, each with game.txt or game.vgdl and lvl*.txt
+    #[arg(long, value_name = "DIR")]
+    games: PathBuf,
+    /// The reference's episodes: a CSV
+    #[arg(long, value_name = "FILE")]
+    recorded: PathBuf,
+    /// Published win rates, to be shown beside: a CSV with the columns agent, setting and the games
+    #[arg(long, value_name = "FILE")]
+    paper: Option<PathBuf>,
+    /// Episodes of each planner on each level
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    runs: u64,
+    /// Ticks of an episode at most
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    ticks: usize,
+    /// Text that all seeds come from
+    #[arg(long, value_name = "TEXT", default_value = "fidelity")]
+    seed: String,
+    /// Only these games
+    #[arg(long, value_name = "NAME")]
+    game: Vec<String>,
+    /// Only this planner of ours
+    #[arg(long, value_name = "NAME")]
+    planner: Option<String>,
+    /// Threads; all cores if not given. Changes no figure
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    jobs: usize,
+}
+
+/// Whom of ours a recorded agent is compared with.
+const PAIRS: [(&str, &str); 3] = [("sampleMCTS", "mcts"), ("olets", "olets"), ("sampleRHEA", "rhea")];
+/// The bars.
+const FALSE_DISCOVERIES: f64 = 0.05;
+const MEAN_DIFFERENCE: f64 = 0.10;
+const SCORE_DIFFERENCE: f64 = 0.20;
+const SCORED_GAMES: [&str; 2] = ["aliens", "boulderdash"];
+
+/// What is compared of an episode.
+#[derive(Clone, Copy)]
+struct Result {
+    level: usize,
+    won: bool,
+    ticks: f64,
+    score: f64,
+}
+
+/// The episodes of an agent in a game.
+struct Cell {
+    game: String,
+    agent: &'static str,
+    planner: &'static str,
+    calls: u64,
+    theirs: Vec<Result>,
+    ours: Vec<Result>,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let mut cells = recorded(&args.recorded)?;
+    cells.retain(|cell| {
+        (args.game.is_empty() || args.game.contains(&cell.game))
+            && args.planner.as_deref().is_none_or(|name| name == cell.planner)
+    });
+    if cells.is_empty() {
+        bail!("{}: no episodes of these games and planners", args.recorded.display());
+    }
+    let paper = args.paper.as_deref().map(published).transpose()?.unwrap_or_default();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
+    let played = pool.install(|| -> anyhow::Result<Vec<Vec<Result>>> {
+        let games: Vec<_> =
+            cells.iter().map(|cell| load(&args.games, &cell.game)).collect::<anyhow::Result<_>>()?;
+        let cells = cells.iter().zip(&games).collect::<Vec<_>>();
+        cells.par_iter().map(|(cell, (game, levels))| play_cell(args, cell, game, levels)).collect()
+    })?;
+    for (cell, ours) in cells.iter_mut().zip(played) {
+        cell.ours = ours;
+    }
+    if report(&cells, &paper) { Ok(()) } else { bail!("our planners do not play like the reference's") }
+}
+
+fn play_cell(args: &Args, cell: &Cell, game: &Game, levels: &[Level]) -> anyhow::Result<Vec<Result>> {
+    let spec: PlannerSpec = cell.planner.parse()?;
+    let limits = Limits { ticks: args.ticks, ..Limits::default() };
+    let mut entries: Vec<(usize, u64)> = Vec::new();
+    for level in 0..levels.len() {
+        if cell.theirs.iter().any(|result| result.level == level) {
+            entries.extend((0..args.runs).map(|run| (level, run)));
+        }
+    }
+    let results = entries.par_iter().map(|&(level, run)| {
+        let seed = Seed::from_text(&args.seed).child(&cell.game, level as u64).child("run", run);
+        let mut player = spec.player(seed.child(cell.planner, 0));
+        let chance = seed.child("chance", 0);
+        let Play { episode, .. } =
+            play(game, &levels[level], &mut player, Budget(cell.calls), chance, limits);
+        let (won, ticks) = (episode.outcome == Outcome::Won, episode.actions.len() as f64);
+        Result { level, won, ticks, score: episode.score }
+    });
+    Ok(results.collect())
+}
+
+/// The table and the bars; whether all hold.
+fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
+    println!(
+        "{:<12} {:<6} {:>7} {:>9} {:>9} {:>7} {:>7} {:>6}  {:>15} {:>13}  wins by level",
+        "game", "agent", "calls", "won", "recorded", "p", "q", "paper", "score", "ticks"
+    );
+    let wins = |results: &[Result]| results.iter().filter(|result| result.won).count() as u64;
+    let rate = |results: &[Result]| wins(results) as f64 / results.len() as f64;
+    let mean = |results: &[Result], of: fn(&Result) -> f64| {
+        results.iter().map(of).sum::<f64>() / results.len() as f64
+    };
+    let p: Vec<f64> = cells
+        .iter()
+        .map(|Cell { ours, theirs, .. }| {
+            statistics::fisher([wins(ours), wins(theirs)], [ours.len() as u64, theirs.len() as u64])
+        })
+        .collect();
+    let q = statistics::benjamini_hochberg(&p);
+    let mut holds = true;
+    let mut faults = Vec::new();
+    for ((cell, p), q) in cells.iter().zip(&p).zip(&q) {
+        let Cell { game, agent, planner, calls, theirs, ours } = cell;
+        let published = paper.iter().find(|(of, in_game, _)| of == agent && in_game == game);
+        let published = published.map_or(String::new(), |(_, _, rate)| format!("{rate:.0} %"));
+        let scores = [ours, theirs].map(|results| mean(results, |result| result.score));
+        let ticks = [ours, theirs].map(|results| mean(results, |result| result.ticks));
+        let by_level = |results: &[Result]| {
+            let last = results.iter().map(|result| result.level).max().unwrap_or(0);
+            let of = |level| results.iter().filter(|result| result.level == level && result.won).count();
+            (0..=last).map(|level| of(level).to_string()).collect::<Vec<_>>().join(" ")
+        };
+        let of = |results: &[Result]| format!("{} of {}", wins(results), results.len());
+        println!(
+            "{game:<12} {planner:<6} {calls:>7} {:>9} {:>9} {p:>7.3} {q:>7.3} {published:>6}  {:>6.2} / {:>6.2} {:>5.0} / {:>5.0}  {} / {}",
+            of(ours),
+            of(theirs),
+            scores[0],
+            scores[1],
+            ticks[0],
+            ticks[1],
+            by_level(ours),
+            by_level(theirs),
+        );
+        if *q <= FALSE_DISCOVERIES {
+            faults.push(format!("{game}, {planner}: win rates differ, q = {q:.4}"));
+        }
+        let apart = (scores[0] - scores[1]).abs() / scores[1].abs();
+        if SCORED_GAMES.contains(&game.as_str()) && apart > SCORE_DIFFERENCE {
+            faults.push(format!("{game}, {planner}: mean scores differ by {:.0} %", 100.0 * apart));
+        }
+    }
+    let apart = cells.iter().map(|cell| (rate(&cell.ours) - rate(&cell.theirs)).abs()).sum::<f64>();
+    let apart = apart / cells.len() as f64;
+    println!("mean absolute difference of win rates: {:.1} points", 100.0 * apart);
+    if apart > MEAN_DIFFERENCE {
+        faults.push(format!("win rates differ by {:.1} points in the mean", 100.0 * apart));
+    }
+    for fault in faults {
+        println!("{fault}");
+        holds = false;
+    }
+    holds
+}
+
+/// A game and its levels, loaded as the reference does.
+fn load(games: &Path, name: &str) -> anyhow::Result<(Game, Vec<Level>)> {
+    let folder = games.join(name);
+    let file = ["game.vgdl", "game.txt"].map(|file| folder.join(file)).into_iter().find(|path| path.exists());
+    let file = file.with_context(|| format!("{}: no game.vgdl or game.txt", folder.display()))?;
+    let read = |path: &Path| fs::read_to_string(path).with_context(|| path.display().to_string());
+    let game = Game::from_source_as_reference(&read(&file)?);
+    let game = game.map_err(|problems| anyhow::anyhow!("{}: {problems:?}", file.display()))?;
+    let mut levels = Vec::new();
+    for number in 0.. {
+        let path = folder.join(format!("lvl{number}.txt"));
+        if !path.exists() {
+            break;
+        }
+        let level = game.level(&read(&path)?);
+        levels.push(level.map_err(|problems| anyhow::anyhow!("{}: {problems:?}", path.display()))?);
+    }
+    Ok((game, levels))
+}
+
+/// Rows of a CSV without quotes, by the names of its columns.
+fn rows(path: &Path) -> anyhow::Result<Vec<Vec<(String, String)>>> {
+    let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let row = |line: &str| {
+        let fields = header.iter().zip(line.split(','));
+        fields.map(|(name, field)| ((*name).to_owned(), field.to_owned())).collect()
+    };
+    Ok(lines.map(row).collect())
+}
+
+fn field<'a>(row: &'a [(String, String)], name: &str) -> anyhow::Result<&'a str> {
+    let found = row.iter().find(|(column, _)| column == name);
+    found.map(|(_, field)| field.as_str()).with_context(|| format!("no column `{name}`"))
+}
+
+/// The recorded episodes, by game and agent in the order of the file.
+fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
+    let mut cells: Vec<Cell> = Vec::new();
+    for row in rows(path)? {
+        let (game, by) = (field(&row, "game")?, field(&row, "agent")?);
+        let Some(&(agent, planner)) = PAIRS.iter().find(|(agent, _)| *agent == by) else { continue };
+        let result = Result {
+            level: field(&row, "level")?.parse()?,
+            won: field(&row, "result")? == "win",
+            ticks: field(&row, "ticks")?.parse()?,
+            score: field(&row, "score")?.parse()?,
+        };
+        match cells.iter_mut().find(|cell| cell.game == game && cell.agent == agent) {
+            Some(cell) => cell.theirs.push(result),
+            None => cells.push(Cell {
+                game: game.to_owned(),
+                agent,
+                planner,
+                calls: field(&row, "calls_per_decision")?.parse()?,
+                theirs: vec![result],
+                ours: Vec::new(),
+            }),
+        }
+    }
+    Ok(cells)
+}
+
+/// The published win rates of searching agents: agent, game, per cent.
+fn published(path: &Path) -> anyhow::Result<Vec<(String, String, f64)>> {
+    let mut rates = Vec::new();
+    for row in rows(path)? {
+        if field(&row, "setting")? == "search" {
+            let agent = field(&row, "agent")?.to_owned();
+            for (game, rate) in row.iter().skip(2) {
+                rates.push((agent.clone(), game.clone(), rate.parse()?));
+            }
+        }
+    }
+    Ok(rates)
+}
