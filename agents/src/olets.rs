@@ -53,10 +53,12 @@ pub struct Olets {
     tree: Vec<Node>,
     /// What the branches of the tree stand for.
     actions: Vec<Action>,
-    /// Where the avatar was at the last decisions, but the first; the latest last.
+    /// Where the avatar was at the last decisions, the latest last. Where it is now comes in with the next decision, as in
+    /// the reference, which first remembers a place at its second one: so the first decision at a new place is free to
+    /// stay there.
     places: VecDeque<(i32, i32)>,
-    /// Whether there was a decision before.
-    begun: bool,
+    /// Where the avatar was at the last decision.
+    place: Option<(i32, i32)>,
     #[serde(skip)]
     path: Vec<usize>,
     #[serde(skip)]
@@ -114,17 +116,15 @@ impl Olets {
             tree: Vec::new(),
             actions: Vec::new(),
             places: VecDeque::new(),
-            begun: false,
+            place: None,
             path: Vec::new(),
             scratch: None,
         }
     }
 
-    /// Remembers where the avatar is, and makes the tree ready: what was kept of the last one, if it still fits.
+    /// Remembers where the avatar was, and makes the tree ready: what was kept of the last one, if it still fits.
     fn begin(&mut self, actions: &[Action], state: &State) {
-        if std::mem::replace(&mut self.begun, true)
-            && let Some(place) = state.avatar_place()
-        {
+        if let Some(place) = std::mem::replace(&mut self.place, state.avatar_place()) {
             if self.places.len() >= self.config.memory {
                 self.places.pop_front();
             }

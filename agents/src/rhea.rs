@@ -69,7 +69,7 @@ impl Rhea {
         plans.retain(known);
         let mut plans = plans.into_iter();
         let mut population: Vec<Individual> = Vec::with_capacity(size);
-        while population.len() < size && !(sequences.is_spent() && !population.is_empty()) {
+        while population.len() < size && (population.is_empty() || !sequences.is_spent()) {
             let genes = match plans.next() {
                 Some(mut genes) => {
                     genes.rotate_left(1);

@@ -180,7 +180,7 @@ fn bad_questions_name_the_next_move() {
     says(&["validate"], 2, "GAME");
     says(&["validat", "."], 2, "validate");
     says(&["release", "stater"], 2, "did you mean `starter`?");
-    says(&["run", ".", "--planner", "mtcs"], 2, "do-nothing, random and mcts");
+    says(&["run", ".", "--planner", "mtcs"], 2, "did you mean `mcts`?");
     says(&["verify", "."], 2, "has no MANIFEST.json");
     says(&["verify", "nowhere"], 2, "nowhere");
 }
@@ -230,12 +230,31 @@ fn rules_are_described() {
 #[test]
 fn planners_play_and_report() {
     let folder = folder(GAME, LEVEL);
-    let args =
-        ["run", ".", "--planner", "random,mcts", "--budget", "200", "--runs", "3", "--csv", "runs.csv"];
-    let output = run(folder.path(), &args, 0);
-    assert!(text(&output.stdout).contains("mcts"), "{}", text(&output.stdout));
-    let csv = fs::read_to_string(folder.path().join("runs.csv")).unwrap();
-    assert_eq!(csv.lines().count(), 7, "{csv}");
-    run(folder.path(), &args, 0);
-    assert_eq!(fs::read_to_string(folder.path().join("runs.csv")).unwrap(), csv);
+    let common = ["run", ".", "--planner", "random,mcts,olets:50", "--budget", "200", "--runs", "3"];
+    let report = |more: &[&str]| run(folder.path(), &[&common[..], more].concat(), 0);
+    let csv = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+
+    let output = report(&["--csv", "one.csv", "--jobs", "1", "--by-level"]);
+    let table = text(&output.stdout);
+    assert!(table.contains(" lvl0 ") && table.contains("olets"), "{table}");
+    let first = csv("one.csv");
+    assert!(first.starts_with("game,planner,budget,level,run,outcome,score,ticks,calls\n"), "{first}");
+    assert_eq!(first.lines().count(), 1 + 3 * 3, "{first}");
+    // Speeds are of this machine, so they are beside the answer.
+    assert!(text(&output.stderr).contains("olets:50: "), "{}", text(&output.stderr));
+
+    let output = report(&["--csv", "two.csv", "--jobs", "2", "--json"]);
+    assert_eq!(csv("two.csv"), first);
+    assert_eq!(output.stdout, report(&["--jobs", "1", "--json"]).stdout);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows = document["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 3);
+    assert_eq!((&rows[2]["planner"], &rows[2]["budget"]), (&"olets".into(), &50.into()));
+    assert_eq!((&rows[1]["plays"], &rows[1]["level"]), (&3.into(), &Value::Null));
+
+    // Another planner beside it changes nothing.
+    let alone = run(folder.path(), &["run", ".", "--planner", "mcts:200", "--runs", "3", "--json"], 0);
+    let alone: Value = serde_json::from_slice(&alone.stdout).unwrap();
+    assert_eq!(alone["rows"][0], rows[1]);
+    run(folder.path(), &["run", ".", "--jobs", "0"], 2);
 }

@@ -131,7 +131,8 @@ mod tests {
     #[test]
     fn a_saved_stream_goes_on() {
         let mut sampler = Seed::from_text("saved").sampler();
-        (0..37).for_each(|_| drop(sampler.bits()));
+        let drawn: Vec<u64> = (0..37).map(|_| sampler.bits()).collect();
+        assert_eq!(drawn.len(), 37);
         let saved = serde_json::to_string(&sampler).unwrap();
         let mut loaded: Sampler = serde_json::from_str(&saved).unwrap();
         assert!((0..100).all(|_| sampler.bits() == loaded.bits()), "{saved}");

@@ -8,6 +8,8 @@ use agents::{Budget, Limits, PlannerSpec, Play, play};
 use anyhow::{Context, bail};
 use engine::{Game, Level, Outcome, Seed};
 use rayon::prelude::*;
+use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -63,6 +65,8 @@ struct Result {
     won: bool,
     ticks: f64,
     score: f64,
+    /// Of a decision, in the mean: by how much a search overshoots its budget tells how deep it looks.
+    calls: f64,
 }
 
 /// The episodes of an agent in a game.
@@ -111,10 +115,10 @@ fn play_cell(args: &Args, cell: &Cell, game: &Game, levels: &[Level]) -> anyhow:
         let seed = Seed::from_text(&args.seed).child(&cell.game, level as u64).child("run", run);
         let mut player = spec.player(seed.child(cell.planner, 0));
         let chance = seed.child("chance", 0);
-        let Play { episode, .. } =
+        let Play { episode, calls } =
             play(game, &levels[level], &mut player, Budget(cell.calls), chance, limits);
         let (won, ticks) = (episode.outcome == Outcome::Won, episode.actions.len() as f64);
-        Result { level, won, ticks, score: episode.score }
+        Result { level, won, ticks, score: episode.score, calls: calls as f64 / ticks }
     });
     Ok(results.collect())
 }
@@ -122,8 +126,8 @@ fn play_cell(args: &Args, cell: &Cell, game: &Game, levels: &[Level]) -> anyhow:
 /// The table and the bars; whether all hold.
 fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     println!(
-        "{:<12} {:<6} {:>7} {:>9} {:>9} {:>7} {:>7} {:>6}  {:>15} {:>13}  wins by level",
-        "game", "agent", "calls", "won", "recorded", "p", "q", "paper", "score", "ticks"
+        "{:<12} {:<7} {:>9} {:>9} {:>6} {:>6} {:>6}  {:>15}  {:>13}  {:>15}  wins by level",
+        "game", "planner", "won", "recorded", "p", "q", "paper", "score", "ticks", "calls"
     );
     let wins = |results: &[Result]| results.iter().filter(|result| result.won).count() as u64;
     let rate = |results: &[Result]| wins(results) as f64 / results.len() as f64;
@@ -140,11 +144,12 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     let mut holds = true;
     let mut faults = Vec::new();
     for ((cell, p), q) in cells.iter().zip(&p).zip(&q) {
-        let Cell { game, agent, planner, calls, theirs, ours } = cell;
+        let Cell { game, agent, planner, theirs, ours, .. } = cell;
         let published = paper.iter().find(|(of, in_game, _)| of == agent && in_game == game);
         let published = published.map_or(String::new(), |(_, _, rate)| format!("{rate:.0} %"));
         let scores = [ours, theirs].map(|results| mean(results, |result| result.score));
         let ticks = [ours, theirs].map(|results| mean(results, |result| result.ticks));
+        let calls = [ours, theirs].map(|results| mean(results, |result| result.calls));
         let by_level = |results: &[Result]| {
             let last = results.iter().map(|result| result.level).max().unwrap_or(0);
             let of = |level| results.iter().filter(|result| result.level == level && result.won).count();
@@ -152,13 +157,15 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
         };
         let of = |results: &[Result]| format!("{} of {}", wins(results), results.len());
         println!(
-            "{game:<12} {planner:<6} {calls:>7} {:>9} {:>9} {p:>7.3} {q:>7.3} {published:>6}  {:>6.2} / {:>6.2} {:>5.0} / {:>5.0}  {} / {}",
+            "{game:<12} {planner:<7} {:>9} {:>9} {p:>6.3} {q:>6.3} {published:>6}  {:>6.2} / {:>6.2}  {:>5.0} / {:>5.0}  {:>6.1} / {:>6.1}  {} / {}",
             of(ours),
             of(theirs),
             scores[0],
             scores[1],
             ticks[0],
             ticks[1],
+            calls[0],
+            calls[1],
             by_level(ours),
             by_level(theirs),
         );
@@ -203,45 +210,31 @@ fn load(games: &Path, name: &str) -> anyhow::Result<(Game, Vec<Level>)> {
     Ok((game, levels))
 }
 
-/// Rows of a CSV without quotes, by the names of its columns.
-fn rows(path: &Path) -> anyhow::Result<Vec<Vec<(String, String)>>> {
-    let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
-    let mut lines = text.lines();
-    let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let row = |line: &str| {
-        let fields = header.iter().zip(line.split(','));
-        fields.map(|(name, field)| ((*name).to_owned(), field.to_owned())).collect()
-    };
-    Ok(lines.map(row).collect())
-}
-
-fn field<'a>(row: &'a [(String, String)], name: &str) -> anyhow::Result<&'a str> {
-    let found = row.iter().find(|(column, _)| column == name);
-    found.map(|(_, field)| field.as_str()).with_context(|| format!("no column `{name}`"))
+/// A line of the recorded episodes.
+#[derive(Deserialize)]
+struct Line {
+    game: String,
+    level: usize,
+    agent: String,
+    calls_per_decision: u64,
+    calls_used_mean: f64,
+    ticks: f64,
+    result: String,
+    score: f64,
 }
 
 /// The recorded episodes, by game and agent in the order of the file.
 fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     let mut cells: Vec<Cell> = Vec::new();
-    for row in rows(path)? {
-        let (game, by) = (field(&row, "game")?, field(&row, "agent")?);
-        let Some(&(agent, planner)) = PAIRS.iter().find(|(agent, _)| *agent == by) else { continue };
-        let result = Result {
-            level: field(&row, "level")?.parse()?,
-            won: field(&row, "result")? == "win",
-            ticks: field(&row, "ticks")?.parse()?,
-            score: field(&row, "score")?.parse()?,
-        };
+    for line in csv::Reader::from_path(path)?.deserialize() {
+        let line: Line = line.with_context(|| path.display().to_string())?;
+        let Line { game, level, ticks, score, calls_per_decision: calls, .. } = line;
+        let pair = PAIRS.iter().find(|(agent, _)| *agent == line.agent);
+        let Some(&(agent, planner)) = pair else { continue };
+        let result = Result { level, won: line.result == "win", ticks, score, calls: line.calls_used_mean };
         match cells.iter_mut().find(|cell| cell.game == game && cell.agent == agent) {
             Some(cell) => cell.theirs.push(result),
-            None => cells.push(Cell {
-                game: game.to_owned(),
-                agent,
-                planner,
-                calls: field(&row, "calls_per_decision")?.parse()?,
-                theirs: vec![result],
-                ours: Vec::new(),
-            }),
+            None => cells.push(Cell { game, agent, planner, calls, theirs: vec![result], ours: Vec::new() }),
         }
     }
     Ok(cells)
@@ -250,12 +243,13 @@ fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
 /// The published win rates of searching agents: agent, game, per cent.
 fn published(path: &Path) -> anyhow::Result<Vec<(String, String, f64)>> {
     let mut rates = Vec::new();
-    for row in rows(path)? {
-        if field(&row, "setting")? == "search" {
-            let agent = field(&row, "agent")?.to_owned();
-            for (game, rate) in row.iter().skip(2) {
-                rates.push((agent.clone(), game.clone(), rate.parse()?));
-            }
+    for line in csv::Reader::from_path(path)?.deserialize::<BTreeMap<String, String>>() {
+        let line = line.with_context(|| path.display().to_string())?;
+        let agent = line.get("agent").with_context(|| format!("{}: no agents", path.display()))?;
+        // The other columns are games.
+        let games = line.iter().filter(|(name, _)| !["agent", "setting"].contains(&name.as_str()));
+        for (game, rate) in games {
+            rates.push((agent.clone(), game.clone(), rate.parse()?));
         }
     }
     Ok(rates)

@@ -4,24 +4,24 @@ use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
 use crate::render;
-use agents::{Budget, Limits, Play, planner, play};
-use engine::{Game, Level, Seed};
+use crate::verbs::release::in_pool;
+use agents::{Budget, Limits, PlannerSpec, play};
+use engine::{Game, Level, Outcome, SEMANTICS, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
-use statistics::Summary;
+use statistics::{Summary, Z95, wilson};
 use std::fmt::Write;
-use std::path::PathBuf;
-use validators::Rate;
+use std::path::{Path, PathBuf};
 
 /// Plays planners on games and reports win rates with 95 % intervals, per game and pooled.
 ///
-/// Example: arcade run corpora --planner random,mcts --budget 500 --runs 5
+/// Example: arcade run corpora --planner random,mcts,olets:500 --budget 1000 --runs 5
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Games, or folders of games; corpus games by name
     #[arg(value_name = "GAMES", required = true)]
     games: Vec<String>,
-    /// Planners: do-nothing, random, mcts
+    /// Planners, each perhaps with its own budget: `mcts,olets:500` (docs/planners.md)
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "mcts")]
     planner: Vec<String>,
     /// Forward-model calls of one decision
@@ -36,12 +36,18 @@ pub(crate) struct Args {
     /// Text that all seeds come from
     #[arg(long, value_name = "TEXT", default_value = "run")]
     seed: String,
+    /// Also a row for each level
+    #[arg(long)]
+    by_level: bool,
     /// Load games as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
     /// Also write one line an episode to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Threads; all cores if not given. Changes no figure
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
 }
 
 struct Subject {
@@ -54,24 +60,98 @@ struct Subject {
 struct Entry<'a> {
     subject: &'a Subject,
     level: usize,
-    planner: &'a str,
+    planner: &'a PlannerSpec,
     run: u64,
 }
 
+/// An episode that was played: a line of `--csv`.
 #[derive(Serialize)]
-struct Row {
-    game: String,
-    planner: String,
-    #[serde(flatten)]
-    rate: Rate,
+struct Line<'a> {
+    game: &'a str,
+    planner: &'a str,
+    budget: u64,
+    level: usize,
+    run: u64,
+    outcome: &'static str,
+    score: f64,
+    ticks: usize,
+    calls: u64,
+    #[serde(skip)]
+    seconds: f64,
+}
+
+/// The answer in `--json`, as `docs/run.md` describes it.
+#[derive(Serialize)]
+struct Report<'a> {
+    semantics: u32,
+    seed: &'a str,
+    runs: u64,
+    max_ticks: usize,
+    as_reference: bool,
+    rows: Vec<Row<'a>>,
+}
+
+/// How some episodes of one planner went.
+#[derive(Serialize)]
+struct Row<'a> {
+    /// None: all games together.
+    game: Option<&'a str>,
+    /// None: all levels together.
+    level: Option<usize>,
+    planner: &'a str,
+    budget: u64,
+    plays: u64,
+    wins: u64,
+    losses: u64,
+    interval: [f64; 2],
+    mean_score: f64,
     mean_ticks: f64,
+    calls: u64,
     calls_per_decision: f64,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    for name in &args.planner {
-        planner(name, Seed::from_text("")).map_err(Failure::malformed)?;
+    let planners = args.planner.iter().map(|name| name.parse().map_err(Failure::malformed));
+    let planners: Vec<PlannerSpec> = planners.collect::<Result<_, _>>()?;
+    let subjects = subjects(args)?;
+    let mut entries = Vec::new();
+    for subject in &subjects {
+        for planner in &planners {
+            for level in 0..subject.levels.len() {
+                entries.extend((0..args.runs).map(|run| Entry { subject, level, planner, run }));
+            }
+        }
     }
+    let bar = console.progress(entries.len() as u64, "playing");
+    let started = Stopwatch::start();
+    let lines: Vec<Line<'_>> = in_pool(args.jobs, || {
+        let played = entries.par_iter().map(|entry| {
+            let line = play_entry(args, entry);
+            bar.inc(1);
+            line
+        });
+        played.collect()
+    })?;
+    bar.finish_and_clear();
+    speeds(console, &planners, &entries, &lines, started.seconds());
+
+    let report = Report {
+        semantics: SEMANTICS,
+        seed: &args.seed,
+        runs: args.runs,
+        max_ticks: args.max_ticks,
+        as_reference: args.as_reference,
+        rows: rows(args, &subjects, &planners, &entries, &lines),
+    };
+    if let Some(path) = &args.csv {
+        write_csv(path, &lines).map_err(|error| Failure::surroundings(error, path.display()))?;
+    }
+    console.document(&report)?;
+    console.say(table(&report.rows).trim_end());
+    Ok(true)
+}
+
+fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
     let mut subjects = Vec::new();
     for name in &args.games {
         for input in input::games(name)? {
@@ -84,57 +164,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             subjects.push(Subject { title: input.title, game, levels });
         }
     }
-    let mut entries = Vec::new();
-    for subject in &subjects {
-        for planner in &args.planner {
-            for level in 0..subject.levels.len() {
-                entries.extend((0..args.runs).map(|run| Entry { subject, level, planner, run }));
-            }
-        }
-    }
-    let bar = console.progress(entries.len() as u64, "playing");
-    let started = Stopwatch::start();
-    let plays: Vec<Play> = entries
-        .par_iter()
-        .map(|entry| {
-            let play = play_entry(args, entry);
-            bar.inc(1);
-            play
-        })
-        .collect();
-    bar.finish_and_clear();
-    let seconds = started.seconds();
-    let calls: u64 = plays.iter().map(|play| play.calls).sum();
-    console.remark(format_args!(
-        "{} episodes, {calls} forward-model calls, {:.0} calls/s",
-        plays.len(),
-        calls as f64 / seconds
-    ));
-
-    let played: Vec<(&Entry<'_>, &Play)> = entries.iter().zip(&plays).collect();
-    let mut rows = Vec::new();
-    for subject in &subjects {
-        for planner in &args.planner {
-            let own = |entry: &Entry<'_>| std::ptr::eq(entry.subject, subject) && entry.planner == planner;
-            rows.push(row(
-                &subject.title,
-                planner,
-                played.iter().filter(|(entry, _)| own(entry)).map(|(_, play)| *play),
-            ));
-        }
-    }
-    if subjects.len() > 1 {
-        for planner in &args.planner {
-            let own = played.iter().filter(|(entry, _)| entry.planner == planner).map(|(_, play)| *play);
-            rows.push(row("all games", planner, own));
-        }
-    }
-    if let Some(path) = &args.csv {
-        std::fs::write(path, csv(&played)).map_err(|error| Failure::surroundings(error, path.display()))?;
-    }
-    console.document(&rows)?;
-    console.say(table(&rows).trim_end());
-    Ok(true)
+    Ok(subjects)
 }
 
 fn level(game: &Game, text: &Named) -> Result<Level, Failure> {
@@ -142,64 +172,146 @@ fn level(game: &Game, text: &Named) -> Result<Level, Failure> {
 }
 
 /// Seeds hang on game, level, planner and run only: adding a game or a planner changes no other episode.
-fn play_entry(args: &Args, entry: &Entry<'_>) -> Play {
-    let Entry { subject, level, run, .. } = *entry;
-    let chance = Seed::from_text(&args.seed)
+fn play_entry<'a>(args: &Args, entry: &Entry<'a>) -> Line<'a> {
+    let Entry { subject, level, planner, run } = *entry;
+    let seed = Seed::from_text(&args.seed)
         .child(&subject.game.digest().to_string(), 0)
         .child("level", level as u64)
         .child("run", run);
-    let own = chance.child(entry.planner, 0);
-    let mut planner = planner(entry.planner, own).expect("names were checked");
+    let mut player = planner.player(seed.child(planner.name(), 0));
+    let budget = budget(args, planner);
     let limits = Limits { ticks: args.max_ticks, ..Limits::default() };
-    play(
-        &subject.game,
-        &subject.levels[level],
-        planner.as_mut(),
-        Budget(args.budget),
-        chance.child("chance", 0),
-        limits,
-    )
-}
-
-fn row<'a>(game: &str, planner: &str, plays: impl Iterator<Item = &'a Play>) -> Row {
-    let plays: Vec<&Play> = plays.collect();
-    let ticks: Vec<f64> = plays.iter().map(|play| play.episode.actions.len() as f64).collect();
-    let rate = Rate::of(plays);
-    let all_ticks: f64 = ticks.iter().sum();
-    Row {
-        game: game.to_owned(),
-        planner: planner.to_owned(),
-        mean_ticks: Summary::of(&ticks).map_or(0.0, |summary| summary.mean),
-        calls_per_decision: rate.calls as f64 / all_ticks.max(1.0),
-        rate,
+    let started = Stopwatch::start();
+    let chance = seed.child("chance", 0);
+    let played = play(&subject.game, &subject.levels[level], &mut player, Budget(budget), chance, limits);
+    Line {
+        game: &subject.title,
+        planner: planner.name(),
+        budget,
+        level,
+        run,
+        outcome: match played.episode.outcome {
+            Outcome::Ongoing => "ongoing",
+            Outcome::Won => "won",
+            Outcome::Lost => "lost",
+            Outcome::Ended => "ended",
+            Outcome::Stopped(_) => "stopped",
+        },
+        score: played.episode.score,
+        ticks: played.episode.actions.len(),
+        calls: played.calls,
+        seconds: started.seconds(),
     }
 }
 
-fn table(rows: &[Row]) -> String {
-    let width = rows.iter().map(|row| row.game.len()).max().unwrap_or(0).max("game".len());
+fn budget(args: &Args, planner: &PlannerSpec) -> u64 {
+    planner.budget().map_or(args.budget, |Budget(calls)| calls)
+}
+
+/// Says how fast it went: for each planner, calls in a second of one thread.
+fn speeds(
+    console: &Console,
+    planners: &[PlannerSpec],
+    entries: &[Entry<'_>],
+    lines: &[Line<'_>],
+    seconds: f64,
+) {
+    let calls: u64 = lines.iter().map(|line| line.calls).sum();
+    let rate = calls as f64 / seconds;
+    console.remark(format_args!("{} episodes, {calls} forward-model calls, {rate:.0} calls/s", lines.len()));
+    for planner in planners.iter().filter(|_| planners.len() > 1) {
+        let own = entries.iter().zip(lines).filter(|(entry, _)| entry.planner == planner);
+        let (calls, seconds) =
+            own.fold((0, 0.0), |(calls, seconds), (_, line)| (calls + line.calls, seconds + line.seconds));
+        let rate = calls as f64 / seconds;
+        console.remark(format_args!("  {planner}: {calls} calls, {rate:.0} calls/s in a thread"));
+    }
+}
+
+fn rows<'a>(
+    args: &Args,
+    subjects: &'a [Subject],
+    planners: &'a [PlannerSpec],
+    entries: &[Entry<'a>],
+    lines: &[Line<'a>],
+) -> Vec<Row<'a>> {
+    let row = |subject: Option<&'a Subject>, level: Option<usize>, planner: &'a PlannerSpec| {
+        let own = entries.iter().zip(lines).filter(|(entry, _)| {
+            entry.planner == planner
+                && subject.is_none_or(|subject| std::ptr::eq(subject, entry.subject))
+                && level.is_none_or(|level| level == entry.level)
+        });
+        let lines: Vec<&Line<'_>> = own.map(|(_, line)| line).collect();
+        let count = |outcome| lines.iter().filter(|line| line.outcome == outcome).count() as u64;
+        let mean = |of: fn(&Line<'_>) -> f64| {
+            let values: Vec<f64> = lines.iter().map(|line| of(line)).collect();
+            Summary::of(&values).map_or(0.0, |summary| summary.mean)
+        };
+        let (plays, wins) = (lines.len() as u64, count("won"));
+        let interval = wilson(wins, plays, Z95);
+        let calls = lines.iter().map(|line| line.calls).sum();
+        let decisions: usize = lines.iter().map(|line| line.ticks).sum();
+        Row {
+            game: subject.map(|subject| subject.title.as_str()),
+            level,
+            planner: planner.name(),
+            budget: budget(args, planner),
+            plays,
+            wins,
+            losses: count("lost"),
+            interval: [interval.low, interval.high],
+            mean_score: mean(|line| line.score),
+            mean_ticks: mean(|line| line.ticks as f64),
+            calls,
+            calls_per_decision: calls as f64 / decisions.max(1) as f64,
+        }
+    };
+    let mut rows = Vec::new();
+    for subject in subjects {
+        for planner in planners {
+            if args.by_level {
+                rows.extend((0..subject.levels.len()).map(|level| row(Some(subject), Some(level), planner)));
+            }
+            rows.push(row(Some(subject), None, planner));
+        }
+    }
+    if subjects.len() > 1 {
+        rows.extend(planners.iter().map(|planner| row(None, None, planner)));
+    }
+    rows
+}
+
+fn table(rows: &[Row<'_>]) -> String {
+    let title = |row: &Row<'_>| match (row.game, row.level) {
+        (None, _) => "all games".to_owned(),
+        (Some(game), None) => game.to_owned(),
+        (Some(game), Some(level)) => format!("{game} lvl{level}"),
+    };
+    let widest =
+        |of: &dyn Fn(&Row<'_>) -> usize, least: usize| rows.iter().map(of).max().unwrap_or(0).max(least);
+    let width = widest(&|row| title(row).chars().count(), "game".len());
+    let planners = widest(&|row| row.planner.len(), "planner".len());
     let mut text = format!(
-        "{:<width$}  {:<10}  {:>9}  {:>12}  {:>8}  {:>7}\n",
-        "game", "planner", "won", "95 %", "score", "ticks"
+        "{:<width$}  {:<planners$}  {:>6}  {:>11}  {:>12}  {:>8}  {:>7}\n",
+        "game", "planner", "budget", "won", "95 %", "score", "ticks"
     );
-    for Row { game, planner, rate, mean_ticks, .. } in rows {
-        let Rate { wins, plays, interval: [low, high], mean_score, .. } = rate;
+    for row in rows {
+        let Row { planner, budget, plays, wins, interval: [low, high], mean_score, mean_ticks, .. } = row;
         let interval = format!("{:.0} to {:.0} %", 100.0 * low, 100.0 * high);
         let won = format!("{wins} of {plays}");
         let _ = writeln!(
             text,
-            "{game:<width$}  {planner:<10}  {won:>9}  {interval:>12}  {mean_score:>8.2}  {mean_ticks:>7.0}"
+            "{:<width$}  {planner:<planners$}  {budget:>6}  {won:>11}  {interval:>12}  {mean_score:>8.2}  {mean_ticks:>7.0}",
+            title(row),
         );
     }
     text
 }
 
-fn csv(played: &[(&Entry<'_>, &Play)]) -> String {
-    let mut text = String::from("game,planner,level,run,outcome,score,ticks,calls\n");
-    for (Entry { subject, level, planner, run }, Play { episode, calls }) in played {
-        let outcome = format!("{:?}", episode.outcome).to_lowercase();
-        let title = subject.title.replace([',', '"', '\n'], "_");
-        let (score, ticks) = (episode.score, episode.actions.len());
-        let _ = writeln!(text, "{title},{planner},{level},{run},{outcome},{score},{ticks},{calls}");
+fn write_csv(path: &Path, lines: &[Line<'_>]) -> Result<(), csv::Error> {
+    let mut file = csv::Writer::from_path(path)?;
+    for line in lines {
+        file.serialize(line)?;
     }
-    text
+    Ok(file.flush()?)
 }
