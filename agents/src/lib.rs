@@ -7,17 +7,21 @@
 mod batch;
 mod branches;
 mod do_nothing;
+mod features;
 mod heuristics;
 mod mcts;
 mod olets;
 mod one_step;
 mod planner;
 mod play;
+mod progress;
 mod random;
 mod random_search;
 mod registry;
 mod rhea;
+pub mod search;
 mod sequences;
+mod width;
 
 pub use batch::{Batch, BatchError};
 pub use do_nothing::DoNothing;
@@ -31,3 +35,4 @@ pub use random::Random;
 pub use random_search::{RandomSearch, RandomSearchConfig};
 pub use registry::{PLANNERS, PlannerSpec, Player, UnknownPlanner, planner};
 pub use rhea::{Rhea, RheaConfig};
+pub use width::{Width, WidthConfig};

@@ -2,7 +2,7 @@
 
 use crate::{
     Budget, DoNothing, Heuristic, Mcts, MctsConfig, Olets, OletsConfig, OneStep, OneStepConfig, Planner,
-    Random, RandomSearch, RandomSearchConfig, Rhea, RheaConfig,
+    Random, RandomSearch, RandomSearchConfig, Rhea, RheaConfig, Width, WidthConfig,
 };
 use engine::{Action, Game, Seed, State};
 use serde::{Deserialize, Serialize};
@@ -54,6 +54,7 @@ planners! {
     "random-search" RandomSearch(RandomSearch) |seed| RandomSearch::new(RandomSearchConfig::default(), seed);
     "rhea" Rhea(Rhea) |seed| Rhea::new(RheaConfig::default(), seed);
     "mcts" Mcts(Mcts) |seed| Mcts::new(MctsConfig::default(), seed);
+    "width" Width(Width) |seed| Width::new(WidthConfig::default(), seed);
     "olets" Olets(Olets) |seed| Olets::new(OletsConfig::default(), seed);
 }
 

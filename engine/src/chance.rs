@@ -6,7 +6,7 @@ const MASK: u64 = (1 << 48) - 1;
 
 /// Eight bytes of state; part of every [`State`](crate::State).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Chance(u64);
+pub struct Chance(pub(crate) u64);
 
 impl Chance {
     /// The generator that the reference makes from a seed, as traces record it.

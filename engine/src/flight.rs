@@ -20,7 +20,7 @@ use crate::step::Step;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Flight {
     pub(crate) slot: Slot,
-    due: i32,
+    pub(crate) due: i32,
 }
 
 /// Pixels that a sprite in flight moves in a tick at most, and that it is away from the board when it takes off: far from

@@ -414,6 +414,11 @@ impl Game {
         state.avatar_type().map_or(&[Action::Nil], |stype| self.0.types[stype.index()].actions)
     }
 
+    /// What the player can do, besides nothing, as an avatar of that type: sorted.
+    pub fn actions_of(&self, avatar: SpriteType) -> &'static [Action] {
+        self.0.types[avatar.index()].actions
+    }
+
     /// All sprite types, in registry order.
     pub fn sprite_types(&self) -> impl Iterator<Item = SpriteType> + use<> {
         (0..self.0.types.len() as u16).map(SpriteType)

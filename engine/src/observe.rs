@@ -158,6 +158,23 @@ impl Game {
 }
 
 impl State {
+    /// The rectangles of the sprites of a type, in pixels, in the order of their creation; those of disabled avatars
+    /// too. Cost: O(1) each.
+    pub fn rects(&self, stype: SpriteType) -> impl Iterator<Item = Rect> + '_ {
+        self.slots(stype).map(|slot| self.present(slot).rect)
+    }
+
+    /// How many sprites of a type are there, disabled avatars apart. Cost: O(1).
+    pub fn alive(&self, stype: SpriteType) -> usize {
+        let group = self.group(stype);
+        usize::from(group.count - group.disabled)
+    }
+
+    /// How many of a resource the avatar holds. Cost: O(log holdings).
+    pub fn amount_held(&self, resource: SpriteType) -> i32 {
+        self.amount(self.avatar, resource)
+    }
+
     /// Messages that the reference engine would have logged so far; more than 25 end a game.
     pub fn messages(&self) -> u32 {
         self.messages

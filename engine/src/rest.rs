@@ -39,11 +39,11 @@ const LARGEST: f64 = 4.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rest {
     pub(crate) slot: Slot,
-    pass: u16,
-    left: i16,
-    top: i16,
-    right: i16,
-    bottom: i16,
+    pub(crate) pass: u16,
+    pub(crate) left: i16,
+    pub(crate) top: i16,
+    pub(crate) right: i16,
+    pub(crate) bottom: i16,
 }
 
 impl Rest {

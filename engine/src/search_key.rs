@@ -1,7 +1,8 @@
 //! The key of a state's live behaviour: what transposition tables of planners use.
 
 use crate::SpriteClass;
-use crate::game::{Game, Rules, TypeInfo};
+use crate::analysis::Keying;
+use crate::game::{Game, Rules, SpriteType, TypeInfo};
 use crate::hash::{Mixer, SearchKey, bits, two};
 use crate::limits::MAX_TICKS;
 use crate::ontology::avatars::BLOCK_PAUSE;
@@ -9,6 +10,51 @@ use crate::state::{Extra, Replaced, Slot, Sprite, State, Target, flag, memory};
 
 /// Flags that a later step can read; all others say what the type says already, or where the sprite came from.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
+
+const TAG: u64 = 0x4B65_7900;
+
+/// Takes in what makes up a key.
+trait Absorb {
+    fn pair(&mut self, a: u64, b: u64);
+
+    /// Takes in what `words` says of each slot, so that their order makes no difference.
+    fn in_any_order(&mut self, slots: impl Iterator<Item = Slot>, words: impl Fn(Slot, &mut Self));
+}
+
+impl Absorb for Mixer {
+    fn pair(&mut self, a: u64, b: u64) {
+        self.pair(a, b);
+    }
+
+    fn in_any_order(&mut self, slots: impl Iterator<Item = Slot>, words: impl Fn(Slot, &mut Self)) {
+        let hash = |slot: Slot| {
+            let mut mixer = Mixer::new(TAG);
+            words(slot, &mut mixer);
+            mixer.finish()
+        };
+        let sum = slots.map(hash).fold(0, u128::wrapping_add);
+        self.pair(sum as u64, (sum >> 64) as u64);
+    }
+}
+
+/// The words themselves, in full.
+impl Absorb for Vec<u64> {
+    fn pair(&mut self, a: u64, b: u64) {
+        self.extend([a, b]);
+    }
+
+    fn in_any_order(&mut self, slots: impl Iterator<Item = Slot>, words: impl Fn(Slot, &mut Self)) {
+        let mut each: Vec<Vec<u64>> = slots
+            .map(|slot| {
+                let mut own = Vec::new();
+                words(slot, &mut own);
+                own
+            })
+            .collect();
+        each.sort_unstable();
+        self.extend(each.into_iter().flatten());
+    }
+}
 
 impl State {
     /// The hash of live behaviour only. For states of one game and level, equal keys mean equal keys, outcomes and gains of
@@ -19,42 +65,67 @@ impl State {
     /// tick only); chance unless something can draw; what is remembered and never read again. Ages count up to the cooldown, timers from now on, and
     /// sprites are told apart by their order, not by their ids. Cost: O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
-        let rules: &Rules = &game.0;
-        let mut mixer = Mixer::new(0x4B65_7900);
-        mixer.pair(self.outcome_code(), u64::from(self.messages) << 1 | u64::from(self.can_end));
+        let mut mixer = Mixer::new(TAG);
+        self.live_state(&game.0, None, &mut mixer);
+        SearchKey(mixer.finish())
+    }
+
+    /// The key of [`Keying::key`].
+    pub(crate) fn key_left_out(&self, rules: &Rules, keying: &Keying) -> SearchKey {
+        let mut mixer = Mixer::new(TAG);
+        self.live_state(rules, Some(keying), &mut mixer);
+        SearchKey(mixer.finish())
+    }
+
+    /// What that key is a hash of.
+    pub(crate) fn words_left_out(&self, rules: &Rules, keying: &Keying) -> Vec<u64> {
+        let mut words = Vec::new();
+        self.live_state(rules, Some(keying), &mut words);
+        words
+    }
+
+    fn live_state(&self, rules: &Rules, keying: Option<&Keying>, to: &mut impl Absorb) {
+        to.pair(self.outcome_code(), u64::from(self.messages) << 1 | u64::from(self.can_end));
         if self.is_over() {
-            return SearchKey(mixer.finish());
+            return;
         }
-        mixer.pair(if rules.reads_tick { self.tick as u64 } else { 0 }, self.population as u64);
+        let reads_tick = keying.map_or(rules.reads_tick, |keying| keying.tick);
+        to.pair(if reads_tick { self.tick as u64 } else { 0 }, self.population as u64);
         if rules.reads_score {
-            mixer.pair(2, self.score as u64);
+            to.pair(2, self.score as u64);
         }
         for &counter in self.counters.iter().filter(|_| rules.reads_counters) {
-            mixer.pair(3, counter as u64);
+            to.pair(3, counter as u64);
         }
-        for &clock in &rules.clocks {
-            mixer.pair(clock as u64, self.tick.rem_euclid(clock) as u64);
+        for &clock in keying.map_or(&rules.clocks, |keying| &keying.clocks) {
+            to.pair(clock as u64, self.tick.rem_euclid(clock) as u64);
         }
-        for &first in &rules.wizard_ticks {
-            mixer.pair(1, self.wait(first));
+        for &first in keying.map_or(&rules.wizard_ticks, |keying| &keying.wizard_ticks) {
+            to.pair(1, self.wait(first));
         }
-        if rules.draws {
-            mixer.pair(self.chance.state(), self.jumps.state());
+        if keying.map_or(rules.draws, |keying| keying.chance) {
+            to.pair(self.chance.state(), self.jumps.state());
         }
-        mixer.pair(self.rank(self.avatar), self.timers.len() as u64);
+        to.pair(self.rank(self.avatar), self.timers.len() as u64);
         for timer in &self.timers {
-            mixer.pair(u64::from(timer.timed), timer.due.saturating_sub(self.tick) as u64);
+            to.pair(u64::from(timer.timed), timer.due.saturating_sub(self.tick) as u64);
         }
-        for stype in game.sprite_types() {
-            if self.group(stype).count > 0 {
-                mixer.pair(u64::from(stype.0), u64::from(self.group(stype).count));
+        for (stype, group) in (0u16..).map(SpriteType).zip(&self.groups) {
+            let is = |left_out: fn(&Keying) -> &[bool]| keying.is_some_and(|k| left_out(k)[stype.index()]);
+            if group.count == 0 || is(|keying| &keying.constant) {
+                continue;
             }
-            for slot in self.slots(stype) {
-                self.live_words(rules, slot, &mut mixer);
+            to.pair(u64::from(stype.0), u64::from(group.count));
+            let faceless = is(|keying| &keying.faceless);
+            if group.count > 1 && is(|keying| &keying.alike) {
+                to.in_any_order(self.slots(stype), |slot, to| self.live_words(rules, slot, faceless, to));
+            } else {
+                for slot in self.slots(stype) {
+                    self.live_words(rules, slot, faceless, to);
+                }
             }
         }
-        self.remembered_words(rules, &mut mixer);
-        SearchKey(mixer.finish())
+        self.remembered_words(rules, to);
     }
 
     /// A sprite by its type and its place among those of its type.
@@ -64,34 +135,36 @@ impl State {
         u64::from(sprite.stype.0) << 32 | place.map_or(u64::from(u32::MAX), |place| place as u64)
     }
 
-    fn live_words(&self, rules: &Rules, slot: Slot, mixer: &mut Mixer) {
+    fn live_words(&self, rules: &Rules, slot: Slot, faceless: bool, to: &mut impl Absorb) {
         let sprite = &self.present(slot);
         let info = &rules.types[sprite.stype.index()];
         let extra = self.extras.get(usize::from(sprite.extra));
         let held = self.held_by(slot).iter().filter(|held| held.amount != 0);
         // What follows for this sprite is told apart by this word.
         let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
-        mixer.pair(two((sprite.flags & LIVE) as i32, follows), two(sprite.health, sprite.max_health));
-        mixer.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
-        mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
-        mixer.pair(bits(sprite.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));
-        mixer.pair(
+        to.pair(two((sprite.flags & LIVE) as i32, follows), two(sprite.health, sprite.max_health));
+        to.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
+        if !faceless || sprite.is(flag::ORIENTED) {
+            to.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
+        }
+        to.pair(bits(sprite.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));
+        to.pair(
             two(sprite.count, i32::from(sprite.heading)),
             two(sprite.time_to_live, i32::from(sprite.spawns.0)),
         );
         if sprite.is(flag::FROZEN) {
             // All others forget their last rectangle at the start of the next step.
-            mixer.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
+            to.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
         }
         for held in held {
-            mixer.pair(u64::from(held.resource.0), held.amount as u64);
+            to.pair(u64::from(held.resource.0), held.amount as u64);
         }
         let is_other = |one: &&Replaced| one.stype != info.traits.stypes[usize::from(one.place)];
         for one in self.replaced_by(slot).iter().filter(is_other) {
-            mixer.pair(u64::from(one.place) | 1 << 32, u64::from(one.stype.0));
+            to.pair(u64::from(one.place) | 1 << 32, u64::from(one.stype.0));
         }
         if let Some(extra) = extra {
-            self.extra_words(extra, info, mixer);
+            self.extra_words(extra, info, to);
         }
     }
 
@@ -124,9 +197,9 @@ impl State {
         (i64::from(until) - i64::from(self.tick)).max(1) as u64
     }
 
-    fn extra_words(&self, extra: &Extra, info: &TypeInfo, mixer: &mut Mixer) {
-        mixer.pair(bits(extra.rotation), bits(extra.gravity));
-        mixer.pair(bits(extra.facing.x), bits(extra.facing.y));
+    fn extra_words(&self, extra: &Extra, info: &TypeInfo, to: &mut impl Absorb) {
+        to.pair(bits(extra.rotation), bits(extra.gravity));
+        to.pair(bits(extra.facing.x), bits(extra.facing.y));
         let makes_blocks = info.class == Some(SpriteClass::WizardAvatar);
         let wait = if makes_blocks { self.wait(extra.block_time.wrapping_add(BLOCK_PAUSE)) } else { 0 };
         let (kind, target) = match extra.target {
@@ -135,22 +208,22 @@ impl State {
             Target::Gone(rect) => (2, (two(rect.x, rect.y), two(rect.w, rect.h))),
         };
         let known = extra.last_known.map_or(0, |_| 4);
-        mixer.pair(wait, kind | known);
-        mixer.pair(target.0, target.1);
+        to.pair(wait, kind | known);
+        to.pair(target.0, target.1);
         let (x, y) = extra.last_known.unwrap_or_default();
-        mixer.pair(two(x, y), 0);
+        to.pair(two(x, y), 0);
     }
 
     /// What effects remember and read before they write it, and which types' next sprite is their first, where that makes a
     /// difference.
-    fn remembered_words(&self, rules: &Rules, mixer: &mut Mixer) {
+    fn remembered_words(&self, rules: &Rules, to: &mut impl Absorb) {
         let credits = memory::APPLY_SCORE | memory::NO_COUNT | memory::NO_COUNT_ELSE;
         for &effect in &rules.remembering {
-            mixer.pair(u64::from(effect), u64::from(self.memory[usize::from(effect)] & credits));
+            to.pair(u64::from(effect), u64::from(self.memory[usize::from(effect)] & credits));
         }
         for (stype, info) in rules.types.iter().enumerate() {
             if info.first_differs && self.templates[stype] != 0 {
-                mixer.pair(stype as u64, 2);
+                to.pair(stype as u64, 2);
             }
         }
     }

@@ -120,7 +120,7 @@ impl Sprite {
 /// one for each slot, so it has no gaps, which a `u128` would bring.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Share {
-    halves: [u64; 2],
+    pub(crate) halves: [u64; 2],
     pub(crate) still: u64,
 }
 

@@ -4,10 +4,12 @@
 //! turns, makes and pushes; resources and how many are needed; and one [`Role`] for every type. A rule that names a
 //! parent holds for all its subtypes; every answer here is already spelled out for them.
 
+mod alike;
 mod attain;
 mod encounter;
 mod facts;
 mod goal;
+mod keying;
 mod lock;
 mod marks;
 mod outlook;
@@ -24,6 +26,7 @@ pub use attain::Attainable;
 pub use encounter::{Deed, Encounter, Provided, Side};
 pub use facts::{Avatar, Facts, Motion, Steering};
 pub use goal::{Aims, Condition, Goal};
+pub use keying::Keying;
 pub use lock::{Fate, Key, Lock, Pushable, Resource, Sink};
 pub use pairs::MAX_RULES_PER_PAIR;
 pub use reach::{Cause, Hindrance, Reach};
@@ -270,6 +273,23 @@ impl Analysis {
     /// Whether nothing draws from the chance; see also [`Analysis::chance_decides`].
     pub fn is_deterministic(&self) -> bool {
         self.game.is_deterministic()
+    }
+
+    /// Whether anything is planned to happen by the clock, from the start or after some interaction.
+    pub fn has_clockwork(&self) -> bool {
+        !self.game.0.timed.is_empty()
+    }
+
+    /// Whether sprites of an avatar type go from cell to cell by the arrow keys: four ways or along a line, with grid
+    /// physics, a whole cell a step.
+    pub fn steps_by_cells(&self, avatar: SpriteType) -> bool {
+        let traits = &self.game.0.types[avatar.index()].traits;
+        let steering = self.avatars.iter().find(|known| known.stype == avatar).map(|known| known.steering);
+        let steps = matches!(
+            steering,
+            Some(Steering::FourWay | Steering::Horizontal | Steering::Vertical | Steering::Fixed)
+        );
+        steps && !traits.continuous && (traits.speed <= 0.0 || traits.speed == 1.0)
     }
 
     /// Whether nothing moves unless the player acts: what the player's own shots do apart.

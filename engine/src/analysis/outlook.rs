@@ -44,7 +44,7 @@ impl Analysis {
     }
 
     /// What can still come from a state on.
-    fn prospect(&self, state: &State) -> Prospect<'_> {
+    pub(super) fn prospect(&self, state: &State) -> Prospect<'_> {
         let rules = &*self.game.0;
         let there: Vec<SpriteType> =
             self.game.sprite_types().filter(|&stype| state.group(stype).count > 0).collect();

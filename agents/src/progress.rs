@@ -1,0 +1,29 @@
+//! How far a state is from being won.
+
+use engine::State;
+use engine::analysis::{Analysis, Attainable, Condition, Goal};
+
+/// The goals that win, and how far they are.
+#[derive(Clone, Debug)]
+pub(crate) struct Progress<'a> {
+    analysis: &'a Analysis,
+    goals: Vec<&'a Goal>,
+}
+
+impl<'a> Progress<'a> {
+    pub(crate) fn of(analysis: &'a Analysis) -> Progress<'a> {
+        let winning = analysis.goals().iter().filter(|goal| goal.win && goal.attainable != Attainable::Never);
+        Progress { analysis, goals: winning.collect() }
+    }
+
+    /// The sprites that must go or come until the nearest goal of that kind is met; 0 if there is none.
+    pub(crate) fn sprites_missing(&self, state: &State) -> u32 {
+        let counted = self.goals.iter().filter(|goal| !matches!(goal.condition, Condition::Tick(_)));
+        counted.map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(0)
+    }
+
+    /// The sprites that must go or come, or the ticks that must pass, until the nearest goal is met.
+    pub(crate) fn missing(&self, state: &State) -> u32 {
+        self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(u32::MAX)
+    }
+}

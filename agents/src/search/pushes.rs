@@ -1,0 +1,309 @@
+//! How many pushes a state needs at least before it can be won; none will do for a box in a corner.
+
+use engine::analysis::{Analysis, Condition, Deed, Encounter, Motion, Provided, Reach, Side};
+use engine::{Level, Seed, SpriteType, State};
+use smallvec::SmallVec;
+
+/// The pushes that pushed things need, in one level.
+///
+/// For every type that moves only by being pushed, and every cell, the least number of pushes is found after which a rule
+/// may end the sprite, or turn it into something that need not go: the distances and the "simple deadlocks" of Sokoban
+/// solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing general single-agent search methods using domain
+/// knowledge"), derived from the rules. Each sprite is taken as if it were alone on the board and everything else as helpful
+/// as [`Reach`] allows, so no state needs fewer pushes than are counted, and what is called dead is dead.
+#[derive(Clone, Debug, Default)]
+pub struct Pushes {
+    columns: i32,
+    /// By goal that wins: none if something else than pushes can decide it.
+    needs: Vec<Need>,
+}
+
+/// A goal that needs sprites to go.
+#[derive(Clone, Debug)]
+struct Need {
+    /// How many may be left.
+    limit: usize,
+    /// The types that count, each with the pushes that it needs, by cell.
+    pushes: Vec<(SpriteType, Vec<u16>)>,
+}
+
+/// No number of pushes helps.
+const NEVER: u16 = u16::MAX;
+
+impl Pushes {
+    /// Finds them. Cost: that of [`Analysis::reach`], and O(types × interactions × cells).
+    pub fn of(analysis: &Analysis, level: &Level) -> Pushes {
+        find(analysis, level).unwrap_or_default()
+    }
+
+    /// How many pushes a state of that level needs at least, and thereby ticks; 0 if nothing is known. None: it cannot be
+    /// won any more. Cost: O(sprites that must go).
+    pub fn least(&self, state: &State) -> Option<u32> {
+        if self.needs.is_empty() {
+            return Some(0);
+        }
+        self.needs.iter().filter_map(|need| need.least(self.columns, state)).min()
+    }
+}
+
+impl Need {
+    fn least(&self, columns: i32, state: &State) -> Option<u32> {
+        let block = state.block();
+        let mut needed: SmallVec<[u16; 32]> = SmallVec::new();
+        for (stype, pushes) in &self.pushes {
+            for rect in state.rects(*stype) {
+                // Between cells nothing is known.
+                let is_aligned = rect.x % block == 0 && rect.y % block == 0;
+                let cell = (rect.y / block).wrapping_mul(columns).wrapping_add(rect.x / block);
+                needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
+            }
+        }
+        // Those that need most may be the ones that are left.
+        if self.limit > 0 {
+            needed.sort_unstable();
+            needed.truncate(needed.len().saturating_sub(self.limit));
+        }
+        let is_lost = needed.contains(&NEVER);
+        (!is_lost).then(|| needed.iter().map(|&pushes| u32::from(pushes)).sum())
+    }
+}
+
+/// None: what the rules are cannot be followed, so nothing is certain.
+fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
+    let game = analysis.game();
+    if analysis.pushables().is_empty() || analysis.has_clockwork() || !steps_are_whole(analysis) {
+        return None;
+    }
+    let reach = analysis.reach(level);
+    if reach.is_coarse() {
+        return None;
+    }
+    let keying = analysis.keying(&game.start(level, Seed::from_text("pushes")));
+    let still = game.sprite_types().filter(|&stype| keying.is_constant(stype)).collect();
+    let board = Board { analysis, level, reach: &reach, still, columns: level.columns(), rows: level.rows() };
+    let pushed: Vec<SpriteType> = analysis.pushables().iter().map(|pushable| pushable.stype).collect();
+    let is_tame: Vec<bool> =
+        game.sprite_types().map(|stype| pushed.contains(&stype) && board.only_pushed(stype)).collect();
+    let winning = analysis.goals().iter().filter(|goal| goal.win);
+    let needs: Option<Vec<Need>> = winning
+        .map(|goal| {
+            let (types, limit) = match &goal.condition {
+                Condition::AtMost(types, limit) => (types, *limit),
+                Condition::Exactly(types, 0) => (types, 0),
+                _ => return None,
+            };
+            let tame = types.iter().filter(|stype| is_tame[stype.index()]);
+            let pushes: Vec<_> =
+                tame.clone().map(|&stype| (stype, board.pushes(stype, types, &is_tame))).collect();
+            let some = pushes.iter().any(|(_, cells)| cells.iter().any(|&pushes| pushes > 0));
+            some.then_some(Need { limit: usize::try_from(limit).ok()?, pushes })
+        })
+        .collect();
+    Some(Pushes { columns: level.columns() as i32, needs: needs? })
+}
+
+/// Whether all avatars go by whole cells, face where they go, and are moved by nothing else.
+fn steps_are_whole(analysis: &Analysis) -> bool {
+    let displaces = |deed: &Deed| {
+        matches!(deed, Deed::Turn | Deed::Push | Deed::Carry | Deed::Teleport | Deed::Wrap | Deed::Speed(_))
+    };
+    analysis.avatars().iter().all(|avatar| analysis.steps_by_cells(avatar.stype))
+        && !analysis.encounters().iter().any(|encounter| {
+            let of_avatar =
+                analysis.avatars().iter().any(|avatar| analysis.applies(encounter.first, avatar.stype));
+            encounter.does(|deed| matches!(deed, Deed::Speed(_))) || (of_avatar && encounter.does(displaces))
+        })
+}
+
+struct Board<'a> {
+    analysis: &'a Analysis,
+    level: &'a Level,
+    reach: &'a Reach,
+    /// The types that are where the level places them, always.
+    still: Vec<SpriteType>,
+    columns: usize,
+    rows: usize,
+}
+
+impl Board<'_> {
+    /// The rules that a sprite of the type takes part in, with its side and the rule's place in the tick.
+    fn rules_of(&self, stype: SpriteType) -> impl Iterator<Item = (usize, Side, &Encounter)> {
+        let analysis = self.analysis;
+        analysis.encounters().iter().enumerate().flat_map(move |(at, encounter)| {
+            let first = analysis.applies(encounter.first, stype).then_some((at, Side::First, encounter));
+            let second = encounter.second.filter(|&second| analysis.applies(second, stype));
+            first.into_iter().chain(second.map(|_| (at, Side::Second, encounter)))
+        })
+    }
+
+    /// The place in the tick of the first rule by which something that always lies in the cell throws a sprite of the
+    /// type back: none if it may be pushed there later in the tick.
+    fn thrown_back(&self, stype: SpriteType, cell: usize) -> Option<usize> {
+        let here = self.analysis.game().places(self.level.cells()[cell]);
+        let throws = |side: Side, rule: &Encounter| {
+            let partner = match side {
+                Side::First => rule.second,
+                Side::Second => Some(rule.first),
+            };
+            let always = |&there: &SpriteType| {
+                self.still.contains(&there)
+                    && partner.is_some_and(|partner| self.analysis.applies(partner, there))
+            };
+            let back = |deed: &Deed| match deed {
+                Deed::Stop => side == Side::First,
+                Deed::Undo(spare) => !spare.contains(&stype),
+                _ => false,
+            };
+            rule.provided == Provided::Always && rule.does(back) && here.iter().any(always)
+        };
+        let last_push = self
+            .rules_of(stype)
+            .filter(|(_, side, rule)| *side == Side::First && rule.does(|deed| *deed == Deed::Push))
+            .map(|(at, ..)| at)
+            .max();
+        let back = self.rules_of(stype).find(|(_, side, rule)| throws(*side, rule)).map(|(at, ..)| at);
+        back.filter(|&back| last_push.is_none_or(|push| push < back))
+    }
+
+    /// Whether nothing but pushes moves sprites of the type.
+    fn only_pushed(&self, stype: SpriteType) -> bool {
+        let moves = |deed: &Deed| matches!(deed, Deed::Carry | Deed::Teleport | Deed::Wrap | Deed::Speed(_));
+        self.analysis.facts(stype).motion == Motion::Still
+            && self.analysis.facts(stype).makes.is_empty()
+            && !self.analysis.facts(stype).fleeting
+            && !self.rules_of(stype).any(|(_, side, rule)| side == Side::First && rule.does(moves))
+    }
+
+    /// Whether it may be pushed by something else than an avatar, which could stand anywhere.
+    fn is_pushed_by_others(&self, stype: SpriteType) -> bool {
+        let avatars = self.analysis.avatars();
+        self.rules_of(stype).any(|(_, side, rule)| {
+            side == Side::First
+                && rule.does(|deed| matches!(deed, Deed::Push))
+                && !rule.second.is_some_and(|second| {
+                    let tree = self.analysis.game().sprite_types();
+                    let mut tree = tree.filter(|&other| self.analysis.applies(second, other));
+                    tree.all(|other| {
+                        avatars.iter().any(|avatar| avatar.stype == other)
+                            || !self.analysis.facts(other).possible
+                    })
+                })
+        })
+    }
+
+    /// Whether a rule's partner of that side, or the edge, may be met in a cell.
+    fn may_be_met(&self, rule: &Encounter, side: Side, cell: usize) -> bool {
+        let partner = match side {
+            Side::First => rule.first,
+            Side::Second => match rule.second {
+                Some(second) => second,
+                None => return true,
+            },
+        };
+        let types = self.analysis.game().sprite_types();
+        types
+            .filter(|&other| self.analysis.applies(partner, other))
+            .any(|other| self.reach.can_touch(other, cell))
+    }
+
+    /// What may become of a sprite of the type in a cell: gone (None), or another type. What throws it back leaves it to
+    /// the rules before.
+    fn fates(&self, stype: SpriteType, cell: usize) -> Vec<Option<SpriteType>> {
+        let mut fates = Vec::new();
+        let before = self.thrown_back(stype, cell).unwrap_or(usize::MAX);
+        for (_, side, rule) in self.rules_of(stype).filter(|(at, ..)| *at < before) {
+            let other = match side {
+                Side::First => Side::Second,
+                Side::Second => Side::First,
+            };
+            if !self.may_be_met(rule, other, cell) {
+                continue;
+            }
+            for deed in &rule.deeds {
+                match deed {
+                    Deed::Kill(who) if *who == side => fates.push(None),
+                    Deed::Health { of: None, .. } if side == Side::First => fates.push(None),
+                    Deed::Become(to) if side == Side::First => fates.push(Some(*to)),
+                    Deed::BecomeAny(options) if side == Side::First => {
+                        fates.extend(options.iter().map(|to| Some(*to)));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        for rule in self.analysis.encounters() {
+            for deed in &rule.deeds {
+                match deed {
+                    Deed::KillAll(of) | Deed::Health { of: Some(of), .. }
+                        if self.analysis.applies(*of, stype) =>
+                    {
+                        fates.push(None);
+                    }
+                    Deed::BecomeAll(of, to) if self.analysis.applies(*of, stype) => fates.push(Some(*to)),
+                    _ => {}
+                }
+            }
+        }
+        fates
+    }
+
+    fn neighbour(&self, cell: usize, (dx, dy): (i32, i32)) -> Option<usize> {
+        let (column, row) = ((cell % self.columns) as i32 + dx, (cell / self.columns) as i32 + dy);
+        let inside = (0..self.columns as i32).contains(&column) && (0..self.rows as i32).contains(&row);
+        inside.then(|| row as usize * self.columns + column as usize)
+    }
+
+    /// By cell: the pushes that a sprite of the type needs to become none of the types that count. A fixed point from the
+    /// places where it may end, backwards.
+    fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
+        let cells = self.columns * self.rows;
+        // The types that it may turn into and still count, by place.
+        let mut kinds = vec![stype];
+        // By kind, then by cell.
+        let mut fates: Vec<Vec<Vec<Option<SpriteType>>>> = Vec::new();
+        while let Some(&kind) = kinds.get(fates.len()) {
+            let of_kind: Vec<_> = (0..cells).map(|cell| self.fates(kind, cell)).collect();
+            for &fate in of_kind.iter().flatten().flatten() {
+                if counted.contains(&fate) && tame[fate.index()] && !kinds.contains(&fate) {
+                    kinds.push(fate);
+                }
+            }
+            fates.push(of_kind);
+        }
+        let by_others: Vec<bool> = kinds.iter().map(|&kind| self.is_pushed_by_others(kind)).collect();
+        let mut pushes: Vec<Vec<u16>> = vec![vec![NEVER; cells]; kinds.len()];
+        loop {
+            let mut changed = false;
+            for (at, &kind) in kinds.iter().enumerate() {
+                for cell in (0..cells).filter(|&cell| self.reach.can_touch(kind, cell)) {
+                    let ends = fates[at][cell].iter().map(|fate| match *fate {
+                        None => 0,
+                        Some(to) => kinds.iter().position(|&k| k == to).map_or(0, |to| pushes[to][cell]),
+                    });
+                    // From where it is only thrown back from, it is not pushed on.
+                    let rests = self.reach.can_be(kind, cell) && self.thrown_back(kind, cell).is_none();
+                    let pushed = |(dx, dy): (i32, i32)| {
+                        // Beyond the edge anything may happen.
+                        let Some(there) = self.neighbour(cell, (dx, dy)) else { return 0 };
+                        let behind = self.neighbour(cell, (-dx, -dy));
+                        if by_others[at] {
+                            // Many may be pushed in a tick.
+                            pushes[at][there]
+                        } else if behind.is_none_or(|cell| self.reach.avatar_reaches(cell)) {
+                            pushes[at][there].saturating_add(1)
+                        } else {
+                            NEVER
+                        }
+                    };
+                    let ways = [(0, -1), (-1, 0), (0, 1), (1, 0)].into_iter().filter(|_| rests);
+                    let least = ends.chain(ways.map(pushed)).min().unwrap_or(NEVER);
+                    changed |= least < pushes[at][cell];
+                    pushes[at][cell] = least.min(pushes[at][cell]);
+                }
+            }
+            if !changed {
+                return pushes.swap_remove(0);
+            }
+        }
+    }
+}

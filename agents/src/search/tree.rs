@@ -1,0 +1,258 @@
+//! What systematic searches share: the states met so far, how each was come to, and how successors are made.
+
+use super::{Answer, Pushes, SearchLimits, Searched};
+use arrayvec::ArrayVec;
+use engine::analysis::{Analysis, Keying};
+use engine::{Action, Outcome, Packed, SearchKey, State};
+use std::hash::{BuildHasherDefault, Hasher};
+use std::rc::Rc;
+
+/// A node, by its number.
+pub(super) type NodeId = u32;
+/// The node of the start.
+pub(super) const ROOT: NodeId = 0;
+
+/// How a state was come to.
+#[derive(Clone, Copy)]
+struct Node {
+    parent: NodeId,
+    depth: u32,
+    action: Action,
+    expanded: bool,
+}
+
+/// Keys are hashes already.
+#[derive(Default)]
+struct KeyHasher(u64);
+
+impl Hasher for KeyHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for (at, byte) in bytes.iter().enumerate() {
+            self.0 ^= u64::from(*byte) << (at % 8 * 8);
+        }
+    }
+
+    fn write_u128(&mut self, key: u128) {
+        self.0 = key as u64;
+    }
+}
+
+/// The node of each state that was met.
+#[expect(clippy::disallowed_types, reason = "asked for keys, never iterated")]
+type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
+
+/// Steps that are played again to come back to a state, at most: seldom dearer than to keep it whole.
+const REPLAYED: usize = 7;
+
+/// An open state: a state that is kept whole, and the few actions that lead on from it.
+pub(super) struct Kept {
+    whole: Rc<Packed>,
+    steps: ArrayVec<Action, REPLAYED>,
+}
+
+/// The tree of a search.
+pub(super) struct Tree<'a> {
+    analysis: &'a Analysis,
+    keying: Keying,
+    pushes: &'a Pushes,
+    /// What states are packed against.
+    base: State,
+    nodes: Vec<Node>,
+    met: Met,
+    actions: Vec<Action>,
+    limits: SearchLimits,
+    calls: u64,
+    /// Bytes of the packed states that are kept.
+    packed: usize,
+    /// That a state and its successors are made in.
+    buffers: Option<(State, State)>,
+}
+
+/// What became of an expansion.
+pub(super) enum Expanded {
+    /// Its new successors have been handed out.
+    On,
+    /// A successor wins.
+    Won(NodeId),
+    /// The calls are spent.
+    OutOfCalls,
+    /// The memory is full.
+    OutOfMemory,
+}
+
+impl<'a> Tree<'a> {
+    pub(super) fn new(
+        analysis: &'a Analysis,
+        pushes: &'a Pushes,
+        start: &State,
+        limits: SearchLimits,
+    ) -> Tree<'a> {
+        let game = analysis.game();
+        let keying = analysis.keying(start);
+        // All that some avatar can do, and waiting.
+        let mut actions = vec![Action::Nil];
+        for avatar in analysis.avatars() {
+            actions.extend(game.actions_of(avatar.stype));
+        }
+        actions.sort_unstable();
+        actions.dedup();
+        let met = Met::from_iter([(keying.key(analysis, start), ROOT)]);
+        Tree {
+            analysis,
+            pushes,
+            keying,
+            base: start.clone(),
+            nodes: vec![Node { parent: ROOT, depth: 0, action: Action::Nil, expanded: false }],
+            met,
+            actions,
+            limits,
+            calls: 0,
+            packed: 0,
+            buffers: Some((start.clone(), start.clone())),
+        }
+    }
+
+    pub(super) fn keying(&self) -> &Keying {
+        &self.keying
+    }
+
+    pub(super) fn root(&mut self) -> Kept {
+        let base = self.base.clone();
+        self.keep(&base)
+    }
+
+    fn keep(&mut self, state: &State) -> Kept {
+        let packed = state.pack(&self.base);
+        self.packed += packed.size_in_bytes();
+        Kept { whole: Rc::new(packed), steps: ArrayVec::new() }
+    }
+
+    /// Makes all successors of a state, hands the new ones that are not over and no dead ends to `open`, and forgets the
+    /// state.
+    pub(super) fn expand(
+        &mut self,
+        node: NodeId,
+        kept: &Kept,
+        open: &mut impl FnMut(&Tree<'_>, NodeId, &State, u32, Kept),
+    ) -> Expanded {
+        if std::mem::replace(&mut self.nodes[node as usize].expanded, true) {
+            self.forget(kept);
+            return Expanded::On;
+        }
+        let (mut parent, mut child) = self.buffers.take().expect("given back below");
+        parent.unpack_from(&kept.whole, &self.base);
+        for &action in &kept.steps {
+            self.analysis.game().step(&mut parent, action);
+        }
+        let expanded = self.successors(node, kept, &parent, &mut child, open);
+        self.buffers = Some((parent, child));
+        self.forget(kept);
+        expanded
+    }
+
+    fn forget(&mut self, kept: &Kept) {
+        if Rc::strong_count(&kept.whole) == 1 {
+            self.packed -= kept.whole.size_in_bytes();
+        }
+    }
+
+    fn successors(
+        &mut self,
+        node: NodeId,
+        kept: &Kept,
+        parent: &State,
+        child: &mut State,
+        open: &mut impl FnMut(&Tree<'_>, NodeId, &State, u32, Kept),
+    ) -> Expanded {
+        let game = self.analysis.game();
+        let possible = game.actions(parent);
+        for at in 0..self.actions.len() {
+            let action = self.actions[at];
+            if action != Action::Nil && !possible.contains(&action) {
+                continue;
+            }
+            if self.calls >= self.limits.calls {
+                return Expanded::OutOfCalls;
+            }
+            child.clone_from(parent);
+            let outcome = game.step(child, action);
+            self.calls += 1;
+            match outcome {
+                Outcome::Won => return Expanded::Won(self.add(node, action)),
+                Outcome::Ongoing => {}
+                Outcome::Lost | Outcome::Ended | Outcome::Stopped(_) => continue,
+            }
+            let next = self.nodes.len() as NodeId;
+            let id = *self.met.entry(self.keying.key(self.analysis, child)).or_insert(next);
+            if id == next {
+                self.add(node, action);
+            } else if !self.shorten(id, node, action) {
+                continue;
+            }
+            let Some(least) = self.pushes.least(child) else { continue };
+            let mut steps = kept.steps.clone();
+            let kept = match steps.try_push(action) {
+                Ok(()) => Kept { whole: kept.whole.clone(), steps },
+                Err(_) => self.keep(child),
+            };
+            open(self, id, child, least, kept);
+            if self.bytes() > self.limits.bytes || id == NodeId::MAX {
+                return Expanded::OutOfMemory;
+            }
+        }
+        Expanded::On
+    }
+
+    fn add(&mut self, parent: NodeId, action: Action) -> NodeId {
+        let depth = self.depth(parent) + 1;
+        self.nodes.push(Node { parent, depth, action, expanded: false });
+        (self.nodes.len() - 1) as NodeId
+    }
+
+    /// Whether this is a shorter way to a node than the one known; it is taken then.
+    fn shorten(&mut self, node: NodeId, parent: NodeId, action: Action) -> bool {
+        let depth = self.depth(parent) + 1;
+        let known = &mut self.nodes[node as usize];
+        let is_shorter = depth < known.depth && !known.expanded;
+        if is_shorter {
+            (known.parent, known.action, known.depth) = (parent, action, depth);
+        }
+        is_shorter
+    }
+
+    /// The ticks that the shortest known way to a node takes.
+    pub(super) fn depth(&self, node: NodeId) -> u32 {
+        self.nodes[node as usize].depth
+    }
+
+    /// Bytes in use; an estimate, but not one of the clock or the allocator.
+    fn bytes(&self) -> usize {
+        // A table of keys is at least 7/16 full and has a byte of its own for each place; queues hold the packed states.
+        let keys = self.met.len() * (size_of::<(SearchKey, NodeId)>() + 1) * 16 / 7;
+        keys + self.nodes.len() * (size_of::<Node>() + size_of::<Kept>()) + self.packed
+    }
+
+    /// The actions that lead from the start to a node.
+    fn way(&self, mut node: NodeId) -> Vec<Action> {
+        let mut actions = Vec::new();
+        while node != ROOT {
+            let Node { parent, action, .. } = self.nodes[node as usize];
+            actions.push(action);
+            node = parent;
+        }
+        actions.reverse();
+        actions
+    }
+
+    pub(super) fn won(&self, node: NodeId, shortest: bool) -> Searched {
+        self.answer(Answer::Won { actions: self.way(node), shortest })
+    }
+
+    pub(super) fn answer(&self, answer: Answer) -> Searched {
+        Searched { answer, calls: self.calls, states: self.met.len() as u64 }
+    }
+}

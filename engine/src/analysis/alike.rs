@@ -1,0 +1,206 @@
+//! What the rules cannot tell of sprites of one type: which is which, and where they face.
+
+use super::Analysis;
+use super::encounter::{Deed, Encounter};
+use super::facts::Motion;
+use super::keying::changes_afar;
+use crate::game::{EffectInfo, Rules, SpriteType, TypeInfo};
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::Effect;
+
+impl Analysis {
+    /// By type: exchanging two of its sprites changes nothing but which is which.
+    ///
+    /// Their updates concern each by itself, nobody looks for the nearest of them, and every rule that they take part in
+    /// does the same whichever it comes to first.
+    pub(super) fn alike(&self) -> Vec<bool> {
+        let rules = &*self.game.0;
+        let types = rules.types.len();
+        if rules.reads_score || rules.reads_counters {
+            return vec![false; types];
+        }
+        let mut alike: Vec<bool> = rules.types.iter().map(is_by_itself).collect();
+        for (info, facts) in rules.types.iter().zip(&self.facts) {
+            for named in info.traits.stypes.iter().filter(|named| !facts.makes.contains(named)) {
+                let Some(named) = rules.types.get(named.index()) else { continue };
+                for stype in &named.tree {
+                    alike[stype.index()] = false;
+                }
+            }
+        }
+        for timed in &rules.timed {
+            let Some(target) = timed.target.and_then(|target| rules.types.get(target.index())) else {
+                continue;
+            };
+            for stype in &target.tree {
+                alike[stype.index()] = false;
+            }
+        }
+        for encounter in &self.encounters {
+            let info = &rules.effects[usize::from(encounter.effect)];
+            let family = |written: SpriteType| &rules.types[written.index()];
+            let (first, second) = (family(encounter.first), encounter.second.map(family));
+            for (at, alike) in alike.iter_mut().enumerate() {
+                let stype = SpriteType(at as u16);
+                let is_first = first.in_tree(stype);
+                let is_second = second.is_some_and(|second| second.in_tree(stype));
+                *alike &= match (is_first, is_second) {
+                    (false, false) => !is_special(encounter, rules, stype),
+                    (true, false) => is_for_each(rules, encounter, info),
+                    (false, true) => is_once(rules, encounter, info),
+                    (true, true) => is_undo(info),
+                };
+            }
+        }
+        // What turns into sprites whose order counts, does so in some order.
+        loop {
+            let mut changed = false;
+            for encounter in &self.encounters {
+                for deed in &encounter.deeds {
+                    let Deed::Become(to) = deed else { continue };
+                    if alike[to.index()] {
+                        continue;
+                    }
+                    for stype in &rules.types[encounter.first.index()].tree {
+                        changed |= std::mem::take(&mut alike[stype.index()]);
+                    }
+                }
+            }
+            if !changed {
+                return alike;
+            }
+        }
+    }
+
+    /// By type: nothing reads where such a sprite faces, as long as it is not oriented.
+    pub(super) fn faceless(&self) -> Vec<bool> {
+        use SpriteClass as C;
+        let rules = &*self.game.0;
+        let plain = |info: &TypeInfo| {
+            matches!(info.class, Some(C::Immovable | C::Passive | C::Door | C::Resource))
+                && !info.traits.continuous
+                && !info.traits.is_oriented
+                && !info.traits.oriented_image
+                && !info.ground_aware
+        };
+        let by_itself = rules.types.iter().zip(&self.facts);
+        let mut faceless: Vec<bool> =
+            by_itself.map(|(info, facts)| plain(info) && facts.motion == Motion::Still).collect();
+        for encounter in &self.encounters {
+            let effect = &rules.effects[usize::from(encounter.effect)].effect;
+            let first = &rules.types[encounter.first.index()];
+            let second = encounter.second.map(|second| &rules.types[second.index()]);
+            for (faceless, at) in faceless.iter_mut().zip(0u16..) {
+                let stype = SpriteType(at);
+                *faceless &= !first.in_tree(stype) || is_blind_to_first(effect);
+                *faceless &=
+                    !second.is_some_and(|second| second.in_tree(stype)) || is_blind_to_second(effect);
+            }
+        }
+        faceless
+    }
+}
+
+/// Whether the effect does not read where the first sprite faces, if that is not oriented.
+fn is_blind_to_first(effect: &Effect) -> bool {
+    is_blind_to_second(effect) || matches!(effect, Effect::BounceForward)
+}
+
+/// Whether the effect does not read where the second sprite faces, if that is not oriented.
+fn is_blind_to_second(effect: &Effect) -> bool {
+    matches!(
+        effect,
+        Effect::KillSprite
+            | Effect::KillBoth
+            | Effect::KillAll { .. }
+            | Effect::KillIfHasLess { .. }
+            | Effect::KillIfHasMore { .. }
+            | Effect::KillIfOtherHasMore { .. }
+            | Effect::StepBack { pixel_perfect: false }
+            | Effect::UndoAll { .. }
+            | Effect::CollectResource { .. }
+            | Effect::ChangeResource { .. }
+            | Effect::AddHealthPoints { .. }
+            | Effect::SubtractHealthPoints { .. }
+            | Effect::TransformTo { force_orientation: false, .. }
+    )
+}
+
+/// Whether the update of such a sprite concerns it alone.
+fn is_by_itself(info: &TypeInfo) -> bool {
+    use SpriteClass as C;
+    let plain = matches!(
+        info.class,
+        Some(
+            C::Immovable
+                | C::Passive
+                | C::Door
+                | C::Resource
+                | C::Conveyor
+                | C::Missile
+                | C::Flicker
+                | C::OrientedFlicker
+        )
+    );
+    plain
+        && !info.singleton
+        && !info.ground_aware
+        && !info.first_differs
+        && !info.traits.continuous
+        && !info.traits.is_avatar
+        && !info.repeats()
+}
+
+/// Whether a rule between others treats sprites of the type one after the other, where the order could tell.
+fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
+    let info = &rules.types[stype.index()];
+    let afar = |deed: &Deed| match deed {
+        Deed::KillAll(_) | Deed::Become(_) | Deed::Make(_) | Deed::BecomeAny(_) => false,
+        deed => changes_afar(deed, info, stype),
+    };
+    encounter.does(afar)
+}
+
+/// Whether executing the effect leaves the score alone and is remembered nowhere.
+fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
+    encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
+}
+
+/// What is done to the first sprite depends on it and its partner alone, and changes nothing else.
+fn is_for_each(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
+    let own = match info.effect {
+        Effect::KillSprite
+        | Effect::KillIfHasLess { .. }
+        | Effect::KillIfHasMore { .. }
+        | Effect::KillIfOtherHasMore { subtract: false, .. }
+        | Effect::StepBack { pixel_perfect: false }
+        | Effect::TurnAround
+        | Effect::ReverseDirection
+        | Effect::WrapAround { .. }
+        | Effect::BounceForward
+        | Effect::TransformTo { kill_second: false, .. }
+        | Effect::CollectResource { .. } => true,
+        Effect::UndoAll { .. } => is_free(encounter, info),
+        _ => false,
+    };
+    own && !info.in_batch && !rules.remembering.contains(&encounter.effect)
+}
+
+/// What is done to the first sprite is done by the first of its partners as well as by any other.
+fn is_once(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
+    let once = match info.effect {
+        // The first sprite is gone, and meets no other partner.
+        Effect::KillSprite | Effect::TransformTo { kill_second: false, force_orientation: false, .. } => true,
+        Effect::KillIfHasLess { .. }
+        | Effect::KillIfHasMore { .. }
+        | Effect::StepBack { pixel_perfect: false }
+        | Effect::UndoAll { .. } => is_free(encounter, info),
+        _ => false,
+    };
+    once && !info.in_batch && !rules.remembering.contains(&encounter.effect)
+}
+
+/// All goes back, whoever met whom.
+fn is_undo(info: &EffectInfo) -> bool {
+    matches!(info.effect, Effect::UndoAll { .. }) && info.score_change == 0 && info.counting.is_none()
+}

@@ -1,0 +1,182 @@
+//! What may be left out of the keys of all states that can follow from one state: what a search need not tell apart.
+
+use super::Analysis;
+use super::encounter::{Deed, Encounter, Side, clockwork};
+use super::facts::Motion;
+use super::prospect::Prospect;
+use crate::game::{SpriteType, TypeInfo};
+use crate::hash::SearchKey;
+use crate::limits::MAX_TICKS;
+use crate::ontology::avatars::BLOCK_PAUSE;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::terminations::{Condition, Decision, Termination};
+use crate::state::State;
+
+/// How a search tells states apart that follow from one state.
+///
+/// Beyond what [`State::search_key`] leaves out, it leaves out
+/// - sprites of types that nothing changes, makes or ends: they are the same in all these states;
+/// - the order of sprites of one type, and where they face, where the rules cannot tell it;
+/// - the chance, where it decides nothing from here on;
+/// - the phases of spawners that can no longer be made;
+/// - the tick, if all that reads it is a Timeout that loses: see [`Keying::earlier_is_better`].
+#[derive(Clone, Debug)]
+pub struct Keying {
+    pub(crate) tick: bool,
+    pub(crate) chance: bool,
+    pub(crate) clocks: Vec<i32>,
+    pub(crate) wizard_ticks: Vec<i32>,
+    /// By type.
+    pub(crate) constant: Vec<bool>,
+    pub(crate) alike: Vec<bool>,
+    pub(crate) faceless: Vec<bool>,
+    earlier_is_better: bool,
+}
+
+impl Keying {
+    /// Whether the tick is left out though the game is lost at some tick: of two states with one key, all that can be won
+    /// from the later one can be won from the earlier one too. A search that meets states in the order of their ticks, as
+    /// breadth-first search does, loses nothing by dropping the second.
+    pub fn earlier_is_better(&self) -> bool {
+        self.earlier_is_better
+    }
+
+    /// Whether sprites of the type are the same in all states that can follow: nothing changes, makes or ends one.
+    pub fn is_constant(&self, stype: SpriteType) -> bool {
+        self.constant[stype.index()]
+    }
+
+    /// Whether chance decides anything from the state on that this was made for, so that keys cover it.
+    pub fn reads_chance(&self) -> bool {
+        self.chance
+    }
+
+    /// The key of a state that follows from the one that this was made for. For two such states, equal keys mean equal
+    /// keys and outcomes after any same actions (losses by Timeout apart, if [`Keying::earlier_is_better`]). Cost:
+    /// O(sprites of types that can change).
+    pub fn key(&self, analysis: &Analysis, state: &State) -> SearchKey {
+        state.key_left_out(&analysis.game.0, self)
+    }
+
+    /// All that the key is a hash of: for checking that equal keys are no accident.
+    pub fn words(&self, analysis: &Analysis, state: &State) -> Vec<u64> {
+        state.words_left_out(&analysis.game.0, self)
+    }
+}
+
+impl Analysis {
+    /// How a search from this state on may tell states apart. Cost: O(types × interactions).
+    pub fn keying(&self, state: &State) -> Keying {
+        let rules = &*self.game.0;
+        let prospect = self.prospect(state);
+        let made = |wanted: fn(SpriteClass) -> bool| {
+            let types = rules.types.iter().zip(&prospect.made);
+            let types = types.filter(move |(info, made)| **made && info.class.is_some_and(wanted));
+            types.map(|(info, _)| &info.traits)
+        };
+        let clocks = made(SpriteClass::is_spawner).map(|traits| traits.cooldown);
+        let clocks = rules.clocks.iter().copied().filter(|clock| clocks.clone().any(|made| made == *clock));
+        let is_wizard = |class: SpriteClass| class == SpriteClass::WizardAvatar;
+        let first_blocks = made(is_wizard).map(|traits| traits.last_block_time.wrapping_add(BLOCK_PAUSE));
+        let wizard_ticks = rules.wizard_ticks.iter().copied();
+        let wizard_ticks =
+            wizard_ticks.filter(|first| first_blocks.clone().any(|made| made == *first)).collect();
+        let by_timeout = |end: &&Termination| matches!(end.condition, Condition::Timeout { .. });
+        let mut timeouts = rules.terminations.iter().filter(by_timeout);
+        let overflows = made(SpriteClass::is_spawner).any(|traits| traits.start > i32::MAX - 2 * MAX_TICKS)
+            || self.game.sprite_types().any(|stype| self.starts_late(state, stype));
+        let lose = timeouts.all(|end| end.decided_by == Decision::Line && !end.win);
+        let constant = self.constant(&prospect);
+        Keying {
+            tick: rules.reads_tick && (overflows || !lose),
+            chance: !state.is_over() && !self.is_deterministic_from(state),
+            clocks: clocks.collect(),
+            wizard_ticks,
+            alike: self.alike(),
+            faceless: self.faceless(),
+            constant,
+            earlier_is_better: rules.reads_tick && !overflows && lose,
+        }
+    }
+
+    /// Whether a spawner of the type fires first at a tick so late that sums with it overflow.
+    fn starts_late(&self, state: &State, stype: SpriteType) -> bool {
+        let info = &self.game.0.types[stype.index()];
+        info.class.is_some_and(SpriteClass::is_spawner)
+            && state.slots(stype).any(|slot| state.sprite(slot).start > i32::MAX - 2 * MAX_TICKS)
+    }
+
+    /// By type: no sprite of it is ever changed, made or ended, by whatever can still happen.
+    fn constant(&self, prospect: &Prospect<'_>) -> Vec<bool> {
+        let rules = &*self.game.0;
+        let mut constant: Vec<bool> =
+            self.game.sprite_types().map(|stype| self.is_inert(stype, prospect)).collect();
+        let mut spoil = |changes: &dyn Fn(&TypeInfo, SpriteType) -> bool| {
+            for ((at, info), constant) in (0u16..).zip(&rules.types).zip(&mut constant) {
+                *constant &= !changes(info, SpriteType(at));
+            }
+        };
+        for encounter in &self.encounters {
+            spoil(&|info, _| info.in_tree(encounter.first) && changes_first(encounter));
+            if let Some(second) = encounter.second {
+                spoil(&|info, _| info.in_tree(second) && changes_second(encounter));
+            }
+        }
+        let planned = clockwork(rules);
+        let planned = planned.iter().map(|(target, deeds)| (*target, deeds.as_slice()));
+        let met = self.encounters.iter().map(|encounter| (None, encounter.deeds.as_slice()));
+        for (target, deeds) in planned.chain(met) {
+            spoil(&|info, _| target.is_some_and(|target| info.in_tree(target)));
+            for deed in deeds {
+                spoil(&|info, stype| changes_afar(deed, info, stype));
+            }
+        }
+        constant
+    }
+
+    /// Whether sprites of the type do nothing by themselves.
+    fn is_inert(&self, stype: SpriteType, prospect: &Prospect<'_>) -> bool {
+        use SpriteClass as C;
+        let (facts, info) = (self.facts(stype), &self.game.0.types[stype.index()]);
+        let plain = matches!(info.class, Some(C::Immovable | C::Passive | C::Door | C::Resource));
+        plain
+            && facts.motion == Motion::Still
+            && facts.makes.is_empty()
+            && !facts.fleeting
+            && !prospect.made[stype.index()]
+            && !info.traits.continuous
+            && !info.ground_aware
+    }
+}
+
+fn changes_first(encounter: &Encounter) -> bool {
+    let harmless = |deed: &Deed| {
+        matches!(
+            deed,
+            Deed::Make(_)
+                | Deed::KillAll(_)
+                | Deed::BecomeAll(..)
+                | Deed::Shield { .. }
+                | Deed::Kill(Side::Second)
+                | Deed::Undo(_)
+        )
+    };
+    !encounter.deeds.iter().all(harmless)
+}
+
+fn changes_second(encounter: &Encounter) -> bool {
+    encounter.does(|deed| {
+        matches!(deed, Deed::Kill(Side::Second) | Deed::Collect | Deed::Change { who: Side::Second, .. })
+    })
+}
+
+/// Whether the deed concerns sprites of the type wherever they are.
+pub(super) fn changes_afar(deed: &Deed, info: &TypeInfo, stype: SpriteType) -> bool {
+    match deed {
+        Deed::KillAll(of) | Deed::Speed(Some(of)) | Deed::Health { of: Some(of), .. } => info.in_tree(*of),
+        Deed::BecomeAll(of, to) => info.in_tree(*of) || *to == stype,
+        Deed::Become(to) | Deed::Make(to) => *to == stype,
+        Deed::BecomeAny(options) => options.contains(&stype),
+        _ => false,
+    }
+}

@@ -1,0 +1,324 @@
+//! States as they differ from another state: for searches, which keep millions of them.
+//!
+//! Most of a state is the same in all states of a level: walls, floors, the tables about them. A [`Packed`] state is the
+//! bytes in which it differs from a base, usually the start of the search: some hundred bytes instead of tens of
+//! thousands.
+
+use crate::chance::Chance;
+use crate::contacts::Mask;
+use crate::flight::Flight;
+use crate::game::{Action, Outcome, SpriteType};
+use crate::geometry::{Direction, Rect};
+use crate::rest::Rest;
+use crate::state::{Extra, Group, Held, Replaced, Share, Sprite, State, Target, Timer};
+
+/// A state, as it differs from a base. Only [`State::unpack_from`] with the same base makes sense of it.
+#[derive(Clone, Debug)]
+pub struct Packed {
+    outcome: Outcome,
+    last_action: Action,
+    bytes: Box<[u8]>,
+}
+
+impl Packed {
+    /// How many bytes it takes.
+    pub fn size_in_bytes(&self) -> usize {
+        size_of::<Packed>() + self.bytes.len()
+    }
+}
+
+impl State {
+    /// This state as it differs from `base`. Cost: that of comparing the two, O(size of a state).
+    pub fn pack(&self, base: &State) -> Packed {
+        let mut bytes = Vec::with_capacity(512);
+        self.differences(base, &mut bytes);
+        Packed { outcome: self.outcome, last_action: self.last_action, bytes: bytes.into() }
+    }
+
+    /// Makes this state the packed one again; keeps the buffers. `base` is what it was packed against. Cost: that of a copy
+    /// of `base`.
+    ///
+    /// # Panics
+    /// May panic if it was packed against another base.
+    pub fn unpack_from(&mut self, packed: &Packed, base: &State) {
+        self.clone_from(base);
+        (self.outcome, self.last_action) = (packed.outcome, packed.last_action);
+        let mut bytes = &*packed.bytes;
+        self.apply(&mut bytes);
+        assert!(bytes.is_empty(), "packed against this base");
+    }
+}
+
+/// Both directions over all fields: a new one is missed by the compiler, here.
+macro_rules! state_fields {
+    (scalars $($scalar:ident)*; buffers $($buffer:ident)*; scratch $($scratch:ident)*) => {
+        impl State {
+            fn differences(&self, base: &State, to: &mut Vec<u8>) {
+                let State { outcome: _, last_action: _, $($scratch: _,)* $($scalar,)* $($buffer,)* } = self;
+                $(put_scalar($scalar, &base.$scalar, to);)*
+                $(put_buffer($buffer, &base.$buffer, to);)*
+            }
+
+            fn apply(&mut self, from: &mut &[u8]) {
+                $(take_scalar(&mut self.$scalar, from);)*
+                $(take_buffer(&mut self.$buffer, from);)*
+            }
+        }
+    };
+}
+
+state_fields! {
+    scalars tick score chance avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big loose_bits next_due census_changed jumps vast meeting sideways;
+    buffers sprites shares groups cells masks together reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers obstacles replaced counters;
+    scratch covered covered_cells touched
+}
+
+fn put_scalar<T: Bytes>(value: &T, base: &T, to: &mut Vec<u8>) {
+    let same = value.same(base);
+    same.put(to);
+    if !same {
+        value.put(to);
+    }
+}
+
+fn take_scalar<T: Bytes>(value: &mut T, from: &mut &[u8]) {
+    if !bool::take(from) {
+        *value = T::take(from);
+    }
+}
+
+/// The length, then the entries that differ, each after its distance from the one before, then a distance of 0.
+fn put_buffer<T: Bytes>(buffer: &[T], base: &[T], to: &mut Vec<u8>) {
+    put_number(buffer.len(), to);
+    let mut next = 0;
+    for (at, value) in buffer.iter().enumerate() {
+        if !base.get(at).is_some_and(|base| value.same(base)) {
+            put_number(at + 1 - next, to);
+            value.put(to);
+            next = at + 1;
+        }
+    }
+    put_number(0, to);
+}
+
+fn take_buffer<T: Bytes>(buffer: &mut Vec<T>, from: &mut &[u8]) {
+    let length = take_number(from);
+    buffer.truncate(length);
+    let mut next = 0;
+    loop {
+        let distance = take_number(from);
+        if distance == 0 {
+            return;
+        }
+        next += distance;
+        let value = T::take(from);
+        match buffer.get_mut(next - 1) {
+            Some(old) => *old = value,
+            // What is longer than the base differs from there on, entry after entry.
+            None => buffer.push(value),
+        }
+    }
+}
+
+/// Seven bits a byte, the low ones first (LEB128).
+fn put_number(mut number: usize, to: &mut Vec<u8>) {
+    while number >= 0x80 {
+        to.push(number as u8 | 0x80);
+        number >>= 7;
+    }
+    to.push(number as u8);
+}
+
+fn take_number(from: &mut &[u8]) -> usize {
+    let (mut number, mut shift) = (0, 0);
+    loop {
+        let byte = u8::take(from);
+        number |= usize::from(byte & 0x7F) << shift;
+        shift += 7;
+        if byte < 0x80 {
+            return number;
+        }
+    }
+}
+
+/// What is written as bytes and read again, bit by bit the same.
+trait Bytes: Copy {
+    fn put(self, to: &mut Vec<u8>);
+    fn take(from: &mut &[u8]) -> Self;
+    /// Whether the bits are the same.
+    fn same(&self, other: &Self) -> bool;
+}
+
+macro_rules! numbers {
+    ($($number:ident)*) => {$(
+        impl Bytes for $number {
+            fn put(self, to: &mut Vec<u8>) {
+                to.extend(self.to_le_bytes());
+            }
+
+            fn take(from: &mut &[u8]) -> $number {
+                let (head, rest) = from.split_first_chunk().expect("what was put");
+                *from = rest;
+                $number::from_le_bytes(*head)
+            }
+
+            fn same(&self, other: &$number) -> bool {
+                self.to_le_bytes() == other.to_le_bytes()
+            }
+        }
+    )*};
+}
+
+numbers! { u8 u16 u32 u64 u128 i16 i32 i64 f64 }
+
+impl Bytes for bool {
+    fn put(self, to: &mut Vec<u8>) {
+        to.push(u8::from(self));
+    }
+
+    fn take(from: &mut &[u8]) -> bool {
+        u8::take(from) != 0
+    }
+
+    fn same(&self, other: &bool) -> bool {
+        self == other
+    }
+}
+
+macro_rules! fields {
+    ($($name:ident { $($field:ident)* })*) => {$(
+        impl Bytes for $name {
+            fn put(self, to: &mut Vec<u8>) {
+                let $name { $($field),* } = self;
+                $($field.put(to);)*
+            }
+
+            fn take(from: &mut &[u8]) -> $name {
+                $name { $($field: Bytes::take(from)),* }
+            }
+
+            fn same(&self, other: &$name) -> bool {
+                let $name { $($field),* } = self;
+                $($field.same(&other.$field))&&*
+            }
+        }
+    )*};
+}
+
+fields! {
+    Rect { x y w h }
+    Direction { x y }
+    Mask { any many }
+    Flight { slot due }
+    Rest { slot pass left top right bottom }
+    Timer { due timed }
+    Held { holder resource amount }
+    Replaced { holder place stype }
+    Group { head tail count disabled loose big off asleep }
+    Share { halves still }
+    Extra { holder rotation gravity facing block_time target last_known }
+    Sprite { rect last orientation speed id moved_at health max_health time_to_live count start stype rest flags spawns extra heading next previous cell_next cell_previous column row }
+}
+
+macro_rules! wrapped {
+    ($($name:ident)*) => {$(
+        impl Bytes for $name {
+            fn put(self, to: &mut Vec<u8>) {
+                self.0.put(to);
+            }
+
+            fn take(from: &mut &[u8]) -> $name {
+                $name(Bytes::take(from))
+            }
+
+            fn same(&self, other: &$name) -> bool {
+                self == other
+            }
+        }
+    )*};
+}
+
+wrapped! { SpriteType Chance }
+
+impl<T: Bytes, U: Bytes> Bytes for (T, U) {
+    fn put(self, to: &mut Vec<u8>) {
+        self.0.put(to);
+        self.1.put(to);
+    }
+
+    fn take(from: &mut &[u8]) -> (T, U) {
+        (T::take(from), U::take(from))
+    }
+
+    fn same(&self, other: &(T, U)) -> bool {
+        self.0.same(&other.0) && self.1.same(&other.1)
+    }
+}
+
+/// Shields.
+impl Bytes for (SpriteType, SpriteType, u16) {
+    fn put(self, to: &mut Vec<u8>) {
+        ((self.0, self.1), self.2).put(to);
+    }
+
+    fn take(from: &mut &[u8]) -> Self {
+        let ((one, two), keyword) = Bytes::take(from);
+        (one, two, keyword)
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
+impl Bytes for [u64; 2] {
+    fn put(self, to: &mut Vec<u8>) {
+        (self[0], self[1]).put(to);
+    }
+
+    fn take(from: &mut &[u8]) -> [u64; 2] {
+        let (one, two) = Bytes::take(from);
+        [one, two]
+    }
+
+    fn same(&self, other: &[u64; 2]) -> bool {
+        self == other
+    }
+}
+
+impl Bytes for Option<(i32, i32)> {
+    fn put(self, to: &mut Vec<u8>) {
+        (self.is_some(), self.unwrap_or_default()).put(to);
+    }
+
+    fn take(from: &mut &[u8]) -> Self {
+        let (is_some, value) = Bytes::take(from);
+        Some(value).filter(|_| is_some)
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
+impl Bytes for Target {
+    fn put(self, to: &mut Vec<u8>) {
+        match self {
+            Target::None => 0u8.put(to),
+            Target::Sprite(slot) => (1u8, slot).put(to),
+            Target::Gone(rect) => (2u8, rect).put(to),
+        }
+    }
+
+    fn take(from: &mut &[u8]) -> Target {
+        match u8::take(from) {
+            0 => Target::None,
+            1 => Target::Sprite(Bytes::take(from)),
+            _ => Target::Gone(Bytes::take(from)),
+        }
+    }
+
+    fn same(&self, other: &Target) -> bool {
+        self == other
+    }
+}
