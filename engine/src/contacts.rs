@@ -4,9 +4,10 @@
 //! Every type that takes part in a rule has a bit. Each cell of the board knows the bits of the sprites in it; each pair of
 //! bits that a rule is about knows in how many cells both are; each pass of the event phase knows how many of its pairs are
 //! together anywhere. A pass without any is skipped. Sprites larger than a cell are in the masks with one cell only, so a pass
-//! with such a sprite on either side counts as possible too.
+//! with such a sprite on either side counts as possible too; which cells they cover is noted apart.
 
 use crate::game::{Pass, Rules, SpriteType, TypeInfo};
+use crate::rest::mark;
 use crate::state::{NONE, Slot, State, flag};
 
 /// No pair.
@@ -46,6 +47,8 @@ pub(crate) struct Contacts {
     pair: Vec<u16>,
     /// By pair: the passes that are about it.
     passes: Vec<Box<[u16]>>,
+    /// By pair: its two bits.
+    ends: Vec<(u8, u8)>,
     /// By type: the passes that are about it.
     of_type: Vec<Box<[u16]>>,
     /// By pass: the bits of its first and second side.
@@ -92,6 +95,7 @@ impl Contacts {
                     if *pair == NO {
                         *pair = of_pair.len() as u16;
                         of_pair.push(Vec::new());
+                        contacts.ends.push((low as u8, high as u8));
                     }
                     let pair = *pair;
                     contacts.pair[high * contacts.bits + low] = pair;
@@ -154,6 +158,7 @@ impl State {
     pub(crate) fn empty_contacts(&mut self, contacts: &Contacts) {
         self.masks = vec![Mask::default(); self.cells.len()];
         self.together = vec![0; contacts.pairs()];
+        self.meets = vec![0; contacts.bits];
         self.reasons = vec![0; contacts.sides.len()];
         self.possible = vec![0; contacts.sides.len().div_ceil(64)];
         for &pass in &contacts.always {
@@ -223,6 +228,7 @@ impl State {
     fn meet_more(&mut self, contacts: &Contacts, pair: usize) {
         self.together[pair] += 1;
         if self.together[pair] == 1 {
+            self.toggle_meets(contacts, pair);
             for &pass in &contacts.passes[pair] {
                 self.allow(pass);
             }
@@ -233,20 +239,52 @@ impl State {
     fn meet_less(&mut self, contacts: &Contacts, pair: usize) {
         self.together[pair] -= 1;
         if self.together[pair] == 0 {
+            self.toggle_meets(contacts, pair);
             for &pass in &contacts.passes[pair] {
                 self.forbid(pass);
             }
         }
     }
 
-    /// Notes which cells the sprites cover that are larger than one, until [`State::uncover`].
-    pub(crate) fn cover(&mut self, rules: &Rules) {
-        self.meeting = true;
-        if self.big == 0 {
-            return;
+    fn toggle_meets(&mut self, contacts: &Contacts, pair: usize) {
+        let (one, two) = contacts.ends[pair];
+        self.meets[usize::from(one)] ^= 1 << two;
+        if one != two {
+            self.meets[usize::from(two)] ^= 1 << one;
         }
+    }
+
+    /// Whether any sprite of a type of that bit may share a cell with any of the bits.
+    #[inline]
+    pub(crate) fn may_meet(&self, own: u64, others: u64) -> bool {
+        self.meets[own.trailing_zeros() as usize] & others != 0 || self.big_bits & (own | others) != 0
+    }
+
+    /// Notes the cells that a sprite covers that is larger than one.
+    pub(crate) fn cover(&mut self, kind: &Kind, slot: Slot) {
+        let mut covered = std::mem::take(&mut self.covered);
+        covered.resize(self.cells.len(), 0);
+        if !self.covered_by(self.sprite(slot), |cell| covered[cell] |= kind.own) {
+            self.vast |= kind.own;
+        }
+        self.covered = covered;
+    }
+
+    /// Forgets the cells that large sprites have left, once they have left so many that it pays.
+    #[inline]
+    pub(crate) fn tidy_covered(&mut self, rules: &Rules) {
+        if self.left_behind as usize > self.big as usize + self.cells.len() / 64 {
+            self.cover_anew(rules);
+        }
+    }
+
+    #[inline(never)]
+    fn cover_anew(&mut self, rules: &Rules) {
+        self.covered.fill(0);
+        (self.vast, self.left_behind) = (0, 0);
         for stype in (0..rules.types.len() as u16).map(SpriteType) {
-            if self.group(stype).big == 0 {
+            let kind = &rules.contacts.kinds[stype.index()];
+            if self.group(stype).big == 0 || kind.own == 0 {
                 continue;
             }
             let mut slot = self.group(stype).head;
@@ -254,38 +292,10 @@ impl State {
                 let sprite = self.sprite(slot);
                 let next = sprite.next;
                 if sprite.is(flag::BIG) {
-                    self.cover_cells(&rules.contacts, slot);
+                    self.cover(kind, slot);
                 }
                 slot = next;
             }
-        }
-    }
-
-    /// Notes the cells of one such sprite.
-    pub(crate) fn cover_cells(&mut self, contacts: &Contacts, slot: Slot) {
-        let own = contacts.kinds[self.sprite(slot).stype.index()].own;
-        if own == 0 {
-            return;
-        }
-        let (mut covered, mut cells) =
-            (std::mem::take(&mut self.covered), std::mem::take(&mut self.covered_cells));
-        let few = self.covered_by(self.sprite(slot), |cell| {
-            if covered[cell] == 0 {
-                cells.push(cell as u32);
-            }
-            covered[cell] |= own;
-        });
-        (self.covered, self.covered_cells) = (covered, cells);
-        if !few {
-            self.vast |= own;
-        }
-    }
-
-    pub(crate) fn uncover(&mut self) {
-        self.meeting = false;
-        self.vast = 0;
-        for cell in self.covered_cells.drain(..) {
-            self.covered[cell as usize] = 0;
         }
     }
 
@@ -335,12 +345,16 @@ impl State {
         for group in &mut state.groups {
             (group.loose, group.big, group.off) = (0, 0, 0);
         }
-        (state.big, state.loose_bits) = (0, 0);
+        state.covered.fill(0);
+        (state.big, state.loose_bits, state.big_bits, state.vast, state.left_behind) = (0, 0, 0, 0, 0);
         state.empty_contacts(&rules.contacts);
         let slots: Vec<Slot> =
             (0..rules.types.len() as u16).flat_map(|t| self.slots(SpriteType(t))).collect();
         for slot in slots {
-            state.enter_cell(rules, slot);
+            match self.sprite(slot).rest {
+                mark::FLYING => state.enter_cell_again(rules, slot),
+                _ => state.enter_cell(rules, slot),
+            }
         }
         state
     }

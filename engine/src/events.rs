@@ -25,7 +25,7 @@ impl Step<'_> {
         }
         let rules = self.rules;
         let Some(mut number) = self.state.next_possible(0) else { return };
-        self.state.cover(rules);
+        self.state.tidy_covered(rules);
         loop {
             self.pass = number as i32;
             self.pair_pass(number, &rules.passes[number], watch);
@@ -35,7 +35,6 @@ impl Step<'_> {
             let Some(next) = self.state.next_possible(number + 1) else { break };
             number = next;
         }
-        self.state.uncover();
     }
 
     /// Effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
@@ -203,9 +202,12 @@ impl Step<'_> {
         let mut visited = 0;
         let in_batch = self.rules.effects[usize::from(pass.effect)].in_batch;
         for &stype in &first.family.tree {
-            let mut slot = self.state.group(stype).head;
             let aware = self.rules.types[stype.index()].ground_aware;
             let own = self.rules.contacts.kinds[stype.index()].own;
+            if !aware && !self.state.may_meet(own, second.bits) {
+                continue;
+            }
+            let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 let sprite = self.state.sprite(slot);
                 if sprite.id >= newborn {
@@ -271,6 +273,9 @@ impl Step<'_> {
         let mut visited = 0;
         for &stype in &second.family.tree {
             let own = self.rules.contacts.kinds[stype.index()].own;
+            if !self.state.may_meet(own, first.bits) {
+                continue;
+            }
             let mut slot = self.state.group(stype).head;
             while slot != NONE {
                 let sprite = self.state.sprite(slot);
@@ -369,7 +374,7 @@ impl Step<'_> {
         let below = other.last.y > sprite.last.y.wrapping_add(sprite.rect.h / 2);
         let falling = sprite.rect.y > sprite.last.y;
         if shifted.intersects(other.rect) && below && falling {
-            self.state.edit(one).set(flag::ON_GROUND, true);
+            self.state.edit_motion(one).set(flag::ON_GROUND, true);
         }
     }
 }

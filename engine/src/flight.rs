@@ -2,7 +2,7 @@
 //!
 //! A car on its lane moves two pixels in every tick, and each tick does to it what the last one did. So it is not updated:
 //! where it is follows from where it was and how long ago, and its share of the hash stays the same (`hash.rs`). Only when it
-//! comes to cover other cells is it entered there. Which rules are about sprites that share its cells is known all the while
+//! comes to cover other cells is it entered there, and in those ahead. Which rules are about sprites that share its cells is known all the while
 //! (`contacts.rs`), and whether it overlaps them is asked of where it is now. As soon as an effect is executed on it, or can
 //! reach it, it lands: it is an ordinary sprite again.
 //!
@@ -51,22 +51,29 @@ impl State {
     }
 
     /// Ends a flight: the sprite is as it would be after its update in `tick`.
-    fn land(&mut self, slot: Slot, tick: i32) {
+    fn land(&mut self, rules: &Rules, slot: Slot, tick: i32) {
         let sprite = &mut self.sprites[usize::from(slot)];
         *sprite = flown(sprite, tick);
         sprite.rest = mark::TRIED;
         sprite.set(flag::MOVED, true);
         self.groups[sprite.stype.index()].asleep -= 1;
+        let rect = sprite.rect;
         self.moved.push(slot);
+        self.enter_anew(rules, slot, rect);
     }
 
     /// Before the updates of a tick: those that are due come to their new cells. That is a little early for sprites whose
     /// update comes later, but no one looks before the event phase.
+    #[inline]
     pub(crate) fn fly(&mut self, rules: &Rules) {
-        let tick = self.tick;
-        if tick < self.next_due {
-            return;
+        if self.tick >= self.next_due {
+            self.fly_on(rules);
         }
+    }
+
+    #[inline(never)]
+    fn fly_on(&mut self, rules: &Rules) {
+        let tick = self.tick;
         let mut flights = std::mem::take(&mut self.flights);
         let mut next = i32::MAX;
         for flight in &mut flights {
@@ -86,9 +93,11 @@ impl State {
         let sprite = &mut self.sprites[usize::from(slot)];
         let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.last.x), sprite.rect.y.wrapping_sub(sprite.last.y));
         *sprite = flown(sprite, self.tick);
-        let rect = sprite.rect;
-        self.enter_anew(rules, slot, rect);
-        let due = self.tick.saturating_add(self.moves_within(self.sprite(slot), dx, dy)).saturating_add(1);
+        let moves = self.enter_lane(rules, slot, (dx, dy));
+        if !self.rests.is_empty() {
+            self.touch(slot);
+        }
+        let due = self.tick.saturating_add(moves).saturating_add(1);
         if rules.any_rests {
             let sprite = *self.sprite(slot);
             self.stamp(&sprite, due);
@@ -97,9 +106,9 @@ impl State {
     }
 
     /// Nothing flies any more. Between steps only.
-    pub(crate) fn land_all(&mut self) {
+    pub(crate) fn land_all(&mut self, rules: &Rules) {
         while let Some(flight) = self.flights.pop() {
-            self.land(flight.slot, self.tick);
+            self.land(rules, flight.slot, self.tick);
         }
         self.next_due = i32::MAX;
     }
@@ -112,7 +121,7 @@ impl Step<'_> {
             self.work(self.state.flights.len() / 64);
             let at = self.state.flights.iter().position(|flight| flight.slot == slot);
             self.state.flights.swap_remove(at.expect("what flies is in the list"));
-            self.state.land(slot, self.state.tick);
+            self.state.land(self.rules, slot, self.state.tick);
         }
     }
 
@@ -121,11 +130,10 @@ impl Step<'_> {
         let mut flights = std::mem::take(&mut self.state.flights);
         for flight in flights.drain(..) {
             let late = !self.has_moved(flight.slot);
-            self.state.land(flight.slot, self.state.tick - i32::from(late));
-            let rect = self.state.sprite(flight.slot).rect;
-            self.state.relocate(self.rules, flight.slot, rect);
+            self.state.land(self.rules, flight.slot, self.state.tick - i32::from(late));
             if late {
-                self.state.edit(flight.slot).last = rect;
+                let sprite = self.state.edit(flight.slot);
+                sprite.last = sprite.rect;
             }
         }
         self.state.flights = flights;

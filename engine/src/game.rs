@@ -4,6 +4,7 @@ use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
+use crate::ontology::sprites::Mover;
 use crate::ontology::terminations::Termination;
 use crate::ontology::traits::Traits;
 use crate::rest::Foresight;
@@ -299,7 +300,7 @@ pub(crate) struct Rules {
     /// Drawing order; updates go through it backwards.
     pub(crate) order: Vec<SpriteType>,
     /// Types whose update does something, in update order.
-    pub(crate) movers: Vec<SpriteType>,
+    pub(crate) movers: Vec<Mover>,
     /// By ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
     /// Level characters that stand for an undeclared sprite: the reference dies of a level that uses one.

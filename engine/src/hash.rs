@@ -131,13 +131,24 @@ pub(crate) fn sprite_hash(sprite: &Sprite, still: u64, tick: i32) -> u128 {
     mixer.lanes()
 }
 
+/// The share of a sprite, given what it was of it that seldom changes.
+#[inline(always)]
+fn share_of(sprite: &Sprite, still: u64, tick: i32) -> Share {
+    if sprite.is(flag::GONE) {
+        return Share::new(0, still);
+    }
+    let still = if sprite.is(flag::CHANGED) { still_hash(sprite) } else { still };
+    Share::new(sprite_hash(sprite, still, tick), still)
+}
+
 impl State {
     /// The hash of all that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
     pub fn state_hash(&self) -> StateHash {
         let mut sum = self.sprite_hash;
         for &slot in &self.stale {
             let (sprite, share) = (self.sprite(slot), self.shares[usize::from(slot)]);
-            sum = sum.wrapping_sub(share.hash()).wrapping_add(self.share(sprite, share.still).hash());
+            sum =
+                sum.wrapping_sub(share.hash()).wrapping_add(share_of(sprite, share.still, self.tick).hash());
         }
         let memory = if self.memory_is_stale { self.hash_memory() } else { self.memory_hash };
         self.with_globals(sum, memory)
@@ -148,29 +159,20 @@ impl State {
     /// Stepping does not do so by itself: planners, which ask for few hashes, do not pay for all. Cost: O(sprites changed
     /// since the last time).
     pub fn settle_hash(&mut self) {
-        for at in 0..self.stale.len() {
-            let at = usize::from(self.stale[at]);
-            let (sprite, old) = (&self.sprites[at], self.shares[at]);
-            let share = self.share(sprite, old.still);
-            self.sprites[at].flags &= !(flag::STALE | flag::CHANGED);
-            self.shares[at] = share;
-            self.sprite_hash = self.sprite_hash.wrapping_sub(old.hash()).wrapping_add(share.hash());
+        let State { sprites, shares, stale, sprite_hash, tick, .. } = self;
+        let mut sum = *sprite_hash;
+        for &slot in &*stale {
+            let (sprite, share) = (&mut sprites[usize::from(slot)], &mut shares[usize::from(slot)]);
+            let old = std::mem::replace(share, share_of(sprite, share.still, *tick));
+            sprite.flags &= !(flag::STALE | flag::CHANGED);
+            sum = sum.wrapping_sub(old.hash()).wrapping_add(share.hash());
         }
-        self.stale.clear();
+        *sprite_hash = sum;
+        stale.clear();
         if self.memory_is_stale {
             self.memory_hash = self.hash_memory();
             self.memory_is_stale = false;
         }
-    }
-
-    /// The share of a sprite, given what it was of it that seldom changes.
-    #[inline(always)]
-    fn share(&self, sprite: &Sprite, still: u64) -> Share {
-        if sprite.is(flag::GONE) {
-            return Share::new(0, still);
-        }
-        let still = if sprite.is(flag::CHANGED) { still_hash(sprite) } else { still };
-        Share::new(sprite_hash(sprite, still, self.tick), still)
     }
 
     /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).

@@ -1,5 +1,5 @@
 //! Who is where: each cell of the board, and of a ring around it, has a chain of the sprites whose top-left corner lies
-//! in it. Kept as sprites move, so asking who overlaps a rectangle costs what stands there.
+//! in it, sprites of no rule left out. Kept as sprites move, so asking who overlaps a rectangle costs what stands there.
 
 use crate::contacts::Contacts;
 use crate::game::{NOT_IN_TREE, Rules, TypeInfo};
@@ -136,53 +136,126 @@ impl State {
         x.min(y)
     }
 
-    /// Puts a sprite into the chain of its cell.
+    /// Enters a sprite in flight where it is now, and says for how many more moves by (`dx`, `dy`) that holds.
+    ///
+    /// One that goes along an axis is entered in two cells, where it is and ahead of it, so that it comes to other ones half
+    /// as often. Who looks for it there looks at where it is.
+    #[inline(always)]
+    pub(crate) fn enter_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> i32 {
+        let &Sprite { rect, column, row, flags, .. } = self.sprite(slot);
+        let from = Located { column, row, flags: flags & flag::LYING };
+        let exact = self.locate(rect, column, row);
+        let lane = self.lane(rect, exact, dx, dy);
+        let to = lane.map_or(exact, |(to, _)| to);
+        if from != to {
+            self.shift(rules, slot, from, to);
+        }
+        lane.map_or_else(|| self.moves_within(self.sprite(slot), dx, dy), |(_, moves)| moves)
+    }
+
+    /// The two cells of [`State::enter_lane`], if both are on the board, and for how many moves the sprite stays in them.
+    #[inline(always)]
+    fn lane(&self, rect: Rect, exact: Located, dx: i32, dy: i32) -> Option<(Located, i32)> {
+        let sized = rect.w > 0 && rect.h > 0;
+        if exact.flags & (flag::OFF | flag::BIG) != 0 || (dx != 0) == (dy != 0) || !sized {
+            return None;
+        }
+        let along = |at: i32, size: i32, by: i32, cell: i16, over: bool, cells: i32| {
+            let cell = i32::from(cell);
+            let (low, room) = if by > 0 {
+                (cell, (cell + 1) * self.block - (at + size))
+            } else {
+                let low = if over { cell } else { cell - 1 };
+                (low, at - (low - 1) * self.block)
+            };
+            let by = by.abs();
+            (1 <= low && low < cells).then_some((low as i16, if room < by { 0 } else { room / by }))
+        };
+        if dy == 0 {
+            let over = exact.flags & flag::RIGHT != 0;
+            let (column, moves) = along(rect.x, rect.w, dx, exact.column, over, self.columns)?;
+            Some((Located { column, flags: exact.flags | flag::RIGHT, ..exact }, moves))
+        } else {
+            let over = exact.flags & flag::BELOW != 0;
+            let (row, moves) = along(rect.y, rect.h, dy, exact.row, over, self.rows)?;
+            Some((Located { row, flags: exact.flags | flag::BELOW, ..exact }, moves))
+        }
+    }
+
+    /// Puts a sprite into its cells.
     pub(crate) fn enter_cell(&mut self, rules: &Rules, slot: Slot) {
         let to = self.locate_afar(self.sprite(slot).rect);
+        self.enter_located(rules, slot, to);
+    }
+
+    /// Puts a sprite into the cells that it is said to be in.
+    pub(crate) fn enter_cell_again(&mut self, rules: &Rules, slot: Slot) {
+        let &Sprite { column, row, flags, .. } = self.sprite(slot);
+        self.enter_located(rules, slot, Located { column, row, flags: flags & flag::LYING });
+    }
+
+    fn enter_located(&mut self, rules: &Rules, slot: Slot, to: Located) {
         let cell = self.cell(i32::from(to.column), i32::from(to.row));
         let sprite = &mut self.sprites[usize::from(slot)];
         (sprite.column, sprite.row) = (to.column, to.row);
         sprite.flags = sprite.flags & !flag::LYING | to.flags;
         let stype = sprite.stype.index();
-        self.link(slot, cell);
         self.lie(&rules.contacts, stype, 0, to.flags);
         let kind = &rules.contacts.kinds[stype];
-        if kind.own != 0 {
-            let span = self.span(cell, to.flags);
-            for cell in span.cells() {
-                self.arrive(&rules.contacts, kind, cell);
-            }
+        if kind.own == 0 {
+            return;
         }
-        if self.meeting && to.flags & flag::BIG != 0 {
-            self.cover_cells(&rules.contacts, slot);
+        self.link(slot, cell);
+        for cell in self.span(cell, to.flags).cells() {
+            self.arrive(&rules.contacts, kind, cell);
+        }
+        if to.flags & flag::BIG != 0 {
+            self.cover(kind, slot);
         }
     }
 
     pub(crate) fn leave_cell(&mut self, rules: &Rules, slot: Slot) {
         let sprite = self.sprite(slot);
         let (cell, stype, flags) = (self.cell_of(sprite), sprite.stype.index(), sprite.flags);
-        self.unlink(slot, cell);
         self.sprites[usize::from(slot)].flags &= !flag::LYING;
         self.lie(&rules.contacts, stype, flags, 0);
         let kind = &rules.contacts.kinds[stype];
-        if kind.own != 0 {
-            let span = self.span(cell, flags);
-            for cell in span.cells() {
-                self.depart(&rules.contacts, kind, cell);
-            }
+        if kind.own == 0 {
+            return;
         }
+        self.unlink(slot, cell);
+        for cell in self.span(cell, flags).cells() {
+            self.depart(&rules.contacts, kind, cell);
+        }
+        self.left_behind += u32::from(flags & flag::BIG != 0);
     }
 
-    /// Changes the rectangle of a sprite.
+    /// Changes the rectangle of a sprite, which counts as moved in this tick. If sprites may rest, see
+    /// [`State::relocate_noisily`].
+    #[inline(always)]
     pub(crate) fn relocate(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
-        if !self.rests.is_empty() {
-            self.touch(slot);
-        }
-        let old = self.sprite(slot).rect;
-        let same = (old.w, old.h) == (rect.w, rect.h);
-        let sprite = if same { self.edit_motion(slot) } else { self.edit(slot) };
+        let sprite = &mut self.sprites[usize::from(slot)];
+        let before = sprite.flags;
+        let resized = (sprite.rect.w, sprite.rect.h) != (rect.w, rect.h);
+        sprite.flags |= flag::STALE | flag::MOVED | bit(resized, flag::CHANGED);
         sprite.rect = rect;
+        if before & flag::STALE == 0 {
+            self.stale.push(slot);
+        }
+        if before & flag::MOVED == 0 {
+            self.moved.push(slot);
+        }
         self.enter_anew(rules, slot, rect);
+    }
+
+    /// [`State::relocate`], with wakes for what rests where the sprite was and where it is.
+    pub(crate) fn relocate_noisily(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
+        if self.rests.is_empty() {
+            return self.relocate(rules, slot, rect);
+        }
+        self.touch(slot);
+        self.relocate(rules, slot, rect);
+        self.touch(slot);
     }
 
     /// Puts a sprite that is elsewhere now into its cells.
@@ -194,61 +267,95 @@ impl State {
         if from != to {
             self.shift(rules, slot, from, to);
         }
-        if to.flags & flag::BIG != 0 && self.meeting {
-            self.cover_cells(&rules.contacts, slot);
-        }
-        if !self.rests.is_empty() {
-            self.touch(slot);
+        if (from.flags | to.flags) & flag::BIG != 0 {
+            self.shift_big(rules, slot, from, to);
         }
     }
 
     #[inline(always)]
     fn shift(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
-        let before = self.span(self.cell(i32::from(from.column), i32::from(from.row)), from.flags);
-        let after = self.span(self.cell(i32::from(to.column), i32::from(to.row)), to.flags);
+        let before = self.cell(i32::from(from.column), i32::from(from.row));
+        let after = self.cell(i32::from(to.column), i32::from(to.row));
         let sprite = &mut self.sprites[usize::from(slot)];
         let stype = sprite.stype.index();
         sprite.flags = sprite.flags & !flag::LYING | to.flags;
-        if before.cell != after.cell {
-            (sprite.column, sprite.row) = (to.column, to.row);
-            self.unlink(slot, before.cell);
-            self.link(slot, after.cell);
-        }
+        (sprite.column, sprite.row) = (to.column, to.row);
         if from.flags != to.flags {
             self.lie(&rules.contacts, stype, from.flags, to.flags);
         }
         let kind = &rules.contacts.kinds[stype];
-        if kind.own != 0 && before != after {
-            let apart = before.is_one() && after.is_one();
-            let (gone, new) = if apart { (before, after) } else { before.apart(after) };
-            for cell in gone.cells() {
-                self.depart(&rules.contacts, kind, cell);
+        if kind.own == 0 {
+            return;
+        }
+        if before != after {
+            self.unlink(slot, before);
+            self.link(slot, after);
+        }
+        if (from.flags | to.flags) & (flag::RIGHT | flag::BELOW) == 0 {
+            if before != after {
+                self.depart(&rules.contacts, kind, before);
+                self.arrive(&rules.contacts, kind, after);
             }
-            for cell in new.cells() {
-                self.arrive(&rules.contacts, kind, cell);
-            }
+            return;
+        }
+        let unit = match to.flags & (flag::RIGHT | flag::BELOW) {
+            _ if from.flags != to.flags => 0,
+            flag::RIGHT => 1,
+            flag::BELOW => (self.columns + 2) as usize,
+            _ => 0,
+        };
+        let one = |cell: usize| self.span(cell, 0);
+        let (gone, new) = if unit != 0 && after == before + unit {
+            // Two cells, and two cells one further on.
+            (one(before), one(after + unit))
+        } else if unit != 0 && before == after + unit {
+            (one(before + unit), one(after))
+        } else {
+            self.span(before, from.flags).apart(
+                self.span(after, to.flags),
+                i32::from(to.column) - i32::from(from.column),
+                i32::from(to.row) - i32::from(from.row),
+            )
+        };
+        for cell in gone.cells() {
+            self.depart(&rules.contacts, kind, cell);
+        }
+        for cell in new.cells() {
+            self.arrive(&rules.contacts, kind, cell);
         }
     }
 
-    #[inline]
+    /// Notes where a large sprite is now.
+    #[inline(never)]
+    fn shift_big(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
+        self.left_behind += u32::from(from.flags & flag::BIG != 0);
+        let kind = &rules.contacts.kinds[self.sprite(slot).stype.index()];
+        if to.flags & flag::BIG != 0 && kind.own != 0 {
+            self.cover(kind, slot);
+        }
+    }
+
+    #[inline(always)]
     fn link(&mut self, slot: Slot, cell: usize) {
+        let sprites = &mut self.sprites[..];
         let head = std::mem::replace(&mut self.cells[cell], slot);
         if head != NONE {
-            self.sprites[usize::from(head)].cell_previous = slot;
+            sprites[usize::from(head)].cell_previous = slot;
         }
-        let sprite = &mut self.sprites[usize::from(slot)];
+        let sprite = &mut sprites[usize::from(slot)];
         (sprite.cell_next, sprite.cell_previous) = (head, NONE);
     }
 
-    #[inline]
+    #[inline(always)]
     fn unlink(&mut self, slot: Slot, cell: usize) {
-        let &Sprite { cell_next, cell_previous, .. } = self.sprite(slot);
+        let sprites = &mut self.sprites[..];
+        let Sprite { cell_next, cell_previous, .. } = sprites[usize::from(slot)];
         match cell_previous {
             NONE => self.cells[cell] = cell_next,
-            previous => self.sprites[usize::from(previous)].cell_next = cell_next,
+            previous => sprites[usize::from(previous)].cell_next = cell_next,
         }
         if cell_next != NONE {
-            self.sprites[usize::from(cell_next)].cell_previous = cell_previous;
+            sprites[usize::from(cell_next)].cell_previous = cell_previous;
         }
     }
 
@@ -279,6 +386,7 @@ impl State {
                 group.big += 1;
                 self.big += 1;
                 if group.big == 1 {
+                    self.big_bits |= contacts.kinds[stype].own;
                     self.enlarged(contacts, stype);
                 }
             }
@@ -286,6 +394,7 @@ impl State {
                 group.big -= 1;
                 self.big -= 1;
                 if group.big == 0 {
+                    self.big_bits &= !contacts.sole_bit(stype);
                     self.reduced(contacts, stype);
                 }
             }
@@ -294,11 +403,12 @@ impl State {
     }
 
     /// The cells that a sprite of such flags covers, of a big one only its corner's.
+    #[inline(always)]
     pub(crate) fn span(&self, cell: usize, flags: u32) -> Span {
         let stride = (self.columns + 2) as usize;
-        let right = if flags & flag::RIGHT != 0 { 0b0011 } else { 0b0001 };
-        let bits = if flags & flag::BELOW != 0 { right | right << 2 } else { right };
-        Span { cell, stride, bits }
+        let right = flags / flag::RIGHT & 1;
+        let below = flags / flag::BELOW & 1;
+        Span { cell, stride, bits: (1 | right << 1) * (1 | below << SPAN) }
     }
 
     /// Calls `visit` with the cells that a sprite covers; false, and no call, if these are more than [`MAX_COVERED`].
@@ -365,16 +475,46 @@ impl State {
     /// with it.
     #[inline(always)]
     pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
-        let others = |cell: usize| {
-            let mask = self.masks[cell];
-            (mask.any & !own | mask.many | self.covered[cell]) & side.bits != 0
-        };
         let cell = self.cell_of(sprite);
-        if others(cell) || self.vast & side.bits != 0 {
+        let mask = self.masks[cell];
+        if (mask.any & !own | mask.many) & side.bits != 0 {
             return true;
         }
         let lies = sprite.flags & flag::LOOSE;
-        lies != 0 && (lies & flag::BIG != 0 || self.span(cell, lies).cells().skip(1).any(others))
+        if lies == 0 && self.big_bits & side.bits == 0 {
+            return false;
+        }
+        self.may_overlap_loosely(own, side, cell, lies)
+    }
+
+    /// The rest of [`State::may_overlap`]: for sprites in several cells, and where some of the side are large.
+    fn may_overlap_loosely(&self, own: u64, side: Side<'_>, cell: usize, lies: u32) -> bool {
+        if lies & flag::BIG != 0 {
+            return true;
+        }
+        let others = |cell: usize| {
+            let mask = self.masks[cell];
+            mask.any & !own | mask.many
+        };
+        let stride = (self.columns + 2) as usize;
+        let mut bits = 0;
+        if lies & flag::RIGHT != 0 {
+            bits |= others(cell + 1);
+        }
+        if lies & flag::BELOW != 0 {
+            bits |= others(cell + stride);
+            if lies & flag::RIGHT != 0 {
+                bits |= others(cell + stride + 1);
+            }
+        }
+        bits & side.bits != 0 || self.span_is_covered(self.span(cell, lies), side)
+    }
+
+    /// Whether a large sprite of a side may reach into the cells.
+    #[inline(always)]
+    fn span_is_covered(&self, span: Span, side: Side<'_>) -> bool {
+        self.big_bits & side.bits != 0
+            && span.cells().fold(self.vast, |bits, cell| bits | self.covered[cell]) & side.bits != 0
     }
 
     /// Collects the sprites of a side that overlap a sprite, itself left out, in no particular order. `above`
@@ -393,8 +533,7 @@ impl State {
             return self.overlapping_rect(rules, side, (slot, rect), above, hits);
         }
         let span = self.span(self.cell_of(sprite), sprite.flags);
-        let covered = span.cells().fold(self.vast, |bits, cell| bits | self.covered[cell]);
-        if covered & side.bits != 0 {
+        if self.span_is_covered(span, side) {
             return self.overlapping_rect(rules, side, (slot, rect), above, hits);
         }
         // Those that lie in several cells may reach over from the cells left and above.
@@ -473,55 +612,47 @@ impl State {
     }
 }
 
-/// The cells that a sprite covers that is no larger than one: up to four, its corner's first.
+/// Some of the cells of a square of the board, [`SPAN`] cells wide: those that a sprite covers that is no larger than a
+/// cell, up to four.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
+    /// The square's corner.
     cell: usize,
     stride: usize,
-    /// A bit each for the corner's cell, the one to the right, the one below, and the one below that to the right.
+    /// A bit for each cell of the square, row by row.
     bits: u32,
 }
 
+/// Two sprites no larger than a cell whose corners are in neighbouring cells are in a square of so many.
+const SPAN: u32 = 3;
+
 impl Span {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn cells(self) -> impl Iterator<Item = usize> {
         let Span { cell, stride, mut bits } = self;
         std::iter::from_fn(move || {
             if bits == 0 {
                 return None;
             }
-            let at = bits.trailing_zeros() as usize;
+            let at = bits.trailing_zeros();
             bits &= bits - 1;
-            Some(cell + (at & 1) + if at & 2 != 0 { stride } else { 0 })
+            Some(cell + (at % SPAN) as usize + (at / SPAN) as usize * stride)
         })
     }
 
-    /// The cells of this span that are not in another one of the same board, and those of the other that are not in this.
-    #[inline]
-    pub(crate) fn apart(self, other: Span) -> (Span, Span) {
-        let (mine, others) = (self.bits, other.bits);
-        let ahead = other.cell.wrapping_sub(self.cell) as isize;
-        let stride = self.stride as isize;
-        // What both have, as bits of this one and of the other: the other's corner lies somewhere around this one's.
-        let shared = |mine: u32, others: u32, shift: u32| (mine & others << shift, mine >> shift & others);
-        let (left, right, top, bottom) = (0b0101, 0b1010, 0b0011, 0b1100);
-        let (common, commons) = match ahead {
-            0 => shared(mine, others, 0),
-            1 => shared(mine & right, others & left, 1),
-            -1 => swap(shared(others & right, mine & left, 1)),
-            _ if ahead == stride => shared(mine & bottom, others & top, 2),
-            _ if ahead == -stride => swap(shared(others & bottom, mine & top, 2)),
-            _ if ahead == stride + 1 => shared(mine & 0b1000, others & 0b0001, 3),
-            _ if ahead == -stride - 1 => swap(shared(others & 0b1000, mine & 0b0001, 3)),
-            _ if ahead == stride - 1 => shared(mine & 0b0100, others & 0b0010, 1),
-            _ if ahead == -stride + 1 => swap(shared(others & 0b0100, mine & 0b0010, 1)),
-            _ => (0, 0),
-        };
-        (Span { bits: mine & !common, ..self }, Span { bits: others & !commons, ..other })
-    }
-
-    fn is_one(self) -> bool {
-        self.bits == 0b0001
+    /// The cells of this span that are not in another one, and those of the other that are not in this; the other's corner
+    /// is so many columns and rows away.
+    #[inline(always)]
+    fn apart(self, other: Span, columns: i32, rows: i32) -> (Span, Span) {
+        if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {
+            return (self, other);
+        }
+        // Both in one square, whose corner is the upper and left one of theirs.
+        let back = |by: i32| by.min(0).unsigned_abs() as usize;
+        let cell = self.cell - back(columns) - back(rows) * self.stride;
+        let shift = |columns: i32, rows: i32| columns.max(0) as u32 + rows.max(0) as u32 * SPAN;
+        let (mine, others) = (self.bits << shift(-columns, -rows), other.bits << shift(columns, rows));
+        (Span { cell, bits: mine & !others, ..self }, Span { cell, bits: others & !mine, ..self })
     }
 
     fn right(self) -> i32 {
@@ -529,7 +660,7 @@ impl Span {
     }
 
     fn below(self) -> i32 {
-        i32::from(self.bits & 0b0100 != 0)
+        i32::from(self.bits & 1 << SPAN != 0)
     }
 }
 
@@ -537,13 +668,9 @@ fn bit(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
 
-fn swap((one, two): (u32, u32)) -> (u32, u32) {
-    (two, one)
-}
-
 /// Along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next to it; and whether what
 /// begins there, and is no larger than a cell, reaches into the next one.
-#[inline]
+#[inline(always)]
 fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
     let mut cell = i32::from(guess) - 1;
     let mut offset = pixel.wrapping_sub(cell.wrapping_mul(block));
@@ -562,7 +689,7 @@ fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i1
 
 #[cfg(test)]
 mod tests {
-    use super::{Span, near};
+    use super::{SPAN, Span, near};
 
     #[test]
     fn a_guess_never_changes_the_answer() {
@@ -580,14 +707,21 @@ mod tests {
 
     #[test]
     fn what_spans_do_not_share_is_what_lists_of_cells_do_not_share() {
-        const STRIDE: usize = 5;
+        const STRIDE: usize = 7;
         let spans = || {
-            (6..30).flat_map(|cell| {
-                [0b0001, 0b0011, 0b0101, 0b1111].map(|bits| Span { cell, stride: STRIDE, bits })
+            let cells = (1..6).flat_map(|row| (1..6).map(move |column| (column, row)));
+            cells.flat_map(|(column, row): (i32, i32)| {
+                [0b0001, 0b0011, 1 | 1 << SPAN, 0b0011 | 0b0011 << SPAN].map(|bits| {
+                    (
+                        Span { cell: row as usize * STRIDE + column as usize, stride: STRIDE, bits },
+                        column,
+                        row,
+                    )
+                })
             })
         };
-        for (one, two) in spans().flat_map(|one| spans().map(move |two| (one, two))) {
-            let (gone, new) = one.apart(two);
+        for ((one, x, y), (two, to_x, to_y)) in spans().flat_map(|one| spans().map(move |two| (one, two))) {
+            let (gone, new) = one.apart(two, to_x - x, to_y - y);
             let list = |span: Span| span.cells().collect::<Vec<usize>>();
             let without = |span: Span, other: Span| {
                 let other = list(other);

@@ -4,6 +4,13 @@ use crate::game::Rules;
 use crate::geometry::Direction;
 use crate::state::{Slot, State};
 
+/// Marks of cells, the ring around the board included: one that paths may lead through,
+const OPEN: u8 = 0;
+/// one with an obstacle, or off the board,
+const CLOSED: u8 = u8::MAX;
+/// and the one where a path starts.
+const START: u8 = u8::MAX - 1;
+
 /// A frontier that breaks ties as the reference's binary heap does.
 #[derive(Default)]
 struct Heap {
@@ -52,15 +59,20 @@ impl State {
     /// Notes which cells hold an obstacle now, at the start: they stay obstacles. Hidden sprites are not seen. An avatar
     /// with three actions makes all paths of the episode go left and right only, whatever becomes of it.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
-        let mut obstacles = vec![false; (self.columns * self.rows) as usize];
+        let mut ways = vec![CLOSED; State::cell_count(self.columns, self.rows)];
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                ways[self.cell(column + 1, row + 1)] = OPEN;
+            }
+        }
         for &stype in rules.obstacles.iter().filter(|stype| !rules.types[stype.index()].traits.hidden) {
             for slot in self.slots(stype) {
                 let rect = self.sprite(slot).rect;
                 let (column, row) = (rect.x / self.block, rect.y / self.block);
-                obstacles[(row * self.columns + column) as usize] = true;
+                ways[self.cell(column + 1, row + 1)] = CLOSED;
             }
         }
-        self.obstacles = obstacles;
+        self.obstacles = ways;
         self.sideways = self.avatar_actions(rules) == 3;
     }
 
@@ -68,35 +80,35 @@ impl State {
     /// at.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
-        if start == goal || self.obstacles[start] || self.obstacles[goal] {
+        if start == goal || self.obstacles[start] == CLOSED || self.obstacles[goal] == CLOSED {
             return (None, 1);
         }
-        let (up, down) = (Direction::UP, Direction::DOWN);
-        let (left, right) = (Direction::LEFT, Direction::RIGHT);
-        let ways: &[Direction] = if self.sideways { &[left, right] } else { &[up, down, left, right] };
-        // For each reached cell, the first step of the way there.
-        let mut first: Vec<Option<Direction>> = vec![None; self.obstacles.len()];
+        const WAYS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
+        let stride = (self.columns + 2) as usize;
+        // What to add for each of them, modulo the size of numbers.
+        let ahead = [stride.wrapping_neg(), stride, 1usize.wrapping_neg(), 1];
+        let from_way = if self.sideways { 2 } else { 0 };
+        // For each reached cell, the first step of the way there, as a number above [`OPEN`].
+        let mut first = self.obstacles.clone();
+        first[start] = START;
         // To make that table is work too.
-        let mut looked = self.obstacles.len() / 8;
+        let mut looked = (self.columns * self.rows) as usize / 8;
         let mut frontier = Heap::default();
         frontier.push((0, start as u32));
         while let Some((cost, cell)) = frontier.pop() {
-            let (column, row) = (cell as i32 % self.columns, cell as i32 / self.columns);
-            for &way in ways {
+            let cell = cell as usize;
+            let here = first[cell];
+            for way in from_way..WAYS.len() {
                 looked += 1;
-                let (column, row) = (column + way.x as i32, row + way.y as i32);
-                if !(0..self.columns).contains(&column) || !(0..self.rows).contains(&row) {
+                let next = cell.wrapping_add(ahead[way]);
+                if first[next] != OPEN {
                     continue;
                 }
-                let next = (row * self.columns + column) as usize;
-                if self.obstacles[next] || first[next].is_some() || next == start {
-                    continue;
-                }
-                let step = first[cell as usize].unwrap_or(way);
+                let step = if here == START { way as u8 + 1 } else { here };
                 if next == goal {
-                    return (Some(step), looked);
+                    return (Some(WAYS[usize::from(step) - 1]), looked);
                 }
-                first[next] = Some(step);
+                first[next] = step;
                 frontier.push((cost + 1, next as u32));
             }
         }
@@ -109,7 +121,7 @@ impl State {
         let column = (f64::from(x) * reciprocal) as i32;
         let row = (f64::from(y) * reciprocal) as i32;
         let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
-        inside.then(|| (row * self.columns + column) as usize)
+        inside.then(|| self.cell(column + 1, row + 1))
     }
 
     /// How many actions the avatar has, doing nothing left out.

@@ -23,7 +23,7 @@ impl State {
             }
             counts.push(usize::from(counted.count));
         }
-        self.recount_cells(&alive)?;
+        self.recount_cells(game, &alive)?;
         self.recount_contacts(game)?;
         self.recount_lists(game, &alive)?;
         Ok(counts)
@@ -44,16 +44,39 @@ impl State {
         off | right | if over(y, h, sprite.row, self.rows) { flag::BELOW } else { 0 }
     }
 
+    /// Whether a sprite in flight is in the cells in which it is entered, and lies on the screen as it is said to.
+    fn is_in_its_lane(&self, slot: Slot) -> bool {
+        let present = self.present(slot);
+        let place = |at: i32, cells: i32| at.div_euclid(self.block).clamp(-1, cells) + 1;
+        let within = |at: i32, size: i32, cells: i32, cell: i16, more: bool| {
+            let (first, last) = (place(at, cells), place(at.saturating_add(size.saturating_sub(1)), cells));
+            i32::from(cell) <= first && last.max(first) <= i32::from(cell) + i32::from(more)
+        };
+        let Rect { x, y, w, h } = present.rect;
+        within(x, w, self.columns, present.column, present.is(flag::RIGHT))
+            && within(y, h, self.rows, present.row, present.is(flag::BELOW))
+            && present.is(flag::OFF) != self.screen().contains(present.rect)
+            && !present.is(flag::BIG)
+    }
+
     /// Which types share cells, and which rules are possible therefore.
     fn recount_contacts(&self, game: &Game) -> Result<(), String> {
         let fresh = self.contacts_from_scratch(&game.0);
-        let kept = (&self.masks, &self.together, &self.reasons, &self.possible, self.big);
-        let counted = (&fresh.masks, &fresh.together, &fresh.reasons, &fresh.possible, fresh.big);
+        let kept = (&self.masks, &self.together, &self.meets, &self.reasons, &self.possible, self.big);
+        let counted =
+            (&fresh.masks, &fresh.together, &fresh.meets, &fresh.reasons, &fresh.possible, fresh.big);
         if kept != counted {
             return Err(format!("contacts: counted {counted:?}, kept {kept:?}"));
         }
-        let nothing = self.covered.iter().all(|&bits| bits == 0) && self.vast == 0 && self.touched.is_empty();
-        if fresh.loose_bits & !self.loose_bits != 0 || !nothing {
+        let bits = |state: &State| {
+            let few = [state.loose_bits, state.big_bits, state.vast];
+            few.into_iter().chain(state.covered.iter().copied()).collect::<Vec<u64>>()
+        };
+        // These may say too much, never too little.
+        if bits(&fresh).iter().zip(bits(self)).any(|(&fresh, kept)| fresh & !kept != 0) {
+            return Err("contacts: a sprite in several cells is not known as one".to_owned());
+        }
+        if !self.touched.is_empty() {
             return Err("contacts: something is left over from the last event phase".to_owned());
         }
         Ok(())
@@ -85,7 +108,11 @@ impl State {
             counted.big += u16::from(sprite.is(flag::BIG));
             counted.off += u16::from(sprite.is(flag::OFF));
             counted.asleep += u16::from(sprite.rest & mark::ASLEEP != 0);
-            if self.recounted_flags(sprite) != sprite.flags & flag::LYING {
+            let told = match sprite.rest {
+                mark::FLYING => self.is_in_its_lane(slot),
+                _ => self.recounted_flags(sprite) == sprite.flags & flag::LYING,
+            };
+            if !told {
                 return Err(format!("slot {slot} of `{name}` lies otherwise than its flags say"));
             }
         }
@@ -100,8 +127,8 @@ impl State {
         Ok(counted)
     }
 
-    /// Walks the chain of every cell: each sprite stands once in the cell of its corner.
-    fn recount_cells(&self, alive: &[bool]) -> Result<(), String> {
+    /// Walks the chain of every cell: each sprite of a type that takes part in rules stands once in the cell of its corner.
+    fn recount_cells(&self, game: &Game, alive: &[bool]) -> Result<(), String> {
         let mut seen = vec![false; alive.len()];
         for (cell, &head) in self.cells.iter().enumerate() {
             let (mut slot, mut previous) = (head, NONE);
@@ -113,13 +140,21 @@ impl State {
                 let column = sprite.rect.x.div_euclid(self.block).clamp(-1, self.columns) + 1;
                 let row = sprite.rect.y.div_euclid(self.block).clamp(-1, self.rows) + 1;
                 let place = (i32::from(sprite.column), i32::from(sprite.row));
-                if place != (column, row) || (row * (self.columns + 2) + column) as usize != cell {
+                // Of sprites in flight, the cells have been compared with their place already.
+                let told = place == (column, row) || sprite.rest == mark::FLYING;
+                if !told || (place.1 * (self.columns + 2) + place.0) as usize != cell {
                     return Err(format!("slot {slot} stands in ({column}, {row}), not in cell {cell}"));
                 }
                 (slot, previous) = (sprite.cell_next, slot);
             }
         }
-        if seen != alive { Err("the cells hold other sprites than the types".to_owned()) } else { Ok(()) }
+        let takes_part = |sprite: &Sprite| game.0.contacts.kinds[sprite.stype.index()].own != 0;
+        let expected = |(at, &alive): (usize, &bool)| alive && takes_part(&self.sprites[at]);
+        if !alive.iter().enumerate().map(expected).eq(seen) {
+            Err("the cells hold other sprites than the types".to_owned())
+        } else {
+            Ok(())
+        }
     }
 
     /// The free list, the list of those that moved, resources and extras.

@@ -146,14 +146,15 @@ impl State {
 
 impl Step<'_> {
     /// Before a tick: nothing rests in one in which a rule that is executed stops the game.
+    #[inline]
     pub(crate) fn begin_rest(&mut self, plainly: bool) {
         self.flies = self.rules.any_flies && !plainly;
         self.rests = self.rules.any_rests && !plainly && self.state.avatar != NONE;
         if !self.rests && !self.state.rests.is_empty() {
             self.state.wake_all();
         }
-        if !self.flies {
-            self.state.land_all();
+        if !self.flies && !self.state.flights.is_empty() {
+            self.state.land_all(self.rules);
         }
     }
 
@@ -190,10 +191,15 @@ impl Step<'_> {
 
     /// After a tick: what was put back, in a place where nothing else changed, rests from now on; what has moved, and will
     /// go on so, flies.
+    #[inline]
     pub(crate) fn settle_down(&mut self) {
-        if !self.tried || self.stopped.is_some() {
-            return;
+        if self.tried && self.stopped.is_none() {
+            self.settle_tried();
         }
+    }
+
+    #[inline(never)]
+    fn settle_tried(&mut self) {
         if self.rests {
             self.stamp_moved();
         }

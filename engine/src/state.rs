@@ -244,6 +244,8 @@ pub struct State {
     pub(crate) big: u32,
     /// The bits of the types with sprites that cover more than one cell.
     pub(crate) loose_bits: u64,
+    /// The bits of the types with sprites that are larger than a cell.
+    pub(crate) big_bits: u64,
     pub(crate) sprites: Vec<Sprite>,
     /// By slot: the share of the sprite in the hash when it was last settled.
     pub(crate) shares: Vec<Share>,
@@ -253,17 +255,16 @@ pub struct State {
     pub(crate) cells: Vec<Slot>,
     /// By cell: the bits of the types that cover it (`contacts.rs`).
     pub(crate) masks: Vec<Mask>,
-    /// While pairs are looked for, by cell: the bits of the sprites larger than a cell that cover it, or did;
-    /// 0 at all other times, so copies need not copy it.
+    /// By cell: the bits of the sprites larger than a cell that cover it, or did not long ago; empty without any.
     pub(crate) covered: Vec<u64>,
-    /// The cells of `covered` that are not 0.
-    pub(crate) covered_cells: Vec<u32>,
-    /// The bits of sprites so large that they count as everywhere, while pairs are looked for.
+    /// How often such a sprite has left cells since `covered` was tidied.
+    pub(crate) left_behind: u32,
+    /// The bits of sprites so large that they count as everywhere.
     pub(crate) vast: u64,
-    /// Whether pairs are being looked for.
-    pub(crate) meeting: bool,
     /// By pair of bits: in how many cells both are.
     pub(crate) together: Vec<u16>,
+    /// By bit: the bits that it is together with anywhere.
+    pub(crate) meets: Vec<u64>,
     /// By pass: how many reasons there are to look at it.
     pub(crate) reasons: Vec<u16>,
     /// The passes with a reason, a bit each.
@@ -297,8 +298,8 @@ pub struct State {
     pub(crate) touched: Vec<u32>,
     /// Planned time effects, the next one last (`spec/03` §6.2).
     pub(crate) timers: Vec<Timer>,
-    /// Cells that path finding goes around; empty without `obs=`.
-    pub(crate) obstacles: Vec<bool>,
+    /// By cell: whether path finding goes around it (`paths.rs`); empty without `obs=`.
+    pub(crate) obstacles: Vec<u8>,
     /// Paths go left and right only.
     pub(crate) sideways: bool,
     /// Entries of the lists of BomberRandomMissiles that updateSpawnType has replaced, sorted by holder and place.
@@ -333,9 +334,9 @@ macro_rules! clone_fields {
 }
 
 clone_fields! { to, from;
-    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big loose_bits next_due census_changed jumps vast meeting sideways;
-    buffers sprites shares groups cells masks together reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers obstacles replaced counters;
-    empty covered covered_cells touched
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big loose_bits big_bits next_due census_changed jumps vast left_behind sideways;
+    buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers obstacles replaced counters;
+    empty touched
 }
 
 impl State {
@@ -391,7 +392,9 @@ impl State {
             + bytes(&self.shares)
             + bytes(&self.cells)
             + bytes(&self.masks)
+            + bytes(&self.covered)
             + bytes(&self.together)
+            + bytes(&self.meets)
             + bytes(&self.reasons)
             + bytes(&self.possible)
             + bytes(&self.moved)
@@ -506,6 +509,15 @@ impl State {
             self.stale.push(slot);
         }
         sprite
+    }
+
+    /// Turns a sprite.
+    pub(crate) fn face(&mut self, slot: Slot, direction: Direction) {
+        let bits = |direction: Direction| (direction.x.to_bits(), direction.y.to_bits());
+        // Most keep facing where they face, and their share of the hash with it.
+        if bits(self.sprite(slot).orientation) != bits(direction) {
+            self.edit(slot).orientation = direction;
+        }
     }
 
     /// Takes a slot out of its chains and frees it. The caller calls [`State::forget_gone`] after the last one.

@@ -1,16 +1,16 @@
-//! One step of a game: the cycle of `spec/01` §4, and the operations on sprites that the ontology is written in.
+//! One step of a game: the cycle of `spec/01` §4. The operations on sprites that the ontology is written in are in
+//! `population.rs` and `motion.rs`.
 
 use crate::Seed;
 use crate::chance::Chance;
 use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
-use crate::geometry::{Direction, Rect};
+use crate::geometry::Direction;
 use crate::level::Level;
-use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_SPRITES, MAX_TICKS, MAX_WORK};
-use crate::ontology::class::SpriteClass;
-use crate::ontology::sprites::{Habit, producers};
+use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
+use crate::ontology::sprites::{Habit, npcs, producers};
 use crate::ontology::{avatars, sprites};
 use crate::rest::mark;
-use crate::state::{Group, NONE, Slot, Sprite, State, Timer, flag};
+use crate::state::{Group, NONE, Slot, State, Timer, flag};
 
 /// Pixels of the longer side of a board whose game does not set `square_size`.
 const SCREEN: i32 = 800;
@@ -83,16 +83,17 @@ impl Game {
             memory_is_stale: true,
             big: 0,
             loose_bits: 0,
+            big_bits: 0,
             sprites: Vec::new(),
             shares: Vec::new(),
             groups: vec![Group::EMPTY; rules.types.len()],
             cells: vec![NONE; State::cell_count(columns, rows)],
             masks: Vec::new(),
-            covered: vec![0; State::cell_count(columns, rows)],
-            covered_cells: Vec::new(),
+            covered: Vec::new(),
+            left_behind: 0,
             vast: 0,
-            meeting: false,
             together: Vec::new(),
+            meets: Vec::new(),
             reasons: Vec::new(),
             possible: Vec::new(),
             moved: Vec::new(),
@@ -259,11 +260,6 @@ impl<'a> Step<'a> {
         moved.truncate(kept);
     }
 
-    /// Whether the sprite's class is an avatar's; what the sprite passes for is [`flag::AVATAR`].
-    pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
-        self.rules.types[self.state.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
-    }
-
     fn update(&mut self, action: Action) {
         let avatar = self.state.avatar;
         if avatar != NONE && !self.state.sprite(avatar).is(flag::DISABLED) {
@@ -276,28 +272,33 @@ impl<'a> Step<'a> {
                 return;
             }
         }
-        for &stype in &self.rules.movers {
-            let group = *self.state.group(stype);
-            let info = &self.rules.types[stype.index()];
-            self.updating = i32::from(info.order.expect("movers are in the update order"));
+        let rules = self.rules;
+        for mover in &rules.movers {
+            let group = self.state.group(mover.stype);
+            let (head, count, asleep) = (group.head, group.count, group.asleep);
+            if count == 0 {
+                continue;
+            }
+            self.updating = mover.order;
             self.updating_id = 0;
-            self.work(usize::from(group.count));
+            self.work(usize::from(count));
             if self.stopped.is_some() {
                 return;
             }
-            if group.asleep == group.count {
+            if asleep == count {
                 continue;
             }
-            let mut slot = group.head;
-            let habit = info.class.map_or(Habit::Other, |class| sprites::habit(class, &info.traits));
-            let foreseen = self.flies && self.rules.foresight[stype.index()].flies;
+            let info = &rules.types[mover.stype.index()];
+            let mut slot = head;
+            let foreseen = self.flies && mover.flies;
             while slot != NONE {
+                let at = slot;
                 let sprite = self.state.sprite(slot);
                 if sprite.rest & mark::ASLEEP != 0 {
                     slot = sprite.next;
                     continue;
                 }
-                match habit {
+                match mover.habit {
                     Habit::Moves if sprites::stays(sprite, &info.traits, self.state) => {
                         slot = sprite.next;
                         continue;
@@ -309,13 +310,18 @@ impl<'a> Step<'a> {
                             continue;
                         }
                     }
+                    Habit::Wanders if sprites::waits(sprite, &info.traits, self.state) => {
+                        slot = sprite.next;
+                        npcs::random_move(self, at, info.traits.cons);
+                        continue;
+                    }
                     _ => {}
                 }
                 self.updating_id = sprite.id;
                 if info.traits.oriented_image {
                     self.turn_picture(slot);
                 }
-                sprites::update(self, slot);
+                sprites::update(self, slot, mover.class);
                 if self.stopped.is_some() {
                     return;
                 }
@@ -363,21 +369,8 @@ impl<'a> Step<'a> {
         self.state.forget_gone();
     }
 
-    /// Makes a sprite the player's: from now on it is updated, and ages, and the one before is not and does not.
-    pub(crate) fn control(&mut self, slot: Slot) {
-        let before = std::mem::replace(&mut self.state.avatar, slot);
-        if before != NONE && before != slot && !self.state.sprite(before).is(flag::FROZEN) {
-            self.freeze(before);
-        }
-        let tick = self.state.tick;
-        let sprite = self.state.edit(slot);
-        if sprite.is(flag::FROZEN) && !sprite.is(flag::DISABLED) {
-            sprite.set(flag::FROZEN, false);
-            sprite.moved_at = tick.wrapping_sub(sprite.moved_at);
-        }
-    }
-
     /// Removes what was killed in this tick (`spec/01` §4.10).
+    #[inline]
     fn clear(&mut self) {
         if !self.state.killed.is_empty() {
             self.clear_killed();
@@ -385,29 +378,6 @@ impl<'a> Step<'a> {
         self.wake();
         self.state.shields.clear();
         self.state.pulled.clear();
-    }
-
-    fn clear_killed(&mut self) {
-        let mut killed = std::mem::take(&mut self.state.killed);
-        for &slot in &killed {
-            // The kill list may name a sprite twice; the counter goes down twice, as in the reference.
-            self.state.population -= 1;
-            if self.state.sprite(slot).is(flag::GONE) {
-                continue;
-            }
-            if slot == self.state.avatar {
-                self.state.avatar = NONE;
-            }
-            if self.rests {
-                let sprite = *self.state.sprite(slot);
-                self.state.touch(slot);
-                self.note_change(&sprite);
-            }
-            self.state.release(self.rules, slot);
-        }
-        self.state.forget_gone();
-        killed.clear();
-        self.state.killed = killed;
     }
 
     fn terminate(&mut self) {
@@ -458,250 +428,5 @@ impl<'a> Step<'a> {
 
     pub(crate) fn message(&mut self) {
         self.state.messages = self.state.messages.saturating_add(1);
-    }
-
-    /// Makes a sprite unless a singleton of its line exists or there are too many (`spec/01` §3.5).
-    pub(crate) fn add(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
-        let rules = self.rules;
-        if self.is_full() {
-            return None;
-        }
-        let path = rules.types.get(stype.index()).map_or(&[][..], |info| &info.path);
-        for &ancestor in path {
-            if rules.types[ancestor.index()].singleton && self.state.count(rules, ancestor) > 0 {
-                return None;
-            }
-        }
-        self.make(stype, x, y)
-    }
-
-    /// Makes a sprite whatever singletons there are.
-    pub(crate) fn add_forced(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
-        if self.is_full() { None } else { self.make(stype, x, y) }
-    }
-
-    /// Whether there are too many sprites for another one; a message if so.
-    fn is_full(&mut self) -> bool {
-        let full = self.state.population > MAX_SPRITES as i32;
-        if full {
-            self.message();
-        }
-        full
-    }
-
-    fn make(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
-        let info = self.rules.types.get(stype.index());
-        let Some((info, class)) = info.and_then(|info| Some((info, info.class?))) else {
-            self.stop(Limit::NoType);
-            return None;
-        };
-        if info.incomplete {
-            self.stop(Limit::UnfitSprite);
-        }
-        let traits = &info.traits;
-        let block = self.state.block;
-        let scaled = |factor: f64| (f64::from(block) * factor) as i32;
-        let rect = Rect { x, y, w: scaled(traits.width_factor), h: scaled(traits.height_factor) };
-        let first = std::mem::replace(&mut self.state.templates[stype.index()], 1) == 0;
-        self.state.memory_is_stale |= first;
-        if !first && rect.h == 0 {
-            self.stop(Limit::FlatSprite);
-        }
-        if first {
-            self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
-        }
-        // Sprites of avatar classes are updated, and age, only as the player's.
-        let order = info.order.map(i32::from).filter(|_| !class.is_avatar());
-        // Still to be updated in this tick: then its age will be 1 at that update.
-        let due = order.is_some_and(|order| order < self.updating);
-        let flags = [
-            (flag::AVATAR, traits.is_avatar),
-            (flag::FROM_AVATAR, traits.is_from_avatar),
-            (flag::ON_GROUND, traits.on_ground),
-            (flag::FIRST_TICK, traits.is_first_tick),
-            (flag::ORIENTED, traits.is_oriented),
-            (flag::FROZEN, order.is_none()),
-            (flag::BRISK, traits.cooldown <= 1 && traits.last_move == 0 && !class.is_avatar()),
-        ];
-        let flags = flags.into_iter().fold(0, |all, (bit, on)| if on { all | bit } else { all });
-        let sprite = Sprite {
-            rect,
-            // The first sprite of a type keeps the unscaled size until its first update.
-            last: if first && !due { Rect { x, y, w: block, h: block } } else { rect },
-            orientation: traits.orientation,
-            speed: traits.speed,
-            id: self.state.next_id,
-            moved_at: match order {
-                None => traits.last_move,
-                Some(_) => (self.state.tick - i32::from(due)).wrapping_sub(traits.last_move),
-            },
-            health: traits.health,
-            max_health: traits.max_health,
-            time_to_live: traits.time_to_live,
-            count: traits.age,
-            start: traits.start,
-            spawns: match class {
-                // A copy of the first one has forgotten what it leaves behind, and leaves what has the number 0: wall.
-                SpriteClass::OngoingTurningAvatar if !first => SpriteType(0),
-                SpriteClass::OngoingTurningAvatar => traits.spawn_behind.unwrap_or(SpriteType(0)),
-                _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
-            },
-            extra: NONE,
-            stype,
-            rest: mark::NOTHING,
-            flags,
-            heading: sprites::NO_HEADING,
-            next: NONE,
-            previous: NONE,
-            cell_next: NONE,
-            cell_previous: NONE,
-            column: 0,
-            row: 0,
-        };
-        if order.is_some_and(|order| order == self.updating) {
-            self.stop(Limit::SpawnIntoUpdatedType);
-            return None;
-        }
-        let Some(slot) = self.state.admit(self.rules, sprite) else {
-            self.stop(Limit::Sprites);
-            return None;
-        };
-        self.state.next_id += 1;
-        self.state.population += 1;
-        if self.rests {
-            let sprite = *self.state.sprite(slot);
-            self.state.touch(slot);
-            self.note_change(&sprite);
-            self.wake();
-        }
-        if sprite.last != sprite.rect {
-            self.mark_moved(slot);
-        }
-        Some(slot)
-    }
-
-    /// Kills: avatars are disabled and stay, others go at the end of the tick (`spec/03` §5.1).
-    pub(crate) fn kill(&mut self, slot: Slot) {
-        if !self.can_be_played(slot) {
-            return self.remove(slot);
-        }
-        let sprite = self.state.sprite(slot);
-        if sprite.is(flag::DISABLED) {
-            return;
-        }
-        let stype = sprite.stype;
-        self.freeze(slot);
-        self.state.edit(slot).set(flag::DISABLED, true);
-        self.state.groups[stype.index()].disabled += 1;
-        self.state.census_changed = true;
-    }
-
-    /// The sprite is not updated any more, and stays as old as it is.
-    fn freeze(&mut self, slot: Slot) {
-        let age = self.age(slot);
-        let sprite = self.state.edit(slot);
-        sprite.set(flag::FROZEN, true);
-        sprite.moved_at = age;
-    }
-
-    /// Kills for good, avatar or not.
-    pub(crate) fn remove(&mut self, slot: Slot) {
-        self.state.edit_motion(slot).set(flag::KILLED, true);
-        self.state.killed.push(slot);
-    }
-
-    /// The reference's `lastmove`: ticks since the last move, as it stands in this tick's update or events.
-    pub(crate) fn age(&self, slot: Slot) -> i32 {
-        let sprite = self.state.sprite(slot);
-        // The reference counts on beyond the largest number, too.
-        if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.state.tick.wrapping_sub(sprite.moved_at) }
-    }
-
-    pub(crate) fn set_age(&mut self, slot: Slot, age: i32) {
-        let tick = self.state.tick;
-        let sprite = self.state.edit_motion(slot);
-        sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
-    }
-
-    fn mark_moved(&mut self, slot: Slot) {
-        let sprite = &mut self.state.sprites[usize::from(slot)];
-        if !sprite.is(flag::MOVED) {
-            sprite.set(flag::MOVED, true);
-            self.state.moved.push(slot);
-        }
-    }
-
-    /// Puts a sprite somewhere else, size included.
-    pub(crate) fn place(&mut self, slot: Slot, rect: Rect) {
-        if rect.h == 0 {
-            self.stop(Limit::FlatSprite);
-        }
-        if self.state.sprite(slot).rect == rect {
-            return;
-        }
-        if !self.rests {
-            self.state.relocate(self.rules, slot, rect);
-            return self.mark_moved(slot);
-        }
-        let before = *self.state.sprite(slot);
-        self.state.relocate(self.rules, slot, rect);
-        // Of a try it shows only at the end of the tick whether it changed anything.
-        if !self.is_try(&before) {
-            self.note_change(&before);
-            let after = *self.state.sprite(slot);
-            self.note_change(&after);
-        }
-        self.wake();
-        self.mark_moved(slot);
-    }
-
-    /// Whether a move is the sprite's own try, or its way back from it: that is seen at the end of the tick.
-    fn is_try(&self, sprite: &Sprite) -> bool {
-        self.rests
-            && self.rules.foresight[sprite.stype.index()].rests
-            && (self.updating >= 0 || sprite.rest != mark::NOTHING)
-    }
-
-    fn note_change(&mut self, sprite: &Sprite) {
-        if self.rests {
-            self.state.stamp(sprite, self.state.tick);
-        }
-    }
-
-    pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
-        let sprite = *self.state.sprite(slot);
-        self.note_change(&sprite);
-        self.state.edit(slot).last = last;
-        self.mark_moved(slot);
-    }
-
-    /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids.
-    pub(crate) fn displace(&mut self, slot: Slot, direction: Direction, amount: i32) -> bool {
-        let stype = self.state.sprite(slot).stype;
-        if self.rules.types[stype.index()].traits.cooldown > self.age(slot) {
-            return false;
-        }
-        let Some(rect) = self.shifted(slot, direction, amount) else { return false };
-        self.place(slot, rect);
-        self.set_age(slot, 0);
-        true
-    }
-
-    /// Where a displacement leads; None if it is none.
-    pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
-        let sprite = self.state.sprite(slot);
-        let amount = if amount == 0 { sprite.speed as i32 } else { amount };
-        if amount == 0 || direction.x.abs() + direction.y.abs() == 0.0 {
-            return None;
-        }
-        let rect = sprite.rect;
-        let shift = |component: f64| (component * f64::from(amount)) as i32;
-        Some(rect.at(rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y))))
-    }
-
-    /// (x, y) of the displacement in this tick.
-    pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
-        let Sprite { rect, last, .. } = *self.state.sprite(slot);
-        Direction { x: f64::from(rect.x.wrapping_sub(last.x)), y: f64::from(rect.y.wrapping_sub(last.y)) }
     }
 }

@@ -18,7 +18,7 @@ use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TICKS, MAX_TYPES};
 use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
-use crate::ontology::sprites as behaviour;
+use crate::ontology::sprites::{self as behaviour, Mover};
 use crate::ontology::terminations::{Condition, Decision, Termination};
 use crate::rest::foresight;
 use crate::syntax::{Description, Param, Word, print_bare};
@@ -95,13 +95,21 @@ fn compile_with(
     }
 
     let speeds_change = program.effects.iter().any(|info| info.effect.gives_speed());
-    let moves = |stype: &SpriteType| {
-        let info = &types[stype.index()];
-        info.class.is_some_and(|class| !behaviour::is_idle(class, &info.traits, speeds_change))
-    };
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
     let foresight = foresight(&types, &program.passes, &program.effects);
+    let mover = |&stype: &SpriteType| {
+        let info = &types[stype.index()];
+        let class = info.class.filter(|&class| !behaviour::is_idle(class, &info.traits, speeds_change))?;
+        Some(Mover {
+            stype,
+            class,
+            order: i32::from(info.order?),
+            habit: behaviour::habit(class, &info.traits),
+            flies: foresight[stype.index()].flies,
+        })
+    };
+    let movers = order.iter().rev().filter_map(mover).collect();
     // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
@@ -124,7 +132,7 @@ fn compile_with(
         square_size: header.square_size,
         counters: header.counters,
         can_end,
-        movers: order.iter().rev().copied().filter(moves).collect(),
+        movers,
         order,
         mapping,
         unusable,

@@ -50,7 +50,7 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
         C::BirdAvatar => bird(step, slot, direction, action),
         C::PlatformerAvatar => {
             platformer(step, slot, direction, action);
-            step.state.edit(slot).set(flag::ON_GROUND, false);
+            step.state.edit_motion(slot).set(flag::ON_GROUND, false);
         }
         C::WizardAvatar => wizard(step, slot, direction, action),
         _ => {
@@ -70,6 +70,7 @@ fn glide(step: &mut Step<'_>, slot: Slot) {
     }
 }
 
+#[inline]
 fn moving(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
     glide(step, slot);
     let speed = step.state.sprite(slot).speed;
@@ -77,11 +78,12 @@ fn moving(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
 }
 
 /// Faces where it went.
+#[inline]
 fn oriented(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
     let movement = moving(step, slot, direction);
     if movement == Movement::Move && !is_off_grid(step, slot) {
         let facing = step.last_direction(slot).normalised();
-        step.state.edit(slot).orientation = facing;
+        step.state.face(slot, facing);
     }
     movement
 }
@@ -204,7 +206,7 @@ fn aimed(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) 
     let Direction { x, y } = sprite.orientation;
     let turned = Direction { x: x * cos(angle) - y * sin(angle), y: x * sin(angle) + y * cos(angle) };
     let rotation = libm::atan2(turned.y, turned.x);
-    step.state.edit(slot).orientation = turned;
+    step.state.face(slot, turned);
     step.state.extra(step.rules, slot).rotation = rotation;
     thrust(step, slot, action);
 }
@@ -320,5 +322,5 @@ fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action)
         Action::Right => step.state.extra(rules, slot).facing = Direction::RIGHT,
         _ => {}
     }
-    step.state.edit(slot).set(flag::ON_GROUND, false);
+    step.state.edit_motion(slot).set(flag::ON_GROUND, false);
 }

@@ -23,6 +23,7 @@ fn is_continuous(rules: &Rules, step: &Step<'_>, slot: Slot) -> bool {
 }
 
 /// Moves a sprite along its own orientation, unless it is static. The first call only marks the sprite as having had it.
+#[inline]
 pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
     let sprite = step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
@@ -30,7 +31,7 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
         return;
     }
     if sprite.is(flag::FIRST_TICK) {
-        step.state.edit(slot).set(flag::FIRST_TICK, false);
+        step.state.edit_motion(slot).set(flag::FIRST_TICK, false);
         return;
     }
     if traits.continuous {
@@ -67,13 +68,14 @@ pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
 }
 
 /// Moves a sprite where it, or its player, wants to go. A speed of 0 stands for the sprite's own.
+#[inline]
 pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, speed: f64) -> Movement {
-    if is_continuous(step.rules, step, slot) {
+    let sprite = step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    if traits.continuous {
         return accelerate(step, slot, direction, speed);
     }
     let block = f64::from(step.state.block);
-    let sprite = step.state.sprite(slot);
-    let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.stationary || direction == Direction::NONE {
         return Movement::Still;
     }

@@ -140,7 +140,7 @@ pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
         push.y = -push.y;
     }
     physics::active(step, one, push, speed);
-    step.state.edit(one).orientation = push;
+    step.state.face(one, push);
 }
 
 /// The partner carries the sprite, once a tick.

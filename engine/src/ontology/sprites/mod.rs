@@ -1,12 +1,13 @@
 //! What sprites do by themselves in a tick (`spec/02` §4–§8).
 
-mod npcs;
+pub(crate) mod npcs;
 mod plain;
 pub(crate) mod producers;
 pub(in crate::ontology) mod walkers;
 
 use super::class::SpriteClass;
 use super::traits::Traits;
+use crate::game::SpriteType;
 use crate::ontology::physics;
 use crate::state::{Slot, Sprite, State, flag};
 use crate::step::Step;
@@ -40,20 +41,39 @@ pub(crate) fn draws(class: SpriteClass) -> bool {
 /// Whether [`base`] does nothing to a sprite in this tick: it does not move by itself, or not yet again.
 #[inline]
 pub(crate) fn stays(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
-    let waits = || {
-        let age = state.tick.wrapping_sub(sprite.moved_at);
-        traits.cooldown > age && !sprite.is(flag::FIRST_TICK | flag::FROZEN) && !traits.continuous
-    };
-    sprite.time_to_live < 0 && (traits.is_static || traits.only_active || waits())
+    let stands = || sprite.speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
+    sprite.time_to_live < 0
+        && (traits.is_static || traits.only_active || waits(sprite, traits, state) || stands())
+}
+
+/// Whether a sprite does not move by itself because it has moved not long ago.
+#[inline]
+pub(crate) fn waits(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
+    let age = state.tick.wrapping_sub(sprite.moved_at);
+    traits.cooldown > age && !sprite.is(flag::FIRST_TICK | flag::FROZEN) && !traits.continuous
+}
+
+/// A type whose sprites have updates that do something.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mover {
+    pub(crate) stype: SpriteType,
+    pub(crate) class: SpriteClass,
+    /// Place in the update order.
+    pub(crate) order: i32,
+    pub(crate) habit: Habit,
+    /// Its sprites may fly.
+    pub(crate) flies: bool,
 }
 
 /// How the updates of a type begin.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Habit {
     /// With a draw; without a sprite made, [`base`] is all that follows.
     Draws,
     /// With [`base`], and that is all.
     Moves,
+    /// With [`base`], which does nothing while the sprite waits; then all that it does is to choose a direction.
+    Wanders,
     Other,
 }
 
@@ -65,15 +85,14 @@ pub(crate) fn habit(class: SpriteClass, traits: &Traits) -> Habit {
         C::SpawnPoint | C::Bomber => Habit::Draws,
         C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => Habit::Moves,
         C::Portal | C::SpriteProducer | C::Missile | C::ErraticMissile => Habit::Moves,
+        C::RandomNPC | C::RandomInertial if !traits.rotate_in_place => Habit::Wanders,
         _ => Habit::Other,
     }
 }
 
 /// One update. The avatar is updated in `avatars`.
-pub(crate) fn update(step: &mut Step<'_>, slot: Slot) {
+pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     use SpriteClass as C;
-    let stype = step.state.sprite(slot).stype;
-    let class = step.rules.types[stype.index()].class.expect("sprites are made of types with a class");
     match class {
         C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => base(step, slot),
         C::Portal | C::SpriteProducer | C::Missile | C::ErraticMissile => base(step, slot),

@@ -13,7 +13,8 @@ type Options = SmallVec<[Direction; 8]>;
 
 pub(super) fn random_npc(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
-    let direction = random_move(step, slot);
+    let cons = step.rules.types[step.state.sprite(slot).stype.index()].traits.cons;
+    let direction = random_move(step, slot, cons);
     walk(step, slot, direction);
 }
 
@@ -23,21 +24,27 @@ fn walk(step: &mut Step<'_>, slot: Slot, direction: Direction) {
 }
 
 /// A drawn direction, kept for `cons` more updates.
-fn random_move(step: &mut Step<'_>, slot: Slot) -> Direction {
-    let cons = step.rules.types[step.state.sprite(slot).stype.index()].traits.cons;
-    if step.state.sprite(slot).count < cons {
-        step.state.edit_motion(slot).count += 1;
+#[inline]
+pub(crate) fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
+    let mut chance = step.state.chance;
+    let sprite = step.state.edit_motion(slot);
+    if sprite.count < cons {
+        sprite.count += 1;
     } else {
-        let heading = step.state.chance.below(4) as u16;
-        let sprite = step.state.edit_motion(slot);
-        (sprite.count, sprite.heading) = (0, heading);
+        (sprite.count, sprite.heading) = (0, chance.below(4) as u16);
     }
-    heading(step, slot)
+    let heading = sprite.heading;
+    step.state.chance = chance;
+    towards(heading)
 }
 
 /// The last drawn direction.
 fn heading(step: &Step<'_>, slot: Slot) -> Direction {
-    match step.state.sprite(slot).heading {
+    towards(step.state.sprite(slot).heading)
+}
+
+fn towards(heading: u16) -> Direction {
+    match heading {
         NO_HEADING => Direction::NONE,
         heading => Direction::BASE[usize::from(heading)],
     }
@@ -78,12 +85,20 @@ fn chase_visible(step: &mut Step<'_>, slot: Slot, sees: impl Fn(Rect, Rect) -> b
             add_options(traits.continuous, traits.fleeing, own.rect, target, &mut options);
         }
     }
-    let direction = drawn(step, &options).unwrap_or_else(|| random_move(step, slot));
+    let direction = drawn(step, &options).unwrap_or_else(|| random_move(step, slot, traits.cons));
     walk(step, slot, direction);
 }
 
 /// The directions in which one pixel brings nearer to the target, or takes away from it.
 fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &mut Options) {
+    let is_near = [own.x, own.y, target.x, target.y].iter().all(|at| at.unsigned_abs() < 1 << 30);
+    if !continuous && is_near {
+        // On the grid, the distance is one less if there is a gap that way, and one more otherwise.
+        let (right, below) = (target.x - own.x, target.y - own.y);
+        let gaps = [-below, -right, below, right];
+        let chosen = Direction::BASE.into_iter().zip(gaps).filter(|&(_, gap)| (gap > 0) != flee);
+        return options.extend(chosen.map(|(direction, _)| direction));
+    }
     let distance = physics::distance(continuous, own, target);
     for direction in Direction::BASE {
         let (x, y) = (own.x.wrapping_add(direction.x as i32), own.y.wrapping_add(direction.y as i32));
@@ -137,10 +152,10 @@ pub(super) fn path_chaser(step: &mut Step<'_>, slot: Slot) {
     let direction = match closest(traits.continuous, own.rect, rects).first() {
         Some(target) => {
             let way = first_step(step, own.rect, (target.x, target.y));
-            step.state.edit(slot).count = traits.cons;
+            step.state.edit_motion(slot).count = traits.cons;
             way.unwrap_or(Direction::NONE)
         }
-        None => random_move(step, slot),
+        None => random_move(step, slot, traits.cons),
     };
     walk(step, slot, direction);
 }

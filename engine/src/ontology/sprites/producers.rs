@@ -30,8 +30,8 @@ pub(crate) fn idle(sprite: &Sprite, traits: &Traits, state: &State) -> Option<Ch
     }
     let mut chance = state.chance;
     let draw = f64::from(chance.float());
-    let waits = traits.cooldown != 1 && sprite.start.wrapping_add(state.tick) % traits.cooldown != 0;
-    (waits || draw >= traits.prob).then_some(chance)
+    let waits = || traits.cooldown != 1 && sprite.start.wrapping_add(state.tick) % traits.cooldown != 0;
+    (draw >= traits.prob || waits()).then_some(chance)
 }
 
 fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
@@ -77,6 +77,8 @@ pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
     }
     let drawn = step.state.chance.below(count as i32) as usize;
     let stype = step.state.missile(step.rules, slot, drawn);
-    step.state.edit(slot).spawns = stype;
+    if step.state.sprite(slot).spawns != stype {
+        step.state.edit(slot).spawns = stype;
+    }
     spawn_point(step, slot);
 }

@@ -19,12 +19,13 @@ pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
             [-1.0, 1.0][step.state.chance.below(2) as usize]
         };
         let direction = Direction { x, y: 0.0 };
-        step.state.edit(slot).orientation = direction;
+        step.state.face(slot, direction);
         physics::active(step, slot, direction, traits.max_speed);
     }
-    let sprite = step.state.edit(slot);
-    sprite.speed = traits.max_speed;
-    sprite.set(flag::ON_GROUND, false);
+    if step.state.sprite(slot).speed.to_bits() != traits.max_speed.to_bits() {
+        step.state.edit(slot).speed = traits.max_speed;
+    }
+    step.state.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
 /// Jumps now and then; the reference decides it with a generator apart from the game's.
@@ -37,7 +38,7 @@ pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
     } else {
         physics::active(step, slot, sprite.orientation, sprite.speed);
     }
-    step.state.edit(slot).set(flag::ON_GROUND, false);
+    step.state.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
 /// Upwards, and off the ground at once.

@@ -1,0 +1,114 @@
+//! Operations on sprites that the ontology is written in: those that move them.
+
+use crate::game::Limit;
+use crate::geometry::{Direction, Rect};
+use crate::rest::mark;
+use crate::state::{Slot, Sprite, flag};
+use crate::step::Step;
+
+impl Step<'_> {
+    /// The reference's `lastmove`: ticks since the last move, as it stands in this tick's update or events.
+    pub(crate) fn age(&self, slot: Slot) -> i32 {
+        let sprite = self.state.sprite(slot);
+        // The reference counts on beyond the largest number, too.
+        if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.state.tick.wrapping_sub(sprite.moved_at) }
+    }
+
+    pub(crate) fn set_age(&mut self, slot: Slot, age: i32) {
+        let tick = self.state.tick;
+        let sprite = self.state.edit_motion(slot);
+        sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
+    }
+
+    pub(crate) fn mark_moved(&mut self, slot: Slot) {
+        let sprite = &mut self.state.sprites[usize::from(slot)];
+        if !sprite.is(flag::MOVED) {
+            sprite.set(flag::MOVED, true);
+            self.state.moved.push(slot);
+        }
+    }
+
+    /// Puts a sprite somewhere else, size included.
+    pub(crate) fn place(&mut self, slot: Slot, rect: Rect) {
+        if rect.h == 0 {
+            self.stop(Limit::FlatSprite);
+        }
+        if self.state.sprite(slot).rect == rect {
+            return;
+        }
+        if self.rests {
+            self.place_noisily(slot, rect);
+        } else {
+            self.state.relocate(self.rules, slot, rect);
+        }
+    }
+
+    /// The same in a game in which sprites rest.
+    fn place_noisily(&mut self, slot: Slot, rect: Rect) {
+        let before = *self.state.sprite(slot);
+        self.state.relocate_noisily(self.rules, slot, rect);
+        // Of a try it shows only at the end of the tick whether it changed anything.
+        if !self.is_try(&before) {
+            self.note_change(&before);
+            let after = *self.state.sprite(slot);
+            self.note_change(&after);
+        }
+        self.wake();
+    }
+
+    /// Whether a move is the sprite's own try, or its way back from it: that is seen at the end of the tick.
+    fn is_try(&self, sprite: &Sprite) -> bool {
+        self.rests
+            && self.rules.foresight[sprite.stype.index()].rests
+            && (self.updating >= 0 || sprite.rest != mark::NOTHING)
+    }
+
+    pub(crate) fn note_change(&mut self, sprite: &Sprite) {
+        if self.rests {
+            self.state.stamp(sprite, self.state.tick);
+        }
+    }
+
+    pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
+        let sprite = *self.state.sprite(slot);
+        self.note_change(&sprite);
+        self.state.edit(slot).last = last;
+        self.mark_moved(slot);
+    }
+
+    /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids.
+    pub(crate) fn displace(&mut self, slot: Slot, direction: Direction, amount: i32) -> bool {
+        let sprite = self.state.sprite(slot);
+        if self.rules.types[sprite.stype.index()].traits.cooldown > self.age(slot) {
+            return false;
+        }
+        let Some(rect) = self.shifted(slot, direction, amount) else { return false };
+        if self.rests || sprite.is(flag::FROZEN) || rect == sprite.rect || rect.h == 0 {
+            self.place(slot, rect);
+            self.set_age(slot, 0);
+        } else {
+            // The same in one go.
+            self.state.sprites[usize::from(slot)].moved_at = self.state.tick;
+            self.state.relocate(self.rules, slot, rect);
+        }
+        true
+    }
+
+    /// Where a displacement leads; None if it is none.
+    pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
+        let sprite = self.state.sprite(slot);
+        let amount = if amount == 0 { sprite.speed as i32 } else { amount };
+        if amount == 0 || direction.x.abs() + direction.y.abs() == 0.0 {
+            return None;
+        }
+        let rect = sprite.rect;
+        let shift = |component: f64| (component * f64::from(amount)) as i32;
+        Some(rect.at(rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y))))
+    }
+
+    /// (x, y) of the displacement in this tick.
+    pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
+        let Sprite { rect, last, .. } = *self.state.sprite(slot);
+        Direction { x: f64::from(rect.x.wrapping_sub(last.x)), y: f64::from(rect.y.wrapping_sub(last.y)) }
+    }
+}

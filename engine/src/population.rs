@@ -1,0 +1,205 @@
+//! Operations on sprites that the ontology is written in: those that make, kill and release them.
+
+use crate::game::{Limit, SpriteType};
+use crate::geometry::Rect;
+use crate::limits::MAX_SPRITES;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::sprites;
+use crate::rest::mark;
+use crate::state::{NONE, Slot, Sprite, flag};
+use crate::step::Step;
+
+impl Step<'_> {
+    /// Whether the sprite's class is an avatar's; what the sprite passes for is [`flag::AVATAR`].
+    pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
+        self.rules.types[self.state.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
+    }
+
+    /// Makes a sprite unless a singleton of its line exists or there are too many (`spec/01` §3.5).
+    pub(crate) fn add(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
+        let rules = self.rules;
+        if self.is_full() {
+            return None;
+        }
+        let path = rules.types.get(stype.index()).map_or(&[][..], |info| &info.path);
+        for &ancestor in path {
+            if rules.types[ancestor.index()].singleton && self.state.count(rules, ancestor) > 0 {
+                return None;
+            }
+        }
+        self.make(stype, x, y)
+    }
+
+    /// Makes a sprite whatever singletons there are.
+    pub(crate) fn add_forced(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
+        if self.is_full() { None } else { self.make(stype, x, y) }
+    }
+
+    /// Whether there are too many sprites for another one; a message if so.
+    fn is_full(&mut self) -> bool {
+        let full = self.state.population > MAX_SPRITES as i32;
+        if full {
+            self.message();
+        }
+        full
+    }
+
+    fn make(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
+        let info = self.rules.types.get(stype.index());
+        let Some((info, class)) = info.and_then(|info| Some((info, info.class?))) else {
+            self.stop(Limit::NoType);
+            return None;
+        };
+        if info.incomplete {
+            self.stop(Limit::UnfitSprite);
+        }
+        let traits = &info.traits;
+        let block = self.state.block;
+        let scaled = |factor: f64| (f64::from(block) * factor) as i32;
+        let rect = Rect { x, y, w: scaled(traits.width_factor), h: scaled(traits.height_factor) };
+        let first = std::mem::replace(&mut self.state.templates[stype.index()], 1) == 0;
+        self.state.memory_is_stale |= first;
+        if !first && rect.h == 0 {
+            self.stop(Limit::FlatSprite);
+        }
+        if first {
+            self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
+        }
+        // Sprites of avatar classes are updated, and age, only as the player's.
+        let order = info.order.map(i32::from).filter(|_| !class.is_avatar());
+        // Still to be updated in this tick: then its age will be 1 at that update.
+        let due = order.is_some_and(|order| order < self.updating);
+        let flags = [
+            (flag::AVATAR, traits.is_avatar),
+            (flag::FROM_AVATAR, traits.is_from_avatar),
+            (flag::ON_GROUND, traits.on_ground),
+            (flag::FIRST_TICK, traits.is_first_tick),
+            (flag::ORIENTED, traits.is_oriented),
+            (flag::FROZEN, order.is_none()),
+            (flag::BRISK, traits.cooldown <= 1 && traits.last_move == 0 && !class.is_avatar()),
+        ];
+        let flags = flags.into_iter().fold(0, |all, (bit, on)| if on { all | bit } else { all });
+        let sprite = Sprite {
+            rect,
+            // The first sprite of a type keeps the unscaled size until its first update.
+            last: if first && !due { Rect { x, y, w: block, h: block } } else { rect },
+            orientation: traits.orientation,
+            speed: traits.speed,
+            id: self.state.next_id,
+            moved_at: match order {
+                None => traits.last_move,
+                Some(_) => (self.state.tick - i32::from(due)).wrapping_sub(traits.last_move),
+            },
+            health: traits.health,
+            max_health: traits.max_health,
+            time_to_live: traits.time_to_live,
+            count: traits.age,
+            start: traits.start,
+            spawns: match class {
+                // A copy of the first one has forgotten what it leaves behind, and leaves what has the number 0: wall.
+                SpriteClass::OngoingTurningAvatar if !first => SpriteType(0),
+                SpriteClass::OngoingTurningAvatar => traits.spawn_behind.unwrap_or(SpriteType(0)),
+                _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
+            },
+            extra: NONE,
+            stype,
+            rest: mark::NOTHING,
+            flags,
+            heading: sprites::NO_HEADING,
+            next: NONE,
+            previous: NONE,
+            cell_next: NONE,
+            cell_previous: NONE,
+            column: 0,
+            row: 0,
+        };
+        if order.is_some_and(|order| order == self.updating) {
+            self.stop(Limit::SpawnIntoUpdatedType);
+            return None;
+        }
+        let Some(slot) = self.state.admit(self.rules, sprite) else {
+            self.stop(Limit::Sprites);
+            return None;
+        };
+        self.state.next_id += 1;
+        self.state.population += 1;
+        if self.rests {
+            let sprite = *self.state.sprite(slot);
+            self.state.touch(slot);
+            self.note_change(&sprite);
+            self.wake();
+        }
+        if sprite.last != sprite.rect {
+            self.mark_moved(slot);
+        }
+        Some(slot)
+    }
+
+    /// Kills: avatars are disabled and stay, others go at the end of the tick (`spec/03` §5.1).
+    pub(crate) fn kill(&mut self, slot: Slot) {
+        if !self.can_be_played(slot) {
+            return self.remove(slot);
+        }
+        let sprite = self.state.sprite(slot);
+        if sprite.is(flag::DISABLED) {
+            return;
+        }
+        let stype = sprite.stype;
+        self.freeze(slot);
+        self.state.edit(slot).set(flag::DISABLED, true);
+        self.state.groups[stype.index()].disabled += 1;
+        self.state.census_changed = true;
+    }
+
+    /// The sprite is not updated any more, and stays as old as it is.
+    fn freeze(&mut self, slot: Slot) {
+        let age = self.age(slot);
+        let sprite = self.state.edit(slot);
+        sprite.set(flag::FROZEN, true);
+        sprite.moved_at = age;
+    }
+
+    /// Kills for good, avatar or not.
+    pub(crate) fn remove(&mut self, slot: Slot) {
+        self.state.edit_motion(slot).set(flag::KILLED, true);
+        self.state.killed.push(slot);
+    }
+
+    /// Makes a sprite the player's: from now on it is updated, and ages, and the one before is not and does not.
+    pub(crate) fn control(&mut self, slot: Slot) {
+        let before = std::mem::replace(&mut self.state.avatar, slot);
+        if before != NONE && before != slot && !self.state.sprite(before).is(flag::FROZEN) {
+            self.freeze(before);
+        }
+        let tick = self.state.tick;
+        let sprite = self.state.edit(slot);
+        if sprite.is(flag::FROZEN) && !sprite.is(flag::DISABLED) {
+            sprite.set(flag::FROZEN, false);
+            sprite.moved_at = tick.wrapping_sub(sprite.moved_at);
+        }
+    }
+
+    /// Takes those out that are in the kill list.
+    pub(crate) fn clear_killed(&mut self) {
+        let mut killed = std::mem::take(&mut self.state.killed);
+        for &slot in &killed {
+            // The kill list may name a sprite twice; the counter goes down twice, as in the reference.
+            self.state.population -= 1;
+            if self.state.sprite(slot).is(flag::GONE) {
+                continue;
+            }
+            if slot == self.state.avatar {
+                self.state.avatar = NONE;
+            }
+            if self.rests {
+                let sprite = *self.state.sprite(slot);
+                self.state.touch(slot);
+                self.note_change(&sprite);
+            }
+            self.state.release(self.rules, slot);
+        }
+        self.state.forget_gone();
+        killed.clear();
+        self.state.killed = killed;
+    }
+}
