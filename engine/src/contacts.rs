@@ -273,7 +273,7 @@ impl State {
     /// Forgets the cells that large sprites have left, once they have left so many that it pays.
     #[inline]
     pub(crate) fn tidy_covered(&mut self, rules: &Rules) {
-        if self.left_behind as usize > self.big as usize + self.cells.len() / 64 {
+        if self.left_behind as usize > 4 * self.big as usize + self.cells.len() / 16 {
             self.cover_anew(rules);
         }
     }

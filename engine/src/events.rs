@@ -170,20 +170,16 @@ impl Step<'_> {
         let (first, second) = (&rules.types[pass.first.index()], &rules.types[pass.second.index()]);
         let bits = rules.contacts.sides(number);
         let (first, second) = (Side { family: first, bits: bits.0 }, Side { family: second, bits: bits.1 });
-        let size = |side: Side<'_>| {
-            side.family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
-        };
-        let (firsts, seconds) = (size(first), size(second));
         self.work(first.family.tree.len() + second.family.tree.len());
-        if firsts == 0 || seconds == 0 {
-            return;
-        }
         if !self.state.shields.is_empty() && effects::is_shielded(self, pass) {
             return;
         }
         // Sprites made from here on by this pass do not take part in it.
         let newborn = self.state.next_id;
-        if pass.either_side && seconds < firsts {
+        let size = |side: Side<'_>| {
+            side.family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
+        };
+        if pass.either_side && size(second) < size(first) {
             self.visit_second_side(pass, first, second, newborn, watch);
         } else {
             self.visit_first_side(pass, first, second, newborn, watch);

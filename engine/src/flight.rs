@@ -116,13 +116,19 @@ impl State {
 
 impl Step<'_> {
     /// An effect is about to be executed on a sprite. Cost: O(sprites in flight), if it flies.
+    #[inline]
     pub(crate) fn land_one(&mut self, slot: Slot) {
         if self.state.sprite(slot).rest == mark::FLYING {
-            self.work(self.state.flights.len() / 64);
-            let at = self.state.flights.iter().position(|flight| flight.slot == slot);
-            self.state.flights.swap_remove(at.expect("what flies is in the list"));
-            self.state.land(self.rules, slot, self.state.tick);
+            self.land_now(slot);
         }
+    }
+
+    #[inline(never)]
+    fn land_now(&mut self, slot: Slot) {
+        self.work(self.state.flights.len() / 64);
+        let at = self.state.flights.iter().position(|flight| flight.slot == slot);
+        self.state.flights.swap_remove(at.expect("what flies is in the list"));
+        self.state.land(self.rules, slot, self.state.tick);
     }
 
     /// Nothing flies any more. In the middle of the updates, those are a tick behind that are yet to be updated.

@@ -8,7 +8,11 @@ use crate::game::Game;
 use crate::rest::mark;
 use crate::state::{Extra, Share, Sprite, State, Target, flag};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use smallvec::SmallVec;
 use std::fmt;
+
+/// What is sorted before it is hashed; seldom more than a few.
+type Few<T> = SmallVec<[T; 4]>;
 
 macro_rules! hash_type {
     ($(#[$doc:meta])* $name:ident) => {
@@ -230,7 +234,7 @@ impl State {
 
     fn held_words(&self, mixer: &mut Mixer) {
         let held = self.held.iter().map(|held| (self.sprite(held.holder).id, held.resource.0, held.amount));
-        let mut held: Vec<_> = held.collect();
+        let mut held: Few<_> = held.collect();
         held.sort_unstable();
         for (id, resource, amount) in held {
             mixer.pair(u64::from(id), two(i32::from(resource), amount));
@@ -240,7 +244,7 @@ impl State {
     fn words_of_extras(&self, mixer: &mut Mixer) {
         if !self.extras.is_empty() {
             let extras = self.extras.iter().map(|extra| (self.sprite(extra.holder).id, extra));
-            let mut extras: Vec<_> = extras.collect();
+            let mut extras: Few<_> = extras.collect();
             extras.sort_unstable_by_key(|(id, _)| *id);
             for (id, extra) in extras {
                 mixer.pair(u64::from(id), u64::from(extra.block_time as u32));
@@ -250,7 +254,7 @@ impl State {
         if !self.replaced.is_empty() {
             let replaced =
                 self.replaced.iter().map(|one| (self.sprite(one.holder).id, one.place, one.stype.0));
-            let mut replaced: Vec<_> = replaced.collect();
+            let mut replaced: Few<_> = replaced.collect();
             replaced.sort_unstable();
             for (id, place, stype) in replaced {
                 mixer.pair(u64::from(id) << 32 | u64::from(place), u64::from(stype));

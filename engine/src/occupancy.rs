@@ -59,7 +59,7 @@ impl State {
         (row * (self.columns + 2) + column) as usize
     }
 
-    fn cell_of(&self, sprite: &Sprite) -> usize {
+    pub(crate) fn cell_of(&self, sprite: &Sprite) -> usize {
         self.cell(i32::from(sprite.column), i32::from(sprite.row))
     }
 
@@ -124,7 +124,7 @@ impl State {
                 }
                 _ => {
                     let offset = at - start;
-                    let reach = self.block - size.max(0);
+                    let reach = self.block - size.max(1);
                     let (low, high) = if offset > reach { (reach + 1, self.block - 1) } else { (0, reach) };
                     let (room, by) = if by > 0 { (high - offset, by) } else { (offset - low, -by) };
                     if room < by { 0 } else { room / by }
@@ -184,7 +184,14 @@ impl State {
 
     /// Puts a sprite into its cells.
     pub(crate) fn enter_cell(&mut self, rules: &Rules, slot: Slot) {
-        let to = self.locate_afar(self.sprite(slot).rect);
+        let rect = self.sprite(slot).rect;
+        let Rect { w, h, .. } = self.screen();
+        let to = if (0..w).contains(&rect.x) && (0..h).contains(&rect.y) {
+            let place = |at: i32| (at as u32 / self.block as u32 + 1) as i16;
+            self.locate(rect, place(rect.x), place(rect.y))
+        } else {
+            self.locate_afar(rect)
+        };
         self.enter_located(rules, slot, to);
     }
 
@@ -406,8 +413,8 @@ impl State {
     #[inline(always)]
     pub(crate) fn span(&self, cell: usize, flags: u32) -> Span {
         let stride = (self.columns + 2) as usize;
-        let right = flags / flag::RIGHT & 1;
-        let below = flags / flag::BELOW & 1;
+        let right = u32::from(flags & flag::RIGHT != 0);
+        let below = u32::from(flags & flag::BELOW != 0);
         Span { cell, stride, bits: (1 | right << 1) * (1 | below << SPAN) }
     }
 
@@ -586,7 +593,24 @@ impl State {
         looked
     }
 
+    #[inline(always)]
     fn overlapping_in(
+        &self,
+        cell: usize,
+        side: Side<'_>,
+        one: (Slot, Rect),
+        above: u32,
+        hits: &mut Hits,
+    ) -> usize {
+        if self.masks[cell].any & side.bits == 0 {
+            return 1;
+        }
+        self.overlapping_among(cell, side, one, above, hits)
+    }
+
+    /// The same of a cell in which someone of the side is.
+    #[inline(never)]
+    fn overlapping_among(
         &self,
         cell: usize,
         side: Side<'_>,
@@ -594,9 +618,6 @@ impl State {
         above: u32,
         hits: &mut Hits,
     ) -> usize {
-        if self.masks[cell].any & side.bits == 0 {
-            return 1;
-        }
         let mut at = self.cells[cell];
         let mut looked = 1;
         while at != NONE {

@@ -85,9 +85,9 @@ impl State {
         }
         const WAYS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
         let stride = (self.columns + 2) as usize;
-        // What to add for each of them, modulo the size of numbers.
-        let ahead = [stride.wrapping_neg(), stride, 1usize.wrapping_neg(), 1];
-        let from_way = if self.sideways { 2 } else { 0 };
+        // The number of each, and what it adds to a cell, modulo the size of numbers.
+        let ahead = [(1, stride.wrapping_neg()), (2, stride), (3, 1usize.wrapping_neg()), (4, 1)];
+        let ahead = if self.sideways { &ahead[2..] } else { &ahead[..] };
         // For each reached cell, the first step of the way there, as a number above [`OPEN`].
         let mut first = self.obstacles.clone();
         first[start] = START;
@@ -98,13 +98,13 @@ impl State {
         while let Some((cost, cell)) = frontier.pop() {
             let cell = cell as usize;
             let here = first[cell];
-            for way in from_way..WAYS.len() {
+            for &(way, ahead) in ahead {
                 looked += 1;
-                let next = cell.wrapping_add(ahead[way]);
+                let next = cell.wrapping_add(ahead);
                 if first[next] != OPEN {
                     continue;
                 }
-                let step = if here == START { way as u8 + 1 } else { here };
+                let step = if here == START { way } else { here };
                 if next == goal {
                     return (Some(WAYS[usize::from(step) - 1]), looked);
                 }

@@ -123,6 +123,14 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
 impl State {
     /// Someone came to, or left, what a sprite covers: wakes are due if anything rests there.
     pub(crate) fn touch(&mut self, slot: Slot) {
+        let sprite = self.sprite(slot);
+        if !sprite.is(flag::LOOSE) {
+            let cell = self.cell_of(sprite);
+            if self.watched[cell] > 0 {
+                self.touched.push(cell as u32);
+            }
+            return;
+        }
         let mut touched = std::mem::take(&mut self.touched);
         let sprite = self.sprite(slot);
         self.covered_by(sprite, |cell| {
@@ -359,8 +367,13 @@ impl State {
 
     /// Notes that something changed for good in the cells that a sprite covers.
     pub(crate) fn stamp(&mut self, sprite: &Sprite, tick: i32) {
-        let mut stamps = std::mem::take(&mut self.stamps);
         let stamp = stamp_of(tick);
+        if !sprite.is(flag::LOOSE) {
+            let cell = self.cell_of(sprite);
+            self.stamps[cell] = self.stamps[cell].max(stamp);
+            return;
+        }
+        let mut stamps = std::mem::take(&mut self.stamps);
         self.covered_by(sprite, |cell| stamps[cell] = stamps[cell].max(stamp));
         self.stamps = stamps;
     }

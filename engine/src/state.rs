@@ -2,8 +2,8 @@
 //!
 //! Sprites live in slots of one array. Two chains thread through the slots: the sprites of one type in the order of
 //! their creation (what the reference calls a group), and the sprites in one cell of the board (`occupancy.rs`).
-//! Effects read and write sprites through the methods here and in `step.rs` only, so that the layout can change
-//! without them.
+//! Effects read and write sprites through the methods here and in `population.rs` and `motion.rs` only, so that the layout can
+//! change without them.
 
 use crate::chance::Chance;
 use crate::contacts::Mask;

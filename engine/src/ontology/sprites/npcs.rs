@@ -96,8 +96,12 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
         // On the grid, the distance is one less if there is a gap that way, and one more otherwise.
         let (right, below) = (target.x - own.x, target.y - own.y);
         let gaps = [-below, -right, below, right];
-        let chosen = Direction::BASE.into_iter().zip(gaps).filter(|&(_, gap)| (gap > 0) != flee);
-        return options.extend(chosen.map(|(direction, _)| direction));
+        for (direction, gap) in Direction::BASE.into_iter().zip(gaps) {
+            if (gap > 0) != flee {
+                options.push(direction);
+            }
+        }
+        return;
     }
     let distance = physics::distance(continuous, own, target);
     for direction in Direction::BASE {
