@@ -3,8 +3,8 @@
 use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
-use crate::occupancy::{Hit, Hits, Partners, Side};
 use crate::ontology::effects;
+use crate::overlap::{Hit, Hits, Partners, Side};
 use crate::state::{NONE, Slot, Timer, flag, memory};
 use crate::step::{Step, Watch};
 use smallvec::SmallVec;

@@ -2,17 +2,10 @@
 //! in it, sprites of no rule left out. Kept as sprites move, so asking who overlaps a rectangle costs what stands there.
 
 use crate::contacts::Contacts;
-use crate::game::{NOT_IN_TREE, Rules, TypeInfo};
+use crate::game::Rules;
 use crate::geometry::Rect;
+use crate::span::Span;
 use crate::state::{NONE, Slot, Sprite, State, flag};
-use smallvec::SmallVec;
-
-/// One side of a pass: the types of a tree, and their bits.
-#[derive(Clone, Copy)]
-pub(crate) struct Side<'a> {
-    pub(crate) family: &'a TypeInfo,
-    pub(crate) bits: u64,
-}
 
 /// Cells of a sprite that are looked at one by one; what is larger counts as everywhere.
 const MAX_COVERED: i32 = 100;
@@ -25,33 +18,14 @@ struct Located {
     flags: u32,
 }
 
-/// A sprite that overlaps another one. Hits order as their sprites do among those of a tree: by type in tree order, then by
-/// creation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Hit(u64);
-
-impl Hit {
-    fn new(rank: u16, id: u32, slot: Slot) -> Hit {
-        Hit(u64::from(rank) << 48 | u64::from(id) << 16 | u64::from(slot))
-    }
-
-    pub(crate) fn slot(self) -> Slot {
-        self.0 as Slot
-    }
-}
-
-/// What overlaps a sprite; seldom more than a few.
-pub(crate) type Hits = SmallVec<[Hit; 8]>;
-/// The slots of hits.
-pub(crate) type Partners = SmallVec<[Slot; 8]>;
-
 impl State {
     /// Column of a pixel, counted with the ring: 0 is left of the board.
-    fn column(&self, x: i32) -> i32 {
+    pub(crate) fn column(&self, x: i32) -> i32 {
         x.div_euclid(self.block).clamp(-1, self.columns) + 1
     }
 
-    fn row(&self, y: i32) -> i32 {
+    /// Row of a pixel.
+    pub(crate) fn row(&self, y: i32) -> i32 {
         y.div_euclid(self.block).clamp(-1, self.rows) + 1
     }
 
@@ -413,9 +387,7 @@ impl State {
     #[inline(always)]
     pub(crate) fn span(&self, cell: usize, flags: u32) -> Span {
         let stride = (self.columns + 2) as usize;
-        let right = u32::from(flags & flag::RIGHT != 0);
-        let below = u32::from(flags & flag::BELOW != 0);
-        Span { cell, stride, bits: (1 | right << 1) * (1 | below << SPAN) }
+        Span::new(cell, stride, flags & flag::RIGHT != 0, flags & flag::BELOW != 0)
     }
 
     /// Calls `visit` with the cells that a sprite covers; false, and no call, if these are more than [`MAX_COVERED`].
@@ -453,236 +425,6 @@ impl State {
     pub(crate) fn place_of(&self, rect: Rect) -> (i16, i16) {
         (self.column(rect.x) as i16, self.row(rect.y) as i16)
     }
-
-    /// Calls `visit` with every sprite that may overlap a rectangle.
-    pub(crate) fn near_rect(&self, rules: &Rules, rect: Rect, mut visit: impl FnMut(Slot)) {
-        let reach = rules.reach.saturating_mul(self.block) - 1;
-        let left = self.column(rect.x.saturating_sub(reach));
-        let right = self.column(rect.x.saturating_add(rect.w - 1));
-        let top = self.row(rect.y.saturating_sub(reach));
-        let bottom = self.row(rect.y.saturating_add(rect.h - 1));
-        for row in top..bottom + 1 {
-            for column in left..right + 1 {
-                let mut at = self.cells[self.cell(column, row)];
-                while at != NONE {
-                    visit(at);
-                    at = self.sprite(at).cell_next;
-                }
-            }
-        }
-    }
-
-    /// A sprite of a side as a hit.
-    pub(crate) fn hit(&self, side: Side<'_>, slot: Slot) -> Hit {
-        let sprite = self.sprite(slot);
-        Hit::new(side.family.rank[sprite.stype.index()], sprite.id, slot)
-    }
-
-    /// Whether a sprite of a side, itself left out, may overlap a sprite, whose own bit is given: whether one shares a cell
-    /// with it.
-    #[inline(always)]
-    pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
-        let cell = self.cell_of(sprite);
-        let mask = self.masks[cell];
-        if (mask.any & !own | mask.many) & side.bits != 0 {
-            return true;
-        }
-        let lies = sprite.flags & flag::LOOSE;
-        if lies == 0 && self.big_bits & side.bits == 0 {
-            return false;
-        }
-        self.may_overlap_loosely(own, side, cell, lies)
-    }
-
-    /// The rest of [`State::may_overlap`]: for sprites in several cells, and where some of the side are large.
-    fn may_overlap_loosely(&self, own: u64, side: Side<'_>, cell: usize, lies: u32) -> bool {
-        if lies & flag::BIG != 0 {
-            return true;
-        }
-        let others = |cell: usize| {
-            let mask = self.masks[cell];
-            mask.any & !own | mask.many
-        };
-        let stride = (self.columns + 2) as usize;
-        let mut bits = 0;
-        if lies & flag::RIGHT != 0 {
-            bits |= others(cell + 1);
-        }
-        if lies & flag::BELOW != 0 {
-            bits |= others(cell + stride);
-            if lies & flag::RIGHT != 0 {
-                bits |= others(cell + stride + 1);
-            }
-        }
-        bits & side.bits != 0 || self.span_is_covered(self.span(cell, lies), side)
-    }
-
-    /// Whether a large sprite of a side may reach into the cells.
-    #[inline(always)]
-    fn span_is_covered(&self, span: Span, side: Side<'_>) -> bool {
-        self.big_bits & side.bits != 0
-            && span.cells().fold(self.vast, |bits, cell| bits | self.covered[cell]) & side.bits != 0
-    }
-
-    /// Collects the sprites of a side that overlap a sprite, itself left out, in no particular order. `above`
-    /// excludes sprites created since that id was next. Returns how many cells and sprites it looked at.
-    pub(crate) fn overlapping(
-        &self,
-        rules: &Rules,
-        side: Side<'_>,
-        slot: Slot,
-        above: u32,
-        hits: &mut Hits,
-    ) -> usize {
-        let sprite = self.sprite(slot);
-        let rect = self.rect(sprite);
-        if sprite.is(flag::BIG) {
-            return self.overlapping_rect(rules, side, (slot, rect), above, hits);
-        }
-        let span = self.span(self.cell_of(sprite), sprite.flags);
-        if self.span_is_covered(span, side) {
-            return self.overlapping_rect(rules, side, (slot, rect), above, hits);
-        }
-        // Those that lie in several cells may reach over from the cells left and above.
-        let reached = i32::from(self.loose_bits & side.bits != 0);
-        let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
-        let mut looked = 0;
-        for row in (row - reached).max(0)..row + span.below() + 1 {
-            for column in (column - reached).max(0)..column + span.right() + 1 {
-                looked += self.overlapping_in(self.cell(column, row), side, (slot, rect), above, hits);
-            }
-        }
-        looked
-    }
-
-    /// The sprites of a side that overlap a rectangle around a sprite, itself left out.
-    pub(crate) fn overlapping_rect(
-        &self,
-        rules: &Rules,
-        side: Side<'_>,
-        (slot, rect): (Slot, Rect),
-        above: u32,
-        hits: &mut Hits,
-    ) -> usize {
-        let reach = rules.reach.saturating_mul(self.block) - 1;
-        let first_column = self.column(rect.x.saturating_sub(reach));
-        let last_column = self.column(rect.x.saturating_add(rect.w.saturating_sub(1)));
-        let first_row = self.row(rect.y.saturating_sub(reach));
-        let last_row = self.row(rect.y.saturating_add(rect.h.saturating_sub(1)));
-        let cells = (last_column - first_column + 1) * (last_row - first_row + 1);
-        let family = side.family;
-        let sprites = family.tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum::<i32>();
-        if cells > sprites {
-            // All sprites are fewer than all cells from which they can reach into the rectangle.
-            let types = family.tree.iter().enumerate();
-            let types = types.filter(|(at, stype)| usize::from(family.rank[stype.index()]) == *at);
-            let all = types.flat_map(|(_, &stype)| self.slots(stype));
-            let overlaps = |at: &Slot| {
-                let sprite = self.sprite(*at);
-                *at != slot && sprite.id < above && self.rect(sprite).intersects(rect)
-            };
-            hits.extend(all.filter(overlaps).map(|at| self.hit(side, at)));
-            return family.tree.len() + sprites as usize;
-        }
-        let mut looked = 0;
-        for row in first_row..last_row + 1 {
-            for column in first_column..last_column + 1 {
-                looked += self.overlapping_in(self.cell(column, row), side, (slot, rect), above, hits);
-            }
-        }
-        looked
-    }
-
-    #[inline(always)]
-    fn overlapping_in(
-        &self,
-        cell: usize,
-        side: Side<'_>,
-        one: (Slot, Rect),
-        above: u32,
-        hits: &mut Hits,
-    ) -> usize {
-        if self.masks[cell].any & side.bits == 0 {
-            return 1;
-        }
-        self.overlapping_among(cell, side, one, above, hits)
-    }
-
-    /// The same of a cell in which someone of the side is.
-    #[inline(never)]
-    fn overlapping_among(
-        &self,
-        cell: usize,
-        side: Side<'_>,
-        (slot, rect): (Slot, Rect),
-        above: u32,
-        hits: &mut Hits,
-    ) -> usize {
-        let mut at = self.cells[cell];
-        let mut looked = 1;
-        while at != NONE {
-            looked += 1;
-            let sprite = self.sprite(at);
-            let rank = side.family.rank[sprite.stype.index()];
-            if rank != NOT_IN_TREE && at != slot && sprite.id < above && self.rect(sprite).intersects(rect) {
-                hits.push(Hit::new(rank, sprite.id, at));
-            }
-            at = sprite.cell_next;
-        }
-        looked
-    }
-}
-
-/// Some of the cells of a square of the board, [`SPAN`] cells wide: those that a sprite covers that is no larger than a
-/// cell, up to four.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Span {
-    /// The square's corner.
-    cell: usize,
-    stride: usize,
-    /// A bit for each cell of the square, row by row.
-    bits: u32,
-}
-
-/// Two sprites no larger than a cell whose corners are in neighbouring cells are in a square of so many.
-const SPAN: u32 = 3;
-
-impl Span {
-    #[inline(always)]
-    pub(crate) fn cells(self) -> impl Iterator<Item = usize> {
-        let Span { cell, stride, mut bits } = self;
-        std::iter::from_fn(move || {
-            if bits == 0 {
-                return None;
-            }
-            let at = bits.trailing_zeros();
-            bits &= bits - 1;
-            Some(cell + (at % SPAN) as usize + (at / SPAN) as usize * stride)
-        })
-    }
-
-    /// The cells of this span that are not in another one, and those of the other that are not in this; the other's corner
-    /// is so many columns and rows away.
-    #[inline(always)]
-    fn apart(self, other: Span, columns: i32, rows: i32) -> (Span, Span) {
-        if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {
-            return (self, other);
-        }
-        // Both in one square, whose corner is the upper and left one of theirs.
-        let back = |by: i32| by.min(0).unsigned_abs() as usize;
-        let cell = self.cell - back(columns) - back(rows) * self.stride;
-        let shift = |columns: i32, rows: i32| columns.max(0) as u32 + rows.max(0) as u32 * SPAN;
-        let (mine, others) = (self.bits << shift(-columns, -rows), other.bits << shift(columns, rows));
-        (Span { cell, bits: mine & !others, ..self }, Span { cell, bits: others & !mine, ..self })
-    }
-
-    fn right(self) -> i32 {
-        i32::from(self.bits & 0b0010 != 0)
-    }
-
-    fn below(self) -> i32 {
-        i32::from(self.bits & 1 << SPAN != 0)
-    }
 }
 
 fn bit(on: bool, bit: u32) -> u32 {
@@ -710,7 +452,7 @@ fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i1
 
 #[cfg(test)]
 mod tests {
-    use super::{SPAN, Span, near};
+    use super::near;
 
     #[test]
     fn a_guess_never_changes_the_answer() {
@@ -723,32 +465,6 @@ mod tests {
                 let expected = close.then_some(((cell + 1) as i16, offset + 6 > 10));
                 assert_eq!(near(pixel, 6, guess, 10, 5), expected, "pixel {pixel}, guess {guess}");
             }
-        }
-    }
-
-    #[test]
-    fn what_spans_do_not_share_is_what_lists_of_cells_do_not_share() {
-        const STRIDE: usize = 7;
-        let spans = || {
-            let cells = (1..6).flat_map(|row| (1..6).map(move |column| (column, row)));
-            cells.flat_map(|(column, row): (i32, i32)| {
-                [0b0001, 0b0011, 1 | 1 << SPAN, 0b0011 | 0b0011 << SPAN].map(|bits| {
-                    (
-                        Span { cell: row as usize * STRIDE + column as usize, stride: STRIDE, bits },
-                        column,
-                        row,
-                    )
-                })
-            })
-        };
-        for ((one, x, y), (two, to_x, to_y)) in spans().flat_map(|one| spans().map(move |two| (one, two))) {
-            let (gone, new) = one.apart(two, to_x - x, to_y - y);
-            let list = |span: Span| span.cells().collect::<Vec<usize>>();
-            let without = |span: Span, other: Span| {
-                let other = list(other);
-                list(span).into_iter().filter(|cell| !other.contains(cell)).collect::<Vec<usize>>()
-            };
-            assert_eq!((list(gone), list(new)), (without(one, two), without(two, one)), "{one:?} {two:?}");
         }
     }
 }

@@ -12,7 +12,7 @@ mod walls;
 
 use crate::game::{EffectInfo, Limit, Pass, SpriteType};
 use crate::limits::MAX_TIMERS;
-use crate::occupancy::Partners;
+use crate::overlap::Partners;
 use crate::state::{Slot, Timer, flag, memory};
 use crate::step::Step;
 pub use build::NAMES;

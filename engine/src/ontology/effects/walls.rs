@@ -2,8 +2,8 @@
 
 use super::motion::pixel_perfect;
 use crate::geometry::{Direction, Rect};
-use crate::occupancy::Partners;
 use crate::ontology::physics;
+use crate::overlap::Partners;
 use crate::state::Slot;
 use crate::step::Step;
 use crate::trigonometry::{cos, sin};
