@@ -64,6 +64,33 @@ impl State {
         self.locate_afar(rect)
     }
 
+    /// Where a sprite is entered.
+    #[inline(always)]
+    fn located(&self, slot: Slot) -> Located {
+        let &Sprite { column, row, flags, .. } = self.sprite(slot);
+        Located { column, row, flags: flags & flag::LYING }
+    }
+
+    /// Where a rectangle is that comes from `old`, if that filled one cell of the board at most and this is as far along in
+    /// that cell, the next one or the one before: most moves on the grid are such, and nothing else is to be looked at.
+    #[inline(always)]
+    fn next_cell(&self, from: Located, old: Rect, rect: Rect) -> Option<Located> {
+        let block = self.block;
+        let by = |from: i32, to: i32| match to.wrapping_sub(from) {
+            0 => Some(0),
+            by if by == block => Some(1),
+            by if by == -block => Some(-1),
+            _ => None,
+        };
+        if from.flags != 0 || (old.w, old.h) != (rect.w, rect.h) {
+            return None;
+        }
+        let (column, row) = (from.column + by(old.x, rect.x)?, from.row + by(old.y, rect.y)?);
+        let inside = |cell: i16, cells: i32| cell > 0 && i32::from(cell) <= cells;
+        let to = Located { column, row, flags: 0 };
+        (inside(column, self.columns) && inside(row, self.rows)).then_some(to)
+    }
+
     /// Where any rectangle is.
     #[inline(never)]
     fn locate_afar(&self, rect: Rect) -> Located {
@@ -116,9 +143,8 @@ impl State {
     /// as often. Who looks for it there looks at where it is.
     #[inline(always)]
     pub(crate) fn enter_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> i32 {
-        let &Sprite { rect, column, row, flags, .. } = self.sprite(slot);
-        let from = Located { column, row, flags: flags & flag::LYING };
-        let exact = self.locate(rect, column, row);
+        let (rect, from) = (self.sprite(slot).rect, self.located(slot));
+        let exact = self.locate(rect, from.column, from.row);
         let lane = self.lane(rect, exact, dx, dy);
         let to = lane.map_or(exact, |(to, _)| to);
         if from != to {
@@ -171,8 +197,8 @@ impl State {
 
     /// Puts a sprite into the cells that it is said to be in.
     pub(crate) fn enter_cell_again(&mut self, rules: &Rules, slot: Slot) {
-        let &Sprite { column, row, flags, .. } = self.sprite(slot);
-        self.enter_located(rules, slot, Located { column, row, flags: flags & flag::LYING });
+        let to = self.located(slot);
+        self.enter_located(rules, slot, to);
     }
 
     fn enter_located(&mut self, rules: &Rules, slot: Slot, to: Located) {
@@ -216,8 +242,8 @@ impl State {
     #[inline(always)]
     pub(crate) fn relocate(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
         let sprite = &mut self.sprites[usize::from(slot)];
-        let before = sprite.flags;
-        let resized = (sprite.rect.w, sprite.rect.h) != (rect.w, rect.h);
+        let (old, before) = (sprite.rect, sprite.flags);
+        let resized = (old.w, old.h) != (rect.w, rect.h);
         sprite.flags |= flag::STALE | flag::MOVED | bit(resized, flag::CHANGED);
         sprite.rect = rect;
         if before & flag::STALE == 0 {
@@ -226,7 +252,9 @@ impl State {
         if before & flag::MOVED == 0 {
             self.moved.push(slot);
         }
-        self.enter_anew(rules, slot, rect);
+        let from = self.located(slot);
+        let to = self.next_cell(from, old, rect).unwrap_or_else(|| self.locate(rect, from.column, from.row));
+        self.enter_other(rules, slot, from, to);
     }
 
     /// [`State::relocate`], with wakes for what rests where the sprite was and where it is.
@@ -242,9 +270,13 @@ impl State {
     /// Puts a sprite that is elsewhere now into its cells.
     #[inline(always)]
     pub(crate) fn enter_anew(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
-        let &Sprite { column, row, flags, .. } = self.sprite(slot);
-        let from = Located { column, row, flags: flags & flag::LYING };
-        let to = self.locate(rect, column, row);
+        let from = self.located(slot);
+        let to = self.locate(rect, from.column, from.row);
+        self.enter_other(rules, slot, from, to);
+    }
+
+    #[inline(always)]
+    fn enter_other(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
         if from != to {
             self.shift(rules, slot, from, to);
         }
