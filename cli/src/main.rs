@@ -3,6 +3,7 @@
 mod conformance;
 mod console;
 mod embedded;
+mod episodes;
 mod failure;
 mod input;
 mod render;
@@ -35,6 +36,7 @@ enum Verb {
     Verify(verbs::verify::Args),
     Validate(verbs::validate::Args),
     Run(verbs::run::Args),
+    Render(verbs::render::Args),
     Describe(verbs::describe::Args),
     Fmt(verbs::fmt::Args),
     Conformance(verbs::conformance::Args),
@@ -57,6 +59,7 @@ fn main() -> ExitCode {
         Verb::Verify(args) => verbs::verify::run(&args, &console),
         Verb::Validate(args) => verbs::validate::run(&args, &console),
         Verb::Run(args) => verbs::run::run(&args, &console),
+        Verb::Render(args) => verbs::render::run(&args, &console),
         Verb::Describe(args) => verbs::describe::run(&args, &console),
         Verb::Fmt(args) => verbs::fmt::run(&args, &console),
         Verb::Conformance(args) => verbs::conformance::run(&args, &console),

@@ -151,6 +151,11 @@ impl Game {
         records
     }
 
+    /// The colour that the SpriteSet gives a type or one of its parents, red, green and blue; none if it gives none.
+    pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
+        self.0.types.get(stype.index()).and_then(|info| info.traits.color)
+    }
+
     /// The drawing order of the types, as indices into the registry.
     pub fn drawing_order(&self) -> Vec<u16> {
         self.0.order.iter().map(|stype| stype.0).collect()

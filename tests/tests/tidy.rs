@@ -19,7 +19,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("generators", &["engine"]),
     ("validators", &["engine", "agents", "statistics"]),
     ("snapshots", &["engine", "agents", "generators", "validators", "statistics"]),
-    ("cli", &["engine", "agents", "generators", "validators", "snapshots", "statistics"]),
+    ("render", &["engine"]),
+    ("cli", &["engine", "agents", "generators", "validators", "snapshots", "statistics", "render"]),
     ("xtask", &["engine", "agents", "statistics"]),
 ];
 
@@ -30,6 +31,9 @@ const ABOVE_ALL: &str = "tests";
 const CONFINED: &[(&str, &[&str])] = &[
     ("pest", &["engine"]),
     ("clap", &["cli", "xtask"]),
+    ("tiny-skia", &["render"]),
+    ("png", &["render"]),
+    ("gif", &["render"]),
     ("indicatif", &["cli"]),
     ("miette", &["cli"]),
     ("anyhow", &["cli", "xtask"]),

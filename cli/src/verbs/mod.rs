@@ -5,6 +5,7 @@ pub(crate) mod describe;
 pub(crate) mod fmt;
 pub(crate) mod regenerate;
 pub(crate) mod release;
+pub(crate) mod render;
 pub(crate) mod run;
 pub(crate) mod validate;
 pub(crate) mod verify;

@@ -1,0 +1,92 @@
+//! Recorded episodes as the user names them: what `arcade validate --witness` and `arcade play --record` write, and the
+//! witnesses of a snapshot.
+
+use crate::failure::Failure;
+use crate::input::{GameInput, Named, read_text};
+use engine::{Episode, Game, Level};
+use serde::Deserialize;
+use snapshots::Witness;
+use std::path::Path;
+
+/// An episode of the longest play has some 100 bytes a tick.
+const MAX_EPISODE: usize = 1 << 22;
+
+/// An episode, alone or as a snapshot's witness.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Recorded {
+    Witness(Witness),
+    Episode(Episode),
+}
+
+/// Reads an episode.
+pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
+    let text = read_text(path, MAX_EPISODE)?;
+    match serde_json::from_str(&text) {
+        Ok(Recorded::Witness(witness)) => Ok(witness.episode),
+        Ok(Recorded::Episode(episode)) => Ok(episode),
+        Err(_) => {
+            // The kinds together say no more than "none fits": what is wrong with an episode says more.
+            let error = serde_json::from_str::<Episode>(&text).err();
+            let why = error.map_or(String::new(), |error| format!(" ({error})"));
+            Err(Failure::malformed(format!(
+                "{}: not an episode{why}; `arcade play --record FILE` and `arcade validate --witness FILE` write such files",
+                path.display()
+            )))
+        }
+    }
+}
+
+/// Writes an episode.
+pub(crate) fn write(path: &Path, episode: &Episode) -> Result<(), Failure> {
+    let text = serde_json::to_string(episode)
+        .map_err(|error| Failure::surroundings(error, "the episode cannot be written as JSON"))?;
+    std::fs::write(path, text).map_err(|error| Failure::surroundings(error, path.display()))
+}
+
+/// The level to show: the one that is named; else the one that the episode was recorded on; else the first.
+pub(crate) fn level(
+    input: &GameInput,
+    game: &Game,
+    name: Option<&str>,
+    episode: Option<&Episode>,
+) -> Result<(Named, Level), Failure> {
+    let checked = |named: Named| match game.level(&named.text) {
+        Ok(level) => Ok((named, level)),
+        Err(problems) => Err(Failure::malformed(crate::render::problems(&named, &problems.0))),
+    };
+    if let Some(name) = name {
+        return checked(input.level(name)?);
+    }
+    let levels = input.levels()?;
+    let count = levels.len();
+    let Some(episode) = episode else {
+        let first = levels.into_iter().next().ok_or_else(|| {
+            let name = &input.source.name;
+            Failure::malformed(format!(
+                "{name}: the game has no levels of its own; name a level file after it"
+            ))
+        })?;
+        return checked(first);
+    };
+    // Levels with problems are not the one that the episode was recorded on.
+    let mut fitting = levels.into_iter().filter_map(|named| Some((game.level(&named.text).ok()?, named)));
+    let found = fitting.find(|(level, _)| level.digest() == episode.level);
+    found.map(|(level, named)| (named, level)).ok_or_else(|| {
+        Failure::malformed(format!(
+            "the episode was recorded on level {}, which is none of the {count} levels of {}; name the level's file after the game",
+            episode.level, input.title
+        ))
+    })
+}
+
+/// Checks that the episode is one of this game and level, and replays.
+pub(crate) fn check(path: &Path, episode: &Episode, game: &Game, level: &Level) -> Result<(), Failure> {
+    let help = |error: engine::Divergence| {
+        Failure::malformed(format!(
+            "{}: {error}; name the game and level that it was recorded on, or record it again",
+            path.display()
+        ))
+    };
+    episode.replay(game, level).map(|_| ()).map_err(help)
+}

@@ -1,0 +1,267 @@
+//! `arcade render`: a board, or an episode, as text or as a picture.
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::{episodes, input};
+use agents::{Budget, Limits, PLANNERS, planner, play};
+use engine::{Analysis, Episode, Game, Level, Seed, State};
+use render::{Animation, Looks, RenderError, Style, Symbols};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// The most pixels of a GIF's longer side, where the user names no scale.
+const GIF_SIDE: u32 = 480;
+
+/// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the ending of the file's name.
+///
+/// Shape says what a thing is for: spikes, teeth and angry eyes harm, a star wins, bricks block, the figure in the bright
+/// ring is the player. Colour is the game's own.
+///
+/// Example: arcade render hailglass 0 --planner mcts --budget 500 -o hailglass.gif
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    #[arg(value_name = "GAME")]
+    game: String,
+    /// A level file, or the number of one of the game's own levels; the episode's level, or the first, if none is named
+    #[arg(value_name = "LEVEL")]
+    level: Option<String>,
+    /// Show this recorded episode: what `arcade validate --witness` or `arcade play --record` wrote, or a snapshot's witness
+    #[arg(long, value_name = "FILE", conflicts_with = "planner")]
+    episode: Option<PathBuf>,
+    /// Let this planner play the episode: do-nothing, random, mcts
+    #[arg(long, value_name = "NAME")]
+    planner: Option<String>,
+    /// Forward-model calls of one of the planner's decisions
+    #[arg(long, value_name = "CALLS", default_value_t = 1000)]
+    budget: u64,
+    /// Text that the seeds of chance and planner come from
+    #[arg(long, value_name = "TEXT", default_value = "render")]
+    seed: String,
+    /// Ticks that the planner plays at most
+    #[arg(long, value_name = "N", default_value_t = 2000)]
+    max_ticks: usize,
+    /// The state after so many ticks of the episode; of a GIF, its end. The episode's last state if left out
+    #[arg(long, value_name = "N")]
+    tick: Option<usize>,
+    /// Pixels of a cell
+    #[arg(long, value_name = "PIXELS")]
+    scale: Option<u32>,
+    /// Ticks a second of a GIF
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=50))]
+    fps: u16,
+    /// Add the sprite types of the game with their names
+    #[arg(long)]
+    legend: bool,
+    /// Leave out the caption: tick, score, what the avatar holds, outcome
+    #[arg(long)]
+    bare: bool,
+    /// Load the game as the reference engine does: overlook faults that it overlooks
+    #[arg(long)]
+    as_reference: bool,
+    /// Where to: a name ending in .png, .svg, .gif or .txt; `-` for text on standard output
+    #[arg(short, long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Text,
+    Png,
+    Svg,
+    Gif,
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Format, Failure> {
+        if path == Path::new("-") {
+            return Ok(Format::Text);
+        }
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        match ending.as_deref() {
+            Some("txt") => Ok(Format::Text),
+            Some("png") => Ok(Format::Png),
+            Some("svg") => Ok(Format::Svg),
+            Some("gif") => Ok(Format::Gif),
+            _ => Err(Failure::malformed(format!(
+                "{}: the ending says the format, and this is none; end it in .png, .svg, .gif or .txt",
+                path.display()
+            ))),
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Format::Text => "text",
+            Format::Png => "png",
+            Format::Svg => "svg",
+            Format::Gif => "gif",
+        }
+    }
+}
+
+/// What is drawn.
+struct Subject<'a> {
+    looks: Looks,
+    symbols: Symbols,
+    game: &'a Game,
+    level: &'a Level,
+    /// The episode, if there is one, as long as it is shown.
+    actions: &'a [engine::Action],
+    seed: Seed,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let format = Format::of(&args.out)?;
+    if let Some(name) = &args.planner {
+        planner(name, Seed::from_text("")).map_err(Failure::malformed)?;
+    }
+    let input = input::game(&args.game)?;
+    let game = input.compile(args.as_reference)?;
+    let recorded = args.episode.as_deref().map(episodes::read).transpose()?;
+    let (named, level) = episodes::level(&input, &game, args.level.as_deref(), recorded.as_ref())?;
+    if let (Some(path), Some(episode)) = (&args.episode, &recorded) {
+        episodes::check(path, episode, &game, &level)?;
+    }
+    let seed = Seed::from_text(&args.seed).child(&level.digest().to_string(), 0);
+    let episode = match &args.planner {
+        Some(name) => Some(played(args, name, &game, &level, seed)?),
+        None => recorded,
+    };
+    let actions = shown(args, format, episode.as_ref())?;
+    let analysis = Analysis::of(&game);
+    let looks = Looks::of(&analysis);
+    let subject = Subject {
+        symbols: Symbols::of(&analysis, &looks),
+        looks,
+        game: &game,
+        level: &level,
+        actions,
+        seed: episode.as_ref().map_or(seed.child("chance", 0), |episode| episode.seed),
+    };
+    let last = subject.last();
+    let bytes = match format {
+        Format::Text => render::text(&subject.looks, &subject.symbols, &last).into_bytes(),
+        Format::Png => render::png(&subject.picture(args, format, &last)?).map_err(failed)?,
+        Format::Svg => render::svg(&subject.picture(args, format, &last)?).into_bytes(),
+        Format::Gif => subject.gif(args, console)?,
+    };
+    let text = (format == Format::Text).then(|| String::from_utf8_lossy(&bytes).into_owned());
+    let to_screen = args.out == Path::new("-");
+    console.document(&json!({
+        "game": input.source.name,
+        "level": named.name,
+        "file": args.out,
+        "format": format.name(),
+        "bytes": bytes.len(),
+        "ticks": subject.actions.len(),
+        "score": last.score(),
+        "outcome": last.outcome(),
+        "text": text,
+    }))?;
+    match text {
+        Some(text) if to_screen => console.say(text.trim_end()),
+        _ => {
+            std::fs::write(&args.out, &bytes)
+                .map_err(|error| Failure::surroundings(error, args.out.display()))?;
+            let ticks = match subject.actions.len() {
+                0 => String::new(),
+                ticks => format!(", tick {ticks}"),
+            };
+            let shown = if format == Format::Gif { ", from the start" } else { "" };
+            console.say(format_args!("{}: {}{ticks}{shown}", args.out.display(), named.name));
+        }
+    }
+    Ok(true)
+}
+
+fn played(args: &Args, name: &str, game: &Game, level: &Level, seed: Seed) -> Result<Episode, Failure> {
+    let mut planner = planner(name, seed.child("planner", 0)).map_err(Failure::malformed)?;
+    // No more is played than is shown.
+    let ticks = args.tick.map_or(args.max_ticks, |tick| tick.min(args.max_ticks));
+    let limits = Limits { ticks, ..Limits::default() };
+    Ok(play(game, level, planner.as_mut(), Budget(args.budget), seed.child("chance", 0), limits).episode)
+}
+
+/// The actions up to the tick that is shown.
+fn shown<'a>(
+    args: &Args,
+    format: Format,
+    episode: Option<&'a Episode>,
+) -> Result<&'a [engine::Action], Failure> {
+    let help = format!("add --episode FILE, or --planner NAME ({})", PLANNERS.join(", "));
+    match (episode, args.tick) {
+        (None, Some(0)) if format != Format::Gif => Ok(&[]),
+        (None, Some(_)) => Err(Failure::malformed(format!("--tick is a tick of an episode; {help}"))),
+        (None, None) if format == Format::Gif => {
+            Err(Failure::malformed(format!("{}: a GIF shows an episode; {help}", args.out.display())))
+        }
+        (None, None) => Ok(&[]),
+        (Some(episode), None) => Ok(&episode.actions),
+        (Some(episode), Some(tick)) => episode.actions.get(..tick).ok_or_else(|| {
+            let last = episode.actions.len();
+            Failure::malformed(format!(
+                "--tick {tick}: the episode ends after tick {last}; name that or an earlier one"
+            ))
+        }),
+    }
+}
+
+impl Subject<'_> {
+    fn start(&self) -> State {
+        self.game.start(self.level, self.seed)
+    }
+
+    fn last(&self) -> State {
+        let mut state = self.start();
+        for &action in self.actions {
+            self.game.step(&mut state, action);
+        }
+        state
+    }
+
+    fn style(&self, args: &Args, format: Format) -> Style {
+        let (columns, rows) = (self.level.columns() as u32, self.level.rows() as u32);
+        let usual = Style::cell_for(columns, rows);
+        let usual =
+            if format == Format::Gif { usual.min((GIF_SIDE / columns.max(rows)).max(12)) } else { usual };
+        let caption =
+            !args.bare && (format == Format::Gif || args.episode.is_some() || args.planner.is_some());
+        Style { cell: args.scale.unwrap_or(usual), caption, legend: args.legend }
+    }
+
+    fn picture(&self, args: &Args, format: Format, state: &State) -> Result<render::Picture, Failure> {
+        render::picture(&self.looks, state, &self.style(args, format)).map_err(failed)
+    }
+
+    fn gif(&self, args: &Args, console: &Console) -> Result<Vec<u8>, Failure> {
+        let mut state = self.start();
+        let draw = |state: &State| self.picture(args, Format::Gif, state);
+        // With the legend, so that the palette has the colours of what appears later.
+        let style = Style { legend: true, ..self.style(args, Format::Gif) };
+        let legend = render::picture(&self.looks, &state, &style).map_err(failed)?;
+        let specimens = [draw(&state)?, draw(&self.last())?, legend];
+        let mut animation = Animation::new(&specimens, 100 / args.fps).map_err(failed)?;
+        let bar = console.progress(self.actions.len() as u64, "drawing");
+        animation.add(&specimens[0]).map_err(failed)?;
+        for &action in self.actions {
+            self.game.step(&mut state, action);
+            animation.add(&draw(&state)?).map_err(failed)?;
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        animation.finish().map_err(failed)
+    }
+}
+
+/// Wrong sizes are the user's to correct.
+fn failed(error: RenderError) -> Failure {
+    let help = "--scale sets the pixels of a cell";
+    match error {
+        RenderError::Cell { .. } => Failure::malformed(format!("--scale: {error}")),
+        RenderError::TooLarge { .. } | RenderError::TooLargeForGif { .. } => {
+            Failure::malformed(format!("{error}: {help}"))
+        }
+        error => Failure::surroundings(error, "the picture cannot be written"),
+    }
+}

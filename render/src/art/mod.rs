@@ -1,0 +1,145 @@
+//! The drawing of every glyph: shapes in a unit square.
+//!
+//! What harms has points, teeth or angry eyes; what wins has a star; what blocks for good fills its cell; what the player
+//! steers stands in a bright ring. Colour only helps.
+
+mod creatures;
+mod ground;
+mod passages;
+mod shots;
+mod things;
+
+use crate::colour::{Colour, INK, PAPER};
+use crate::glyph::Glyph;
+use crate::look::Look;
+use crate::shape::{Outline, Paint, Point, Shape};
+
+/// The gold of every star.
+const GOLD: Colour = Colour([0xff, 0xd2, 0x3f]);
+/// The usual width of an outline, in tiles.
+const RIM: f32 = 0.045;
+
+/// The tile of a look whose front points along `facing`, of unit length; looks without a front ignore it.
+pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
+    use Glyph as G;
+    let mut art = Art { look, shapes: Vec::new() };
+    match look.glyph {
+        G::Avatar => creatures::avatar(&mut art, facing),
+        G::Craft => creatures::craft(&mut art, facing),
+        G::Fallen => creatures::fallen(&mut art),
+        G::Enemy => creatures::enemy(&mut art),
+        G::Charger => creatures::charger(&mut art),
+        G::Prey => creatures::prey(&mut art),
+        G::Friend => creatures::friend(&mut art),
+        G::Exit => passages::exit(&mut art),
+        G::Gate => passages::gate(&mut art),
+        G::Portal => passages::portal(&mut art),
+        G::PortalExit => passages::portal_exit(&mut art),
+        G::Nest => passages::nest(&mut art),
+        G::Maker => passages::maker(&mut art),
+        G::Socket => passages::socket(&mut art),
+        G::Treasure => things::treasure(&mut art),
+        G::Target => things::target(&mut art),
+        G::Ward => things::ward(&mut art),
+        G::Boulder => things::boulder(&mut art),
+        G::Crate => things::crossed_crate(&mut art),
+        G::Key => things::key(&mut art),
+        G::Switch => things::switch(&mut art),
+        G::Token => things::token(&mut art),
+        G::Gem => things::gem(&mut art),
+        G::Neutral => things::neutral(&mut art),
+        G::HostileShot => shots::hostile(&mut art),
+        G::Blade => shots::blade(&mut art),
+        G::Bolt => shots::bolt(&mut art),
+        G::Bomb => shots::bomb(&mut art),
+        G::Hazard => ground::hazard(&mut art),
+        G::Mire => ground::mire(&mut art),
+        G::Wall => ground::wall(&mut art),
+        G::Breakable => ground::breakable(&mut art),
+        G::Soil => ground::soil(&mut art),
+        G::Cover => ground::cover(&mut art),
+        G::Refuge => ground::refuge(&mut art),
+        G::Conveyor => ground::conveyor(&mut art),
+        G::Spring => ground::spring(&mut art),
+        G::Floor => ground::floor(&mut art),
+    }
+    if let (true, Some(direction)) = (look.glyph.turns(), facing) {
+        art.turn(direction);
+    }
+    art.pips();
+    art.shapes
+}
+
+/// A tile in the making.
+struct Art {
+    look: Look,
+    shapes: Vec<Shape>,
+}
+
+impl Art {
+    fn main(&self) -> Colour {
+        self.look.colour
+    }
+
+    fn fill(&mut self, outline: Outline, colour: Colour) {
+        self.shapes.push(Shape { outline, paint: Paint::Fill, colour });
+    }
+
+    fn stroke(&mut self, outline: Outline, colour: Colour, width: f32) {
+        self.shapes.push(Shape { outline, paint: Paint::Stroke(width), colour });
+    }
+
+    /// Filled, with a dark rim: seen on any ground.
+    fn solid(&mut self, outline: Outline, colour: Colour) {
+        self.fill(outline.clone(), colour);
+        self.stroke(outline, INK, RIM);
+    }
+
+    /// The gold star of everything that wins; white on gold.
+    fn star(&mut self, x: f32, y: f32, radius: f32) {
+        let colour = if self.main().distance(GOLD) < 12_000 { PAPER } else { GOLD };
+        self.solid(Outline::star(x, y, 5, radius, radius * 0.45), colour);
+    }
+
+    /// White eyes with pupils, `apart` from each other; `frown` lowers the inner ends of the brows.
+    fn eyes(&mut self, [x, y]: Point, apart: f32, radius: f32, frown: bool) {
+        for side in [-1.0_f32, 1.0] {
+            let at = x + side * apart / 2.0;
+            self.solid(Outline::circle(at, y, radius), PAPER);
+            self.fill(Outline::circle(at - side * radius * 0.25, y + radius * 0.2, radius * 0.5), INK);
+            if frown {
+                let brow = [
+                    [at - side * radius * 1.1, y - radius * 0.45],
+                    [at + side * radius * 1.2, y - radius * 1.45],
+                ];
+                self.stroke(Outline::line(&brow), INK, radius * 0.7);
+            }
+        }
+    }
+
+    /// A round, square or pointed mark that a key shares with what it opens.
+    fn emblem(&self, x: f32, y: f32, radius: f32) -> Outline {
+        match self.look.variant {
+            0 => Outline::circle(x, y, radius),
+            1 => Outline::rect(x - radius, y - radius, 2.0 * radius, 2.0 * radius),
+            2 => Outline::star(x, y, 3, radius * 1.4, radius * 0.7),
+            _ => Outline::star(x, y, 2, radius * 1.4, radius * 1.1),
+        }
+    }
+
+    fn turn(&mut self, direction: Point) {
+        for shape in &mut self.shapes {
+            let outline = std::mem::take(&mut shape.outline);
+            shape.outline = outline.turned(direction);
+        }
+    }
+
+    /// Dots at the foot, for what form and colour do not tell apart.
+    fn pips(&mut self) {
+        let count = self.look.pips;
+        for at in 0..count {
+            let x = 0.5 + 0.2 * (f32::from(at) - f32::from(count - 1) / 2.0);
+            self.solid(Outline::circle(x, 0.88, 0.075), PAPER);
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! What lies about: to be taken, pushed, pressed, or kept safe.
+
+use super::Art;
+use crate::colour::{Colour, INK, PAPER};
+use crate::shape::{Outline, Segment};
+
+/// A star of the thing's own colour: flat, with a round middle or many-pointed.
+pub(super) fn treasure(art: &mut Art) {
+    let main = art.main();
+    let (points, inner) = match art.look.variant {
+        0 => (5, 0.21),
+        1 => (6, 0.27),
+        _ => (8, 0.3),
+    };
+    art.fill(Outline::star(0.5, 0.52, points, 0.5, inner + 0.06), super::GOLD);
+    art.solid(Outline::star(0.5, 0.52, points, 0.43, inner), main);
+    art.fill(Outline::circle(0.44, 0.45, 0.05), PAPER);
+}
+
+pub(super) fn target(art: &mut Art) {
+    let main = art.main();
+    art.solid(Outline::circle(0.5, 0.5, 0.45), main);
+    art.fill(Outline::circle(0.5, 0.5, 0.34), PAPER);
+    art.fill(Outline::circle(0.5, 0.5, 0.29), main);
+    art.star(0.5, 0.5, 0.24);
+}
+
+pub(super) fn ward(art: &mut Art) {
+    let main = art.main();
+    let shield = Outline(vec![
+        Segment::Move([0.5, 0.04]),
+        Segment::Cubic([0.62, 0.14], [0.78, 0.16], [0.9, 0.15]),
+        Segment::Cubic([0.92, 0.56], [0.8, 0.8], [0.5, 0.96]),
+        Segment::Cubic([0.2, 0.8], [0.08, 0.56], [0.1, 0.15]),
+        Segment::Cubic([0.22, 0.16], [0.38, 0.14], [0.5, 0.04]),
+        Segment::Close,
+    ]);
+    art.solid(shield, main);
+    let heart = Outline(vec![
+        Segment::Move([0.5, 0.72]),
+        Segment::Cubic([0.16, 0.5], [0.24, 0.24], [0.4, 0.28]),
+        Segment::Cubic([0.46, 0.3], [0.5, 0.36], [0.5, 0.4]),
+        Segment::Cubic([0.5, 0.36], [0.54, 0.3], [0.6, 0.28]),
+        Segment::Cubic([0.76, 0.24], [0.84, 0.5], [0.5, 0.72]),
+        Segment::Close,
+    ]);
+    art.solid(heart, PAPER);
+}
+
+pub(super) fn boulder(art: &mut Art) {
+    let main = art.main();
+    let rock = [
+        [0.3, 0.08],
+        [0.66, 0.05],
+        [0.92, 0.3],
+        [0.96, 0.66],
+        [0.74, 0.93],
+        [0.34, 0.96],
+        [0.06, 0.74],
+        [0.06, 0.36],
+    ];
+    art.solid(Outline::polygon(&rock), main);
+    art.fill(
+        Outline::polygon(&[[0.32, 0.14], [0.62, 0.11], [0.7, 0.26], [0.42, 0.38], [0.16, 0.38]]),
+        main.light(),
+    );
+    art.stroke(Outline::line(&[[0.88, 0.36], [0.7, 0.48], [0.74, 0.7], [0.6, 0.86]]), main.shade(), 0.05);
+}
+
+/// Planks across, from corner to corner.
+pub(super) fn crossed_crate(art: &mut Art) {
+    let main = art.main();
+    art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.05), main);
+    art.fill(Outline::rect(0.19, 0.19, 0.62, 0.62), main.shade());
+    match art.look.variant {
+        0 => {
+            for bar in [[[0.24, 0.24], [0.76, 0.76]], [[0.76, 0.24], [0.24, 0.76]]] {
+                art.stroke(Outline::line(&bar), main, 0.13);
+            }
+        }
+        1 => {
+            for x in [0.29, 0.5, 0.71] {
+                art.stroke(Outline::line(&[[x, 0.22], [x, 0.78]]), main, 0.1);
+            }
+        }
+        _ => art.fill(Outline::circle(0.5, 0.5, 0.22), main),
+    }
+    art.stroke(Outline::rect(0.19, 0.19, 0.62, 0.62), INK, 0.03);
+}
+
+pub(super) fn key(art: &mut Art) {
+    let main = art.main();
+    let shaft = [
+        [0.48, 0.44],
+        [0.97, 0.44],
+        [0.97, 0.72],
+        [0.86, 0.72],
+        [0.86, 0.56],
+        [0.78, 0.56],
+        [0.78, 0.67],
+        [0.68, 0.67],
+        [0.68, 0.56],
+        [0.48, 0.56],
+    ];
+    art.solid(Outline::polygon(&shaft), main);
+    art.solid(art.emblem(0.29, 0.5, 0.25), main);
+    art.solid(art.emblem(0.29, 0.5, 0.1), PAPER);
+}
+
+pub(super) fn switch(art: &mut Art) {
+    let main = art.main();
+    art.solid(Outline::rounded(0.08, 0.62, 0.84, 0.3, 0.08), Colour([0x8a, 0x90, 0x9c]));
+    let button = Outline(vec![
+        Segment::Move([0.24, 0.62]),
+        Segment::Cubic([0.26, 0.2], [0.74, 0.2], [0.76, 0.62]),
+        Segment::Close,
+    ]);
+    art.solid(button, main);
+    art.fill(Outline::ellipse(0.42, 0.42, 0.06, 0.05), PAPER);
+}
+
+pub(super) fn token(art: &mut Art) {
+    let main = art.main();
+    art.solid(Outline::circle(0.5, 0.5, 0.36), main);
+    art.stroke(Outline::circle(0.5, 0.5, 0.26), main.shade(), 0.05);
+    match art.look.variant {
+        0 => art.fill(Outline::rounded(0.45, 0.34, 0.1, 0.32, 0.04), main.shade()),
+        1 => art.fill(Outline::rect(0.39, 0.39, 0.22, 0.22), main.shade()),
+        _ => art.fill(Outline::star(0.5, 0.52, 3, 0.18, 0.09), main.shade()),
+    }
+    art.fill(Outline::ellipse(0.36, 0.32, 0.06, 0.04), PAPER);
+}
+
+/// Cut stones of four outlines.
+pub(super) fn gem(art: &mut Art) {
+    let main = art.main();
+    let (cut, facet): (&[[f32; 2]], &[[f32; 2]]) = match art.look.variant {
+        0 => (
+            &[[0.28, 0.16], [0.72, 0.16], [0.93, 0.4], [0.5, 0.92], [0.07, 0.4]],
+            &[[0.28, 0.16], [0.37, 0.4], [0.5, 0.92], [0.63, 0.4], [0.72, 0.16]],
+        ),
+        1 => (
+            &[
+                [0.34, 0.1],
+                [0.66, 0.1],
+                [0.86, 0.3],
+                [0.86, 0.7],
+                [0.66, 0.9],
+                [0.34, 0.9],
+                [0.14, 0.7],
+                [0.14, 0.3],
+            ],
+            &[[0.34, 0.1], [0.34, 0.3], [0.34, 0.7], [0.66, 0.7], [0.66, 0.3], [0.34, 0.3]],
+        ),
+        2 => (
+            &[[0.5, 0.06], [0.82, 0.5], [0.5, 0.94], [0.18, 0.5]],
+            &[[0.18, 0.5], [0.5, 0.42], [0.82, 0.5], [0.5, 0.58], [0.18, 0.5]],
+        ),
+        _ => (
+            &[[0.5, 0.1], [0.93, 0.86], [0.07, 0.86]],
+            &[[0.5, 0.1], [0.5, 0.58], [0.93, 0.86], [0.5, 0.58], [0.07, 0.86]],
+        ),
+    };
+    art.fill(Outline::polygon(cut), main);
+    art.stroke(Outline::line(facet), main.shade(), 0.035);
+    art.stroke(Outline::polygon(cut), INK, 0.05);
+    art.fill(Outline::star(0.34, 0.32, 4, 0.11, 0.04), PAPER);
+}
+
+pub(super) fn neutral(art: &mut Art) {
+    let main = art.main();
+    let pebble = Outline(vec![
+        Segment::Move([0.18, 0.62]),
+        Segment::Cubic([0.2, 0.3], [0.6, 0.22], [0.74, 0.36]),
+        Segment::Cubic([0.94, 0.54], [0.86, 0.8], [0.5, 0.8]),
+        Segment::Cubic([0.28, 0.8], [0.18, 0.76], [0.18, 0.62]),
+        Segment::Close,
+    ]);
+    art.solid(pebble, main);
+    art.fill(Outline::ellipse(0.42, 0.46, 0.1, 0.05), main.light());
+}

@@ -1,0 +1,142 @@
+//! A state of a game as a picture: the board, and if asked for a caption and a legend.
+
+use crate::caption;
+use crate::colour::{GRID, GROUND};
+use crate::error::RenderError;
+use crate::glyph::Glyph;
+use crate::legend;
+use crate::look::{Look, Looks};
+use crate::picture::{Picture, Place};
+use crate::shape::Point;
+use engine::{SpriteRecord, SpriteType, State};
+use std::collections::BTreeMap;
+
+/// The fewest pixels of a cell: below, tiles are dots.
+pub const MIN_CELL: u32 = 4;
+/// The most pixels of a cell.
+pub const MAX_CELL: u32 = 256;
+/// The most pixels of a picture.
+pub const MAX_PIXELS: u64 = 1 << 26;
+
+/// A sprite over another one in the same rectangle is drawn this much smaller, so that both are seen.
+const OVER: f32 = 0.78;
+
+/// How a state is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Style {
+    /// Pixels of a cell, [`MIN_CELL`] to [`MAX_CELL`].
+    pub cell: u32,
+    /// Tick, score, what the avatar holds and the outcome, under the board.
+    pub caption: bool,
+    /// The sprite types of the game with their tiles, under the board.
+    pub legend: bool,
+}
+
+impl Style {
+    /// Only the board, in cells of this many pixels.
+    pub fn bare(cell: u32) -> Style {
+        Style { cell, caption: false, legend: false }
+    }
+
+    /// Cells so large that the longer side of the board has about 900 pixels, 8 to 40 each.
+    pub fn cell_for(columns: u32, rows: u32) -> u32 {
+        (900 / columns.max(rows).max(1)).clamp(8, 40)
+    }
+}
+
+/// Draws a state. Cost: O(sprites log sprites + cells).
+///
+/// # Errors
+/// If a cell is too small or too large, or the picture would be.
+pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, RenderError> {
+    let Style { cell, .. } = *style;
+    if !(MIN_CELL..=MAX_CELL).contains(&cell) {
+        return Err(RenderError::Cell { cell });
+    }
+    let (columns, rows) = state.size();
+    let (width, height) = (columns.cast_unsigned() * cell, rows.cast_unsigned() * cell);
+    let (strip, keys) = (caption::height(looks, style), legend::height(looks, style, width));
+    let whole = u64::from(width) * u64::from(height + strip + keys);
+    if whole > MAX_PIXELS {
+        return Err(RenderError::TooLarge { pixels: whole });
+    }
+    let mut picture = Picture::new(width, height + strip + keys);
+    ground(&mut picture, width, height, cell);
+    sprites(&mut picture, looks, state, cell);
+    // What leaves the board is covered by what lies below it.
+    if strip > 0 {
+        caption::draw(&mut picture, looks, state, style, height);
+    }
+    if keys > 0 {
+        legend::draw(&mut picture, looks, style, height + strip);
+    }
+    Ok(picture)
+}
+
+fn ground(picture: &mut Picture, width: u32, height: u32, cell: u32) {
+    let (w, h, step) = (width as f32, height as f32, cell as f32);
+    picture.rect(Place { x: 0.0, y: 0.0, w, h }, GROUND);
+    let line = (step / 32.0).max(1.0);
+    for at in 1..width / cell {
+        picture.rect(Place { x: at as f32 * step - line / 2.0, y: 0.0, w: line, h }, GRID);
+    }
+    for at in 1..height / cell {
+        picture.rect(Place { x: 0.0, y: at as f32 * step - line / 2.0, w, h: line }, GRID);
+    }
+}
+
+fn sprites(picture: &mut Picture, looks: &Looks, state: &State, cell: u32) {
+    let game = looks.game();
+    let mut records = game.records(state);
+    let mut place_in_order = vec![usize::MAX; game.sprite_types().count()];
+    for (at, stype) in game.drawing_order().into_iter().enumerate() {
+        place_in_order[usize::from(stype)] = at;
+    }
+    // The sort keeps the order of creation among sprites of a type.
+    records.sort_by_key(|record| place_in_order[usize::from(record.stype)]);
+    let scale = f64::from(cell) / f64::from(state.block().max(1));
+    let mut below: BTreeMap<[i32; 4], u8> = BTreeMap::new();
+    for record in records {
+        let stype = SpriteType(record.stype);
+        if !looks.is_visible(stype) {
+            continue;
+        }
+        let look = looks.look(stype);
+        let rect = record.rect;
+        let mut place = Place {
+            x: (f64::from(rect.x) * scale) as f32,
+            y: (f64::from(rect.y) * scale) as f32,
+            w: (f64::from(rect.w) * scale) as f32,
+            h: (f64::from(rect.h) * scale) as f32,
+        };
+        if !look.glyph.is_ground() {
+            let covered = below.entry([rect.x, rect.y, rect.w, rect.h]).or_default();
+            if *covered > 0 {
+                let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
+                place = Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER };
+            }
+            *covered += 1;
+        }
+        let dead = record.flags & DISABLED != 0;
+        let look = if dead { Look { glyph: Glyph::Fallen, ..look } } else { look };
+        picture.sprite(place, game.name(stype), look, facing(&record, look.glyph));
+    }
+}
+
+/// A killed avatar, in [`SpriteRecord::flags`].
+const DISABLED: u16 = 1;
+
+/// Where a sprite's front points: its orientation, or for crafts without one their rotation.
+fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
+    if !glyph.turns() && glyph != Glyph::Avatar {
+        return None;
+    }
+    let (x, y) = record.orientation;
+    let length = (x * x + y * y).sqrt();
+    if length > 0.0 {
+        return Some([(x / length) as f32, (y / length) as f32]);
+    }
+    let rotation = record.rotation;
+    (glyph == Glyph::Craft && rotation != 0.0)
+        .then(|| [libm::cos(rotation) as f32, libm::sin(rotation) as f32])
+}

@@ -1,0 +1,42 @@
+//! What keeps a picture from being drawn or written.
+
+use crate::board::{MAX_CELL, MAX_PIXELS, MIN_CELL};
+
+/// No picture.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// A cell is too small or too large.
+    #[error("{cell} pixels a cell; a cell has {MIN_CELL} to {MAX_CELL}")]
+    Cell {
+        /// Pixels asked for.
+        cell: u32,
+    },
+    /// The picture has too many pixels.
+    #[error("the picture would have {pixels} pixels, more than {MAX_PIXELS}; draw smaller cells")]
+    TooLarge {
+        /// How many it would have.
+        pixels: u64,
+    },
+    /// A frame of an animation has another size than the first one.
+    #[error("a frame of {width} × {height} pixels in an animation of another size")]
+    Frame {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// A GIF's sides are limited to 65,535 pixels.
+    #[error("a GIF cannot be {width} × {height} pixels; draw smaller cells")]
+    TooLargeForGif {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// PNG data could not be written.
+    #[error("the PNG could not be written")]
+    Png(#[from] ::png::EncodingError),
+    /// GIF data could not be written.
+    #[error("the GIF could not be written")]
+    Gif(#[from] ::gif::EncodingError),
+}

@@ -1,0 +1,203 @@
+//! The forms that tiles take: one for each thing that a player must tell apart.
+
+use crate::colour::{self, Colour};
+use engine::analysis::{Harm, Key, Motion, Role, Steering};
+use engine::{Analysis, SpriteClass, SpriteType};
+
+/// Declares the glyphs once: variant, what a stranger would call the form, what it means, colour, letters of a terminal.
+macro_rules! glyphs {
+    ($($name:ident, $form:literal, $meaning:literal, $colour:ident, $unicode:literal, $ascii:literal;)*) => {
+        /// The form of a tile.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Glyph { $(#[doc = $meaning] $name),* }
+
+        impl Glyph {
+            /// All, in the order of legends.
+            pub const ALL: &[Glyph] = &[$(Glyph::$name),*];
+
+            /// What it looks like, in a few words.
+            pub fn form(self) -> &'static str {
+                match self { $(Glyph::$name => $form),* }
+            }
+
+            /// What it stands for, in a few words.
+            pub fn meaning(self) -> &'static str {
+                match self { $(Glyph::$name => $meaning),* }
+            }
+
+            /// Its colour where the game names none.
+            pub(crate) fn colour(self) -> Colour {
+                match self { $(Glyph::$name => colour::$colour),* }
+            }
+
+            /// Two columns of a terminal.
+            pub fn unicode(self) -> &'static str {
+                match self { $(Glyph::$name => $unicode),* }
+            }
+
+            /// Two columns of a terminal that knows ASCII only.
+            pub fn ascii(self) -> &'static str {
+                match self { $(Glyph::$name => $ascii),* }
+            }
+        }
+    };
+}
+
+glyphs! {
+    Avatar, "a figure in a bright ring", "you", BLUE, "@ ", "@ ";
+    Craft, "a ship in a bright ring", "you, steering by thrust", BLUE, "▲ ", "@^";
+    Fallen, "a grave cross", "you, dead", STONE, "† ", "+ ";
+    Exit, "a door with a star", "the way to win", GREEN, "★ ", "X ";
+    Treasure, "a star", "take it to win", YELLOW, "☆ ", "* ";
+    Prey, "a startled creature with a star", "catch or hit it to win", YELLOW, "◎ ", "& ";
+    Target, "rings with a star", "must go for the win", YELLOW, "◎ ", "() ";
+    Socket, "a sunken square with a star", "push things here", SKY, "□ ", "_ ";
+    Ward, "a shield with a heart", "keep it safe", SKY, "♥ ", "V ";
+    Enemy, "a spiky creature with angry eyes", "moves and harms", VERMILION, "Ж ", "M ";
+    Charger, "an angry head with a pointed snout", "runs ahead, harms", VERMILION, "Ж ", "M>";
+    HostileShot, "a barbed arrow", "a shot that harms", VERMILION, "↯ ", "! ";
+    Hazard, "a row of spikes", "harms where it stands", VERMILION, "▲▲", "^^";
+    Mire, "waves", "harms at times", SKY, "≈≈", "~~";
+    Nest, "a cave with eyes", "makes what harms", PURPLE, "◙ ", "% ";
+    Maker, "a hatch with a plus", "makes other things", PURPLE, "⊞ ", "%+";
+    Boulder, "a rock", "falls, blocks, may crush", STONE, "● ", "O ";
+    Crate, "a crossed crate", "can be pushed", WOOD, "▣ ", "[]";
+    Key, "a key", "opens something", YELLOW, "¬ ", "k ";
+    Switch, "a button", "touch it to open", ORANGE, "⊙ ", "o ";
+    Token, "a coin", "a resource to hold", YELLOW, "○ ", "$ ";
+    Gem, "a gem", "can be taken", ORANGE, "◆ ", "' ";
+    Gate, "bars with a lock", "shut until unlocked", WOOD, "╫╫", "##";
+    Portal, "a swirl", "takes you elsewhere", PURPLE, "@@", "@@";
+    PortalExit, "an empty ring with an arrow", "where a portal leads", PURPLE, "◌ ", "<>";
+    Blade, "a slash", "what you strike with", SKY, "⁄ ", "/ ";
+    Bolt, "a dart", "what you shoot", SKY, "• ", ". ";
+    Bomb, "a round bomb", "what you lay", SLATE, "♠ ", "b ";
+    Friend, "a round creature that smiles", "moves and does no harm", GREEN, "☻ ", "f ";
+    Wall, "bricks", "blocks the way for good", SLATE, "██", "##";
+    Breakable, "cracked bricks", "blocks until broken", STONE, "▓▓", "%%";
+    Soil, "speckled ground", "dug away by walking", EARTH, "░░", "::";
+    Cover, "sandbags", "stops shots", STONE, "▒▒", "==";
+    Refuge, "a bush", "stops enemies, not you", GREEN, "♣♣", "\"\"";
+    Conveyor, "chevrons", "carries what stands on it", STONE, "»»", ">>";
+    Spring, "a tile with a plus", "gives while you are on it", SKY, "++", "++";
+    Floor, "a plain tile", "nothing happens on it", GRID, "  ", "  ";
+    Neutral, "a pebble", "none of these", STONE, "▪ ", ", ";
+}
+
+impl Glyph {
+    /// The form of a sprite type: from its role first, then from how it moves and what it is made for.
+    pub fn of(analysis: &Analysis, stype: SpriteType) -> Glyph {
+        let facts = analysis.facts(stype);
+        let wanted = analysis.aims().remove.contains(&stype);
+        let still = facts.motion == Motion::Still;
+        match analysis.role(stype) {
+            Role::Avatar => {
+                let avatar = analysis.avatars().iter().find(|avatar| avatar.stype == stype);
+                let thrust = avatar.is_some_and(|avatar| avatar.steering == Steering::Thrust);
+                if thrust { Glyph::Craft } else { Glyph::Avatar }
+            }
+            Role::Shot if facts.fleeting && still => Glyph::Blade,
+            Role::Shot if still => Glyph::Bomb,
+            Role::Shot => Glyph::Bolt,
+            Role::Portal => Glyph::Portal,
+            Role::PortalExit => Glyph::PortalExit,
+            Role::Pushable => Glyph::Crate,
+            Role::Gate | Role::Hazard if lies_under(analysis, stype) => Glyph::Mire,
+            Role::Key | Role::Collectable if lies_under(analysis, stype) => Glyph::Spring,
+            Role::Exit => Glyph::Exit,
+            Role::Gate => Glyph::Gate,
+            Role::Boulder => Glyph::Boulder,
+            Role::Enemy => match facts.motion {
+                Motion::Straight(_) if is_dropped(analysis, stype) => Glyph::HostileShot,
+                Motion::Straight(_) => Glyph::Charger,
+                _ => Glyph::Enemy,
+            },
+            Role::Socket => Glyph::Socket,
+            Role::Hazard if analysis.harm(stype) == Harm::Conditional => Glyph::Mire,
+            Role::Hazard => Glyph::Hazard,
+            Role::Spawner if analysis.makes_harm(stype) => Glyph::Nest,
+            Role::Spawner => Glyph::Maker,
+            Role::Ward => Glyph::Ward,
+            Role::Prey if still => Glyph::Target,
+            Role::Prey => Glyph::Prey,
+            Role::Key => key(analysis, stype),
+            Role::Soil => Glyph::Soil,
+            Role::Collectable if wanted && still => Glyph::Treasure,
+            Role::Collectable if wanted => Glyph::Prey,
+            Role::Collectable if !still => Glyph::Friend,
+            Role::Collectable if facts.is_resource => Glyph::Token,
+            Role::Collectable => Glyph::Gem,
+            Role::Breakable => Glyph::Breakable,
+            Role::Wall => Glyph::Wall,
+            Role::Cover => Glyph::Cover,
+            Role::Refuge => Glyph::Refuge,
+            Role::Floor => Glyph::Floor,
+            Role::Neutral if still => neutral(analysis.game().class(stype)),
+            Role::Neutral => Glyph::Friend,
+        }
+    }
+
+    /// How many forms of it there are, so that several types of one glyph differ in more than colour.
+    pub(crate) fn variants(self) -> usize {
+        match self {
+            Glyph::Enemy | Glyph::Gem | Glyph::Key | Glyph::Gate => 4,
+            Glyph::Charger | Glyph::Token | Glyph::Friend | Glyph::Treasure | Glyph::Crate => 3,
+            _ => 1,
+        }
+    }
+
+    /// Whether its front shows: the tile turns with the sprite's orientation.
+    pub(crate) fn turns(self) -> bool {
+        use Glyph as G;
+        matches!(self, G::Craft | G::Charger | G::HostileShot | G::Bolt | G::Blade | G::Conveyor)
+    }
+
+    /// Whether the tile fills its cell: neighbours join, and what is in the cell besides is drawn over it.
+    pub(crate) fn is_ground(self) -> bool {
+        use Glyph as G;
+        matches!(self, G::Wall | G::Breakable | G::Soil | G::Mire | G::Conveyor | G::Spring | G::Floor)
+    }
+}
+
+/// What moves makes it, and it makes nothing: a bomb that is dropped, not a cart that comes out of a shed.
+fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
+    let drops = |maker: SpriteType| {
+        let facts = analysis.facts(maker);
+        facts.possible && facts.motion != Motion::Still && facts.makes.contains(&stype)
+    };
+    analysis.facts(stype).makes.is_empty() && analysis.game().sprite_types().any(drops)
+}
+
+/// It stays when it is touched, and several level characters place it together with something else: the ground of a
+/// part of the board rather than a thing on it.
+fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
+    let game = analysis.game();
+    let stays = analysis.avatars().iter().all(|avatar| !analysis.touch(avatar.stype, stype).ends_other());
+    let below = |symbol: &&u8| game.places(**symbol).last() != Some(&stype);
+    let facts = analysis.facts(stype);
+    stays && facts.motion == Motion::Still && facts.symbols.iter().filter(below).count() > 1
+}
+
+/// What gives a key: a button if touching it is enough, coins if many can be held.
+fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
+    let many = |resource: SpriteType| {
+        analysis.resources().iter().any(|known| known.stype == resource && known.limit > 2)
+    };
+    let mut locks =
+        analysis.locks().iter().filter(|lock| lock.givers.iter().any(|(giver, _)| *giver == stype));
+    let glyph = |key: &Key| match key {
+        Key::Switch(..) => Glyph::Switch,
+        Key::Resource { resource, .. } if many(*resource) => Glyph::Token,
+        _ => Glyph::Key,
+    };
+    locks.next().map_or(Glyph::Key, |lock| glyph(&lock.key))
+}
+
+fn neutral(class: Option<SpriteClass>) -> Glyph {
+    match class {
+        Some(SpriteClass::Conveyor) => Glyph::Conveyor,
+        Some(SpriteClass::Portal) => Glyph::Portal,
+        Some(class) if class.is_a(SpriteClass::SpawnPoint) => Glyph::Maker,
+        _ => Glyph::Neutral,
+    }
+}

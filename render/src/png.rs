@@ -1,0 +1,26 @@
+//! Pictures as PNG.
+
+use crate::error::RenderError;
+use crate::picture::Picture;
+use crate::pixels::{Image, Painter};
+
+/// The picture as a PNG file.
+///
+/// # Errors
+/// If it is empty or too large for the memory.
+pub fn png(picture: &Picture) -> Result<Vec<u8>, RenderError> {
+    encode(&Painter::new().paint(picture)?)
+}
+
+fn encode(image: &Image) -> Result<Vec<u8>, RenderError> {
+    let mut bytes = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut bytes, image.width, image.height);
+    encoder.set_color(::png::ColorType::Rgb);
+    encoder.set_depth(::png::BitDepth::Eight);
+    encoder.set_compression(::png::Compression::High);
+    let mut writer = encoder.write_header()?;
+    let data: Vec<u8> = image.pixels.iter().flat_map(|colour| colour.0).collect();
+    writer.write_image_data(&data)?;
+    writer.finish()?;
+    Ok(bytes)
+}

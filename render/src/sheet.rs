@@ -1,0 +1,74 @@
+//! A contact sheet: several pictures in one, each with a caption.
+
+use crate::board::MAX_PIXELS;
+use crate::colour::{GROUND, INK, PAPER};
+use crate::error::RenderError;
+use crate::glyph::Glyph;
+use crate::look::Look;
+use crate::picture::{ADVANCE, Picture, Place, shortened};
+
+/// Pixels between the pictures, and around them.
+const GAP: u32 = 16;
+/// Height of the letters of a caption, pixels.
+const LETTER: u32 = 15;
+
+/// Puts pictures side by side in rows of `columns`, each shrunk to fit a square of `side` pixels (never enlarged), under
+/// it its caption, shortened to fit. A row is as high as its highest picture.
+///
+/// # Errors
+/// If the sheet would have more than [`MAX_PIXELS`].
+pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result<Picture, RenderError> {
+    let columns = columns.clamp(1, entries.len().max(1));
+    let scale = |picture: &Picture| {
+        let longest = picture.width().max(picture.height()).max(1);
+        (side as f32 / longest as f32).min(1.0)
+    };
+    let shrunk = |length: u32, scale: f32| (length as f32 * scale) as u32;
+    let row_height = |row: &[(Picture, String)]| {
+        let heights = row.iter().map(|(picture, _)| shrunk(picture.height(), scale(picture)));
+        heights.max().unwrap_or(0) + LETTER + GAP + GAP / 2
+    };
+    let width = columns as u64 * (u64::from(side) + u64::from(GAP)) + u64::from(GAP);
+    let height = entries.chunks(columns).map(row_height).sum::<u32>() + GAP;
+    let pixels = width * u64::from(height);
+    if pixels > MAX_PIXELS {
+        return Err(RenderError::TooLarge { pixels });
+    }
+    let width = width as u32;
+    let mut sheet = Picture::new(width, height);
+    sheet.rect(Place { x: 0.0, y: 0.0, w: width as f32, h: height as f32 }, PAPER);
+    let mut top = GAP;
+    for row in entries.chunks(columns) {
+        for ((picture, caption), at) in row.iter().zip(0u32..) {
+            let (left, scale) = (GAP + at * (side + GAP), scale(picture));
+            let inset = (side - shrunk(picture.width(), scale)) / 2;
+            sheet.inset(picture, ((left + inset) as f32, top as f32), scale);
+            let letters = side as f32 / (LETTER as f32 * ADVANCE);
+            let foot = top + shrunk(picture.height(), scale) + GAP / 2;
+            let text = shortened(caption, letters as usize);
+            sheet.text((left as f32, foot as f32), LETTER as f32, INK, &text);
+        }
+        top += row_height(row);
+    }
+    Ok(sheet)
+}
+
+/// Every glyph with what it stands for, in rows of `columns`: a legend to all boards.
+pub fn gallery(columns: usize) -> Picture {
+    const SIDE: u32 = 48;
+    const STEP: u32 = 300;
+    let columns = columns.max(1) as u32;
+    let rows = (Glyph::ALL.len() as u32).div_ceil(columns);
+    let (width, height) = (columns * STEP, rows * (SIDE + GAP) + GAP);
+    let mut gallery = Picture::new(width, height);
+    gallery.rect(Place { x: 0.0, y: 0.0, w: width as f32, h: height as f32 }, GROUND);
+    for (&glyph, at) in Glyph::ALL.iter().zip(0u32..) {
+        let (x, y) = ((at % columns * STEP + GAP) as f32, (at / columns * (SIDE + GAP) + GAP) as f32);
+        let place = Place { x, y, w: SIDE as f32, h: SIDE as f32 };
+        gallery.sprite(place, glyph.form(), Look::plain(glyph), None);
+        let left = x + (SIDE + GAP / 2) as f32;
+        gallery.text((left, y + 8.0), 13.0, INK, glyph.meaning());
+        gallery.text((left, y + 28.0), 10.0, INK.mixed(GROUND, 35), glyph.form());
+    }
+    gallery
+}

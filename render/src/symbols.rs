@@ -1,0 +1,60 @@
+//! One ASCII character for each sprite type of a game, for boards as text.
+
+use crate::glyph::Glyph;
+use crate::look::Looks;
+use engine::{Analysis, SpriteType};
+
+/// The characters of the types that players can see. Static: the same game always gives the same.
+#[derive(Clone, Debug)]
+pub struct Symbols(Vec<char>);
+
+/// An empty cell, or one with nothing but floor.
+pub const EMPTY: char = '.';
+
+/// Characters that are given to types for which neither their own nor a letter of their name is free.
+const SPARE: &str =
+    "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
+
+impl Symbols {
+    /// A type has the level character that places it on top of floor alone, if there is one and it is free; else a letter
+    /// of its name; else any. Types that are never seen, and floors, have [`EMPTY`].
+    pub fn of(analysis: &Analysis, looks: &Looks) -> Symbols {
+        let game = analysis.game();
+        let is_floor =
+            |stype: SpriteType| !looks.is_visible(stype) || looks.look(stype).glyph == Glyph::Floor;
+        let mut symbols = vec![EMPTY; game.sprite_types().count()];
+        let mut taken = vec![EMPTY, ' ', '#'];
+        let shown: Vec<SpriteType> = looks.shown().filter(|&stype| !is_floor(stype)).collect();
+        let mut left = Vec::new();
+        for stype in shown {
+            let alone = |symbol: &&u8| {
+                let mut others = game.places(**symbol).iter().filter(|&&other| !is_floor(other));
+                others.next() == Some(&stype) && others.next().is_none()
+            };
+            let own = analysis.facts(stype).symbols.iter().find(alone).map(|&symbol| char::from(symbol));
+            match own.filter(|symbol| symbol.is_ascii_graphic() && !taken.contains(symbol)) {
+                Some(symbol) => {
+                    taken.push(symbol);
+                    symbols[stype.index()] = symbol;
+                }
+                None => left.push(stype),
+            }
+        }
+        for stype in left {
+            let name = game.name(stype);
+            let letters = name.chars().chain(name.chars().map(|letter| letter.to_ascii_uppercase()));
+            let mut free =
+                letters.chain(SPARE.chars()).filter(|c| c.is_ascii_graphic() && !taken.contains(c));
+            // More types than characters: the rest share one.
+            let symbol = free.next().unwrap_or('?');
+            taken.push(symbol);
+            symbols[stype.index()] = symbol;
+        }
+        Symbols(symbols)
+    }
+
+    /// The character of a type.
+    pub fn symbol(&self, stype: SpriteType) -> char {
+        self.0[stype.index()]
+    }
+}

@@ -1,0 +1,65 @@
+//! A state as text: one character a cell, then the caption, the legend, and what a character cannot show.
+
+use crate::caption;
+use crate::glyph::Glyph;
+use crate::look::Looks;
+use crate::symbols::{EMPTY, Symbols};
+use engine::{Outcome, SpriteType, State};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// Cells with several sprites that are told one by one.
+const MAX_STACKS: usize = 20;
+
+/// The board in lines of characters; a cell shows the uppermost sprite in it. Sprites between cells are in all that they
+/// overlap. Each line ends with a newline. Cost: O(sprites + cells).
+pub fn rows(looks: &Looks, symbols: &Symbols, state: &State) -> String {
+    let columns = state.size().0.max(1) as usize;
+    let cells = stacks(looks, symbols, state);
+    let symbol = |stack: &Vec<SpriteType>| stack.last().map_or(EMPTY, |&stype| symbols.symbol(stype));
+    let row = |row: &[Vec<SpriteType>]| row.iter().map(symbol).chain(['\n']).collect::<String>();
+    cells.chunks(columns).map(row).collect()
+}
+
+/// The whole text: the rows, the caption, a legend of the types that are on the board, and the cells with several sprites.
+pub fn text(looks: &Looks, symbols: &Symbols, state: &State) -> String {
+    let game = looks.game();
+    let mut text = rows(looks, symbols, state);
+    let outcome = match state.outcome() {
+        Outcome::Ongoing => String::new(),
+        Outcome::Stopped(limit) => format!(", stopped: {limit}"),
+        other => format!(", {}", format!("{other:?}").to_lowercase()),
+    };
+    let _ = write!(text, "\ntick {}, score {}{outcome}", state.tick() + 1, state.score());
+    let held = caption::holdings(looks, state);
+    let _ = writeln!(text, "{}{held}", if held.is_empty() { "" } else { "\nholds: " });
+    let cells = stacks(looks, symbols, state);
+    let there: BTreeSet<(Glyph, SpriteType)> =
+        cells.iter().flatten().map(|&stype| (looks.look(stype).glyph, stype)).collect();
+    let _ = writeln!(text);
+    for (glyph, stype) in there {
+        let _ = writeln!(text, "{} {} ({})", symbols.symbol(stype), game.name(stype), glyph.meaning());
+    }
+    let columns = state.size().0.max(1) as usize;
+    let several: Vec<(usize, &Vec<SpriteType>)> =
+        cells.iter().enumerate().filter(|(_, stack)| stack.len() > 1).collect();
+    for (cell, stack) in several.iter().take(MAX_STACKS) {
+        let names: Vec<&str> = stack.iter().rev().map(|&stype| game.name(stype)).collect();
+        let (column, row) = (cell % columns + 1, cell / columns + 1);
+        let _ = writeln!(text, "column {column}, row {row}: {}", names.join(" over "));
+    }
+    if several.len() > MAX_STACKS {
+        let _ = writeln!(text, "and {} more cells with several sprites", several.len() - MAX_STACKS);
+    }
+    text
+}
+
+/// Row-major: the types seen in each cell, in drawing order, floors left out.
+fn stacks(looks: &Looks, symbols: &Symbols, state: &State) -> Vec<Vec<SpriteType>> {
+    let game = looks.game();
+    let by_name = |name: &String| {
+        let stype = game.sprite_type(name)?;
+        (looks.is_visible(stype) && symbols.symbol(stype) != EMPTY).then_some(stype)
+    };
+    game.observe(state).cells.iter().map(|names| names.iter().filter_map(by_name).collect()).collect()
+}

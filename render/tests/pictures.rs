@@ -1,0 +1,221 @@
+//! Pictures of a small board of our own: pinned, and read back by other programs' readers.
+
+use engine::{Action, Analysis, Digest, Game, Level, Seed, State};
+use render::{Animation, Glyph, Looks, Painter, RenderError, Style, Symbols};
+
+/// Something of everything that must not be confused.
+const GAME: &str = "
+BasicGame
+    SpriteSet
+        floor > Immovable hidden=True
+        wall > Immovable
+        hatch > Door color=GREEN
+        latch > Door
+        pin > Resource limit=1
+        plum > Immovable
+        thorn > Immovable
+        tub > Passive
+        drain > Immovable color=DARKBLUE
+        newt > RandomNPC cooldown=3
+        dart > Missile orientation=LEFT
+        marten > MovingAvatar
+    LevelMapping
+        w > floor wall
+        h > floor hatch
+        l > floor latch
+        p > floor pin
+        f > floor plum
+        t > floor thorn
+        b > floor tub
+        d > floor drain
+        n > floor newt
+        m > floor dart
+        A > floor marten
+        . > floor
+    InteractionSet
+        marten wall > stepBack
+        newt wall > stepBack
+        dart wall > reverseDirection
+        tub wall > undoAll
+        tub marten > bounceForward
+        tub drain > killSprite
+        pin marten > collectResource
+        latch marten > killIfOtherHasMore resource=pin limit=1
+        marten latch > stepBack
+        plum marten > killSprite scoreChange=1
+        hatch marten > killSprite
+        marten thorn newt dart > killSprite
+    TerminationSet
+        SpriteCounter stype=hatch limit=0 win=True
+        SpriteCounter stype=marten limit=0 win=False
+";
+
+const LEVEL: &str = "\
+wwwwwwwww
+wA.b.d.fw
+w.t...n.w
+wp...m.lw
+wwwwwwwhw
+";
+
+fn board() -> (Analysis, Level, State) {
+    let game = Game::from_source(GAME).unwrap();
+    let level = game.level(LEVEL).unwrap();
+    let state = game.start(&level, Seed::from_text("pictures"));
+    (Analysis::of(&game), level, state)
+}
+
+fn pixels(painter: &mut Painter, looks: &Looks, state: &State, style: &Style) -> Digest {
+    let image = painter.paint(&render::picture(looks, state, style).unwrap()).unwrap();
+    Digest::of(&image.pixels.iter().flat_map(|colour| colour.0).collect::<Vec<u8>>())
+}
+
+#[test]
+fn every_thing_has_its_own_form() {
+    let (analysis, ..) = board();
+    let check = |name: &str, expect: Glyph| {
+        let stype = analysis.game().sprite_type(name).unwrap();
+        assert_eq!(Glyph::of(&analysis, stype), expect, "{name}");
+    };
+    check("marten", Glyph::Avatar);
+    check("wall", Glyph::Wall);
+    check("hatch", Glyph::Exit);
+    check("latch", Glyph::Gate);
+    check("pin", Glyph::Key);
+    check("plum", Glyph::Gem);
+    check("thorn", Glyph::Hazard);
+    check("tub", Glyph::Crate);
+    check("drain", Glyph::Socket);
+    check("newt", Glyph::Enemy);
+    check("dart", Glyph::Charger);
+}
+
+#[test]
+fn pixels_are_the_same_on_every_machine() {
+    let (analysis, _, state) = board();
+    let looks = Looks::of(&analysis);
+    let style = Style { cell: 24, caption: true, legend: true };
+    let mut painter = Painter::new();
+    let digest = pixels(&mut painter, &looks, &state, &style);
+    assert_eq!(digest.to_string(), "PINNED");
+    // Whatever was drawn before.
+    pixels(&mut painter, &looks, &state, &Style::bare(9));
+    assert_eq!(pixels(&mut painter, &looks, &state, &style), digest);
+}
+
+#[test]
+fn the_text_tells_everything() {
+    let (analysis, _, mut state) = board();
+    let looks = Looks::of(&analysis);
+    let symbols = Symbols::of(&analysis, &looks);
+    let expect = "\
+wwwwwwwww
+w..b.d.fw
+wAt...n.w
+wp...m.lw
+wwwwwwwhw
+
+tick 1, score 0
+
+A marten (you)
+h hatch (the way to win)
+d drain (push things here)
+n newt (moves and harms)
+m dart (runs ahead, harms)
+t thorn (harms where it stands)
+b tub (can be pushed)
+p pin (opens something)
+f plum (can be taken)
+l latch (shut until unlocked)
+w wall (blocks the way for good)
+";
+    analysis.game().step(&mut state, Action::Down);
+    assert_eq!(render::text(&looks, &symbols, &state), expect);
+}
+
+#[test]
+fn svg_is_well_formed_and_names_what_it_shows() {
+    let (analysis, _, state) = board();
+    let style = Style { cell: 24, caption: true, legend: true };
+    let picture = render::picture(&Looks::of(&analysis), &state, &style).unwrap();
+    let text = render::svg(&picture);
+    assert_eq!(text, render::svg(&picture));
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let titles: Vec<&str> = document
+        .descendants()
+        .filter(|node| node.has_tag_name("title"))
+        .filter_map(|node| node.text())
+        .collect();
+    assert!(
+        titles.contains(&"marten") && titles.contains(&"wall") && !titles.contains(&"floor"),
+        "{titles:?}"
+    );
+    let uses = document.descendants().filter(|node| node.has_tag_name("use"));
+    let tiles = picture.tiles().len();
+    for node in uses {
+        let tile = node.attribute("href").and_then(|id| id.strip_prefix("#t")).unwrap();
+        assert!(tile.parse::<usize>().unwrap() < tiles);
+    }
+}
+
+#[test]
+fn png_has_the_pixels_of_the_picture() {
+    let (analysis, _, state) = board();
+    let picture = render::picture(&Looks::of(&analysis), &state, &Style::bare(16)).unwrap();
+    let image = Painter::new().paint(&picture).unwrap();
+    let bytes = render::png(&picture).unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(pixels, image.pixels.iter().flat_map(|colour| colour.0).collect::<Vec<u8>>());
+}
+
+#[test]
+fn a_gif_has_a_frame_for_the_start_and_one_for_each_tick() {
+    let (analysis, _, mut state) = board();
+    let (game, looks) = (analysis.game(), Looks::of(&analysis));
+    let style = Style { cell: 16, caption: true, legend: false };
+    let draw = |state: &State| render::picture(&looks, state, &style).unwrap();
+    let legend = render::picture(&looks, &state, &Style { legend: true, ..style }).unwrap();
+    let mut animation = Animation::new(&[draw(&state), legend.clone()], 10).unwrap();
+    animation.add(&draw(&state)).unwrap();
+    let actions = [Action::Down, Action::Nil, Action::Right, Action::Up, Action::Left];
+    for action in actions {
+        game.step(&mut state, action);
+        animation.add(&draw(&state)).unwrap();
+    }
+    assert!(matches!(animation.add(&legend), Err(RenderError::Frame { .. })));
+    let bytes = animation.finish().unwrap();
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::Indexed);
+    let mut decoder = options.read_info(bytes.as_slice()).unwrap();
+    let mut frames = 0;
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        assert!(frames > 0 || (frame.width, frame.height) == (9 * 16, draw(&state).height() as u16));
+        frames += 1;
+    }
+    assert_eq!(frames, actions.len() + 1);
+}
+
+#[test]
+fn sheets_hold_boards_and_captions() {
+    let (analysis, _, state) = board();
+    let board = render::picture(&Looks::of(&analysis), &state, &Style::bare(24)).unwrap();
+    let entries: Vec<_> = (0..5).map(|at| (board.clone(), format!("level {at}"))).collect();
+    let sheet = render::sheet(&entries, 3, 120).unwrap();
+    assert_eq!(sheet.width(), 3 * (120 + 16) + 16);
+    // Tiles are shared between the boards.
+    assert!(sheet.tiles().len() < board.tiles().len() + 20);
+    roxmltree::Document::parse(&render::svg(&sheet)).unwrap();
+    assert!(matches!(render::sheet(&entries, 1, 4_000_000_000), Err(RenderError::TooLarge { .. })));
+    assert!(render::sheet(&[], 3, 100).is_ok());
+}
+
+#[test]
+fn sizes_that_cannot_be_are_refused() {
+    let (analysis, _, state) = board();
+    let picture = |cell| render::picture(&Looks::of(&analysis), &state, &Style::bare(cell));
+    assert!(matches!(picture(3), Err(RenderError::Cell { cell: 3 })));
+    assert!(matches!(picture(257), Err(RenderError::Cell { cell: 257 })));
+    assert!(picture(4).is_ok() && picture(256).is_ok());
+}
