@@ -6,6 +6,7 @@ mod embedded;
 mod episodes;
 mod failure;
 mod input;
+mod play;
 mod render;
 mod verbs;
 
@@ -36,6 +37,7 @@ enum Verb {
     Verify(verbs::verify::Args),
     Validate(verbs::validate::Args),
     Run(verbs::run::Args),
+    Play(verbs::play::Args),
     Render(verbs::render::Args),
     Describe(verbs::describe::Args),
     Fmt(verbs::fmt::Args),
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         Verb::Verify(args) => verbs::verify::run(&args, &console),
         Verb::Validate(args) => verbs::validate::run(&args, &console),
         Verb::Run(args) => verbs::run::run(&args, &console),
+        Verb::Play(args) => verbs::play::run(&args, &console),
         Verb::Render(args) => verbs::render::run(&args, &console),
         Verb::Describe(args) => verbs::describe::run(&args, &console),
         Verb::Fmt(args) => verbs::fmt::run(&args, &console),

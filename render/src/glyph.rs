@@ -51,6 +51,7 @@ glyphs! {
     Treasure, "a star", "take it to win", YELLOW, "☆ ", "* ";
     Prey, "a startled creature with a star", "catch or hit it to win", YELLOW, "◎ ", "& ";
     Target, "rings with a star", "must go for the win", YELLOW, "◎ ", "() ";
+    Peril, "spiked rings with a star", "harms, and must go for the win", VERMILION, "✶ ", "(^";
     Socket, "a sunken square with a star", "push things here", SKY, "□ ", "_ ";
     Ward, "a shield with a heart", "keep it safe", SKY, "♥ ", "V ";
     Enemy, "a spiky creature with angry eyes", "moves and harms", VERMILION, "Ж ", "M ";
@@ -73,10 +74,11 @@ glyphs! {
     Bolt, "a dart", "what you shoot", SKY, "• ", ". ";
     Bomb, "a round bomb", "what you lay", SLATE, "♠ ", "b ";
     Friend, "a round creature that smiles", "moves and does no harm", GREEN, "☻ ", "f ";
+    Raft, "planks", "moves along, does no harm", WOOD, "≡≡", "==";
     Wall, "bricks", "blocks the way for good", SLATE, "██", "##";
     Breakable, "cracked bricks", "blocks until broken", STONE, "▓▓", "%%";
     Soil, "speckled ground", "dug away by walking", EARTH, "░░", "::";
-    Cover, "sandbags", "stops shots", STONE, "▒▒", "==";
+    Cover, "sandbags", "stops shots", STONE, "▒▒", "HH";
     Refuge, "a bush", "stops enemies, not you", GREEN, "♣♣", "\"\"";
     Conveyor, "chevrons", "carries what stands on it", STONE, "»»", ">>";
     Spring, "a tile with a plus", "gives while you are on it", SKY, "++", "++";
@@ -113,6 +115,7 @@ impl Glyph {
                 _ => Glyph::Enemy,
             },
             Role::Socket => Glyph::Socket,
+            Role::Hazard if wanted => Glyph::Peril,
             Role::Hazard if analysis.harm(stype) == Harm::Conditional => Glyph::Mire,
             Role::Hazard => Glyph::Hazard,
             Role::Spawner if analysis.makes_harm(stype) => Glyph::Nest,
@@ -133,6 +136,7 @@ impl Glyph {
             Role::Refuge => Glyph::Refuge,
             Role::Floor => Glyph::Floor,
             Role::Neutral if still => neutral(analysis.game().class(stype)),
+            Role::Neutral if matches!(facts.motion, Motion::Straight(_)) => Glyph::Raft,
             Role::Neutral => Glyph::Friend,
         }
     }

@@ -62,7 +62,7 @@ impl Looks {
                 let same = other.glyph == glyph && other.variant == variant;
                 same && other.colour.distance(colour) < ALIKE
             };
-            let pips = seen.iter().filter(alike).count().min(3) as u8;
+            let pips = if glyph.is_ground() { 0 } else { seen.iter().filter(alike).count().min(3) as u8 };
             let look = Look { glyph, colour, variant, pips };
             let facts = analysis.facts(stype);
             if facts.concrete && facts.possible && !facts.hidden {

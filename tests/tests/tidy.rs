@@ -35,6 +35,7 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("png", &["render"]),
     ("gif", &["render"]),
     ("indicatif", &["cli"]),
+    ("ratatui", &["cli"]),
     ("miette", &["cli"]),
     ("anyhow", &["cli", "xtask"]),
 ];

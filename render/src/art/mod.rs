@@ -40,6 +40,8 @@ pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
         G::Socket => passages::socket(&mut art),
         G::Treasure => things::treasure(&mut art),
         G::Target => things::target(&mut art),
+        G::Peril => things::peril(&mut art),
+        G::Raft => things::raft(&mut art),
         G::Ward => things::ward(&mut art),
         G::Boulder => things::boulder(&mut art),
         G::Crate => things::crossed_crate(&mut art),

@@ -25,6 +25,23 @@ pub(super) fn target(art: &mut Art) {
     art.star(0.5, 0.5, 0.24);
 }
 
+/// A target among spikes.
+pub(super) fn peril(art: &mut Art) {
+    let main = art.main();
+    art.solid(Outline::star(0.5, 0.5, 12, 0.49, 0.36), main);
+    art.fill(Outline::circle(0.5, 0.5, 0.31), PAPER);
+    art.fill(Outline::circle(0.5, 0.5, 0.27), main);
+    art.star(0.5, 0.51, 0.24);
+}
+
+pub(super) fn raft(art: &mut Art) {
+    let main = art.main();
+    for y in [0.12, 0.38, 0.64] {
+        art.solid(Outline::rounded(0.03, y, 0.94, 0.24, 0.1), main);
+        art.stroke(Outline::line(&[[0.2, y + 0.12], [0.62, y + 0.12]]), main.shade(), 0.03);
+    }
+}
+
 pub(super) fn ward(art: &mut Art) {
     let main = art.main();
     let shield = Outline(vec![

@@ -1,0 +1,147 @@
+//! The terminal: keys in, frames out, and everything as it was afterwards.
+
+use super::session::{Command, Session};
+use super::view::{MIN_SIZE, View};
+use crate::console::Stopwatch;
+use crate::failure::Failure;
+use engine::Action;
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+use ratatui::crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use ratatui::crossterm::{cursor, execute, terminal};
+use std::io::{IsTerminal, Stderr};
+use std::time::Duration;
+
+/// How long to wait for a key, where no clock runs.
+const IDLE: Duration = Duration::from_millis(500);
+
+/// Plays until the person at the keyboard quits. Draws on standard error, so that standard output keeps to the answer.
+pub(crate) fn play(session: &mut Session, view: &View) -> Result<(), Failure> {
+    if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
+        return Err(Failure::malformed(
+            "there is no terminal to play in (standard input and standard error must be one); \
+             `arcade render` draws boards and episodes without one",
+        ));
+    }
+    let failed = |error: std::io::Error| Failure::surroundings(error, "the terminal fails");
+    let (width, height) = terminal::size().map_err(failed)?;
+    if width < MIN_SIZE.0 || height < MIN_SIZE.1 {
+        return Err(Failure::malformed(format!(
+            "the terminal has {width} columns and {height} rows; make it {} by {} at least",
+            MIN_SIZE.0, MIN_SIZE.1
+        )));
+    }
+    let mut screen = Screen::open().map_err(failed)?;
+    screen.run(session, view).map_err(failed)
+}
+
+/// A terminal in raw mode, showing its other screen; put back when dropped, and before a panic is told.
+struct Screen(Terminal<CrosstermBackend<Stderr>>);
+
+impl Screen {
+    fn open() -> std::io::Result<Screen> {
+        let told = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            restore();
+            told(panic);
+        }));
+        terminal::enable_raw_mode()?;
+        // From here on a failure drops the screen, which restores.
+        let screen = Screen(Terminal::new(CrosstermBackend::new(std::io::stderr()))?);
+        execute!(std::io::stderr(), terminal::EnterAlternateScreen, cursor::Hide)?;
+        Ok(screen)
+    }
+
+    fn run(&mut self, session: &mut Session, view: &View) -> std::io::Result<()> {
+        let mut since = Stopwatch::start();
+        while !session.is_over() {
+            self.0.draw(|frame| view.draw(session, frame))?;
+            let left = 1.0 / f64::from(session.pace()) - since.seconds();
+            let wait = if session.runs() { Duration::from_secs_f64(left.max(0.0)) } else { IDLE };
+            if event::poll(wait)? {
+                if let Event::Key(key) = event::read()?
+                    && let Some(command) = command(key)
+                {
+                    session.obey(command);
+                }
+            } else if session.runs() {
+                since = Stopwatch::start();
+                session.tick();
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        restore();
+    }
+}
+
+/// As far as it goes: there is nobody left to tell.
+fn restore() {
+    let _ = terminal::disable_raw_mode();
+    let _ = execute!(std::io::stderr(), terminal::LeaveAlternateScreen, cursor::Show);
+}
+
+/// What a key asks for.
+fn command(key: KeyEvent) -> Option<Command> {
+    if key.kind == KeyEventKind::Release {
+        return None;
+    }
+    if key.modifiers.contains(KeyModifiers::CONTROL) {
+        return matches!(key.code, KeyCode::Char('c' | 'd')).then_some(Command::Quit);
+    }
+    let KeyCode::Char(letter) = key.code else {
+        return match key.code {
+            KeyCode::Up => Some(Command::Act(Action::Up)),
+            KeyCode::Left => Some(Command::Act(Action::Left)),
+            KeyCode::Down => Some(Command::Act(Action::Down)),
+            KeyCode::Right => Some(Command::Act(Action::Right)),
+            KeyCode::PageDown => Some(Command::Down),
+            KeyCode::PageUp => Some(Command::Up),
+            KeyCode::Esc => Some(Command::Quit),
+            _ => None,
+        };
+    };
+    Some(match letter.to_ascii_lowercase() {
+        'w' => Command::Act(Action::Up),
+        'a' => Command::Act(Action::Left),
+        's' => Command::Act(Action::Down),
+        'd' => Command::Act(Action::Right),
+        ' ' => Command::Act(Action::Use),
+        '.' => Command::Act(Action::Nil),
+        'p' => Command::Pause,
+        'n' => Command::Step,
+        'r' => Command::Restart,
+        'u' => Command::Undo,
+        't' => Command::TurnBased,
+        '+' | '=' => Command::Faster,
+        '-' => Command::Slower,
+        'q' => Command::Quit,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_the_documented_ones() {
+        let check = |code: KeyCode, modifiers: KeyModifiers, expect: Option<Command>| {
+            assert_eq!(command(KeyEvent::new(code, modifiers)), expect, "{code:?}");
+        };
+        let none = KeyModifiers::NONE;
+        check(KeyCode::Left, none, Some(Command::Act(Action::Left)));
+        check(KeyCode::Char('D'), KeyModifiers::SHIFT, Some(Command::Act(Action::Right)));
+        check(KeyCode::Char('d'), KeyModifiers::CONTROL, Some(Command::Quit));
+        check(KeyCode::Char('c'), KeyModifiers::CONTROL, Some(Command::Quit));
+        check(KeyCode::Char('c'), none, None);
+        check(KeyCode::Char('.'), none, Some(Command::Act(Action::Nil)));
+        check(KeyCode::F(1), none, None);
+        let released = KeyEvent { kind: KeyEventKind::Release, ..KeyEvent::new(KeyCode::Up, none) };
+        assert_eq!(command(released), None);
+    }
+}

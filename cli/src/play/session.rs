@@ -1,0 +1,290 @@
+//! A session of play: who plays, what has been played, and what a command changes. No terminal, no clock.
+
+use super::history::History;
+use agents::{Budget, Planner};
+use engine::{Action, Episode, Game, Level, Seed, State};
+
+/// The most ticks a second.
+pub(crate) const MAX_PACE: u16 = 60;
+/// Lines that a page of the rules moves.
+const PAGE: u16 = 8;
+
+/// Who chooses the actions.
+pub(crate) enum Player {
+    /// Whoever sits at the keyboard.
+    Person,
+    /// A planner.
+    Planner { name: String, planner: Box<dyn Planner + Send>, budget: Budget },
+    /// Nobody: these have been chosen before.
+    Recording(Vec<Action>),
+}
+
+/// What a key asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Command {
+    /// Choose this action.
+    Act(Action),
+    /// Hold the clock, or let it run.
+    Pause,
+    /// One tick, then hold the clock.
+    Step,
+    /// Back to the start.
+    Restart,
+    /// Take back a tick.
+    Undo,
+    /// More ticks a second.
+    Faster,
+    /// Fewer.
+    Slower,
+    /// Wait for keys, or let the clock run.
+    TurnBased,
+    /// Later lines of the rules.
+    Down,
+    /// Earlier ones.
+    Up,
+    /// Enough.
+    Quit,
+}
+
+/// A session.
+pub(crate) struct Session {
+    game: Game,
+    level: Level,
+    seed: Seed,
+    player: Player,
+    history: History,
+    /// A tick happens when a key chooses an action, and only then.
+    turn_based: bool,
+    paused: bool,
+    /// Ticks a second, if the clock decides.
+    pace: u16,
+    /// What the next tick will do: the last key since the tick before.
+    chosen: Option<Action>,
+    scroll: u16,
+    over: bool,
+}
+
+impl Session {
+    /// At the start of an episode. Only a person can play turn by turn.
+    pub(crate) fn begin(
+        (game, level): (Game, Level),
+        seed: Seed,
+        player: Player,
+        turn_based: bool,
+        pace: u16,
+    ) -> Session {
+        let history = History::begin(&game, &level, seed);
+        let turn_based = turn_based && matches!(player, Player::Person);
+        let (paused, chosen, scroll, over) = (false, None, 0, false);
+        let pace = pace.clamp(1, MAX_PACE);
+        Session { game, level, seed, player, history, turn_based, paused, pace, chosen, scroll, over }
+    }
+
+    pub(crate) fn state(&self) -> &State {
+        self.history.state()
+    }
+
+    pub(crate) fn episode(&self) -> &Episode {
+        self.history.episode()
+    }
+
+    pub(crate) fn player(&self) -> &Player {
+        &self.player
+    }
+
+    pub(crate) fn is_turn_based(&self) -> bool {
+        self.turn_based
+    }
+
+    pub(crate) fn is_paused(&self) -> bool {
+        self.paused
+    }
+
+    pub(crate) fn pace(&self) -> u16 {
+        self.pace
+    }
+
+    /// Lines of the rules that are scrolled past.
+    pub(crate) fn scroll(&self) -> u16 {
+        self.scroll
+    }
+
+    /// Whether the person at the keyboard has had enough.
+    pub(crate) fn is_over(&self) -> bool {
+        self.over
+    }
+
+    /// Whether the next tick comes with the clock rather than with a key.
+    pub(crate) fn runs(&self) -> bool {
+        !self.paused && !self.turn_based && !self.is_at_end()
+    }
+
+    /// Whether no tick can follow.
+    pub(crate) fn is_at_end(&self) -> bool {
+        let recorded = match &self.player {
+            Player::Recording(actions) => self.history.ticks() >= actions.len(),
+            _ => false,
+        };
+        recorded || self.state().is_over()
+    }
+
+    /// Carries out a command.
+    pub(crate) fn obey(&mut self, command: Command) {
+        match command {
+            Command::Act(action) if matches!(self.player, Player::Person) => {
+                self.chosen = Some(action);
+                if self.turn_based {
+                    self.tick();
+                }
+            }
+            Command::Act(_) => {}
+            Command::Pause => self.paused = !self.paused,
+            Command::Step => {
+                self.paused = !self.turn_based;
+                self.tick();
+            }
+            Command::Restart => {
+                self.history = History::begin(&self.game, &self.level, self.seed);
+                self.chosen = None;
+            }
+            Command::Undo => {
+                self.history.take_back(&self.game);
+                self.chosen = None;
+                // Else the clock would play on at once.
+                self.paused = !self.turn_based;
+            }
+            Command::Faster => self.pace = (self.pace + self.pace.div_ceil(4)).min(MAX_PACE),
+            Command::Slower => self.pace = (self.pace - self.pace.div_ceil(5)).max(1),
+            Command::TurnBased if matches!(self.player, Player::Person) => {
+                (self.turn_based, self.paused) = (!self.turn_based, false);
+            }
+            Command::TurnBased => {}
+            Command::Down => self.scroll = self.scroll.saturating_add(PAGE),
+            Command::Up => self.scroll = self.scroll.saturating_sub(PAGE),
+            Command::Quit => self.over = true,
+        }
+    }
+
+    /// Plays a tick, if one can follow: with what was chosen, or nothing.
+    pub(crate) fn tick(&mut self) {
+        if self.is_at_end() {
+            return;
+        }
+        let chosen = self.chosen.take();
+        let action = match &mut self.player {
+            Player::Person => chosen.unwrap_or(Action::Nil),
+            Player::Planner { planner, budget, .. } => {
+                planner.plan(&self.game, self.history.state(), *budget).0
+            }
+            Player::Recording(actions) => actions[self.history.ticks()],
+        };
+        self.history.play(&self.game, action);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Outcome;
+
+    const GAME: &str = "
+BasicGame
+    SpriteSet
+        stone > Immovable
+        berry > Immovable
+        moth > RandomNPC
+        hen > MovingAvatar
+    LevelMapping
+        s > stone
+        b > berry
+        m > moth
+        h > hen
+    InteractionSet
+        hen moth stone > stepBack
+        moth stone > stepBack
+        berry hen > killSprite scoreChange=1
+    TerminationSet
+        SpriteCounter stype=berry win=True
+";
+
+    fn session(player: Player, turn_based: bool) -> Session {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("ssssss\nsh  bs\ns   ms\nssssss\n").unwrap();
+        Session::begin((game, level), Seed::from_text("session"), player, turn_based, 8)
+    }
+
+    #[test]
+    fn a_key_is_a_tick_where_the_game_waits() {
+        let mut session = session(Player::Person, true);
+        assert!(!session.runs());
+        for ticks in 1..=3 {
+            session.obey(Command::Act(Action::Right));
+            assert_eq!(session.state().tick() + 1, ticks);
+        }
+        assert_eq!((session.state().outcome(), session.episode().score), (Outcome::Won, 1.0));
+        session.obey(Command::Act(Action::Right));
+        assert_eq!(session.episode().actions, [Action::Right; 3]);
+    }
+
+    #[test]
+    fn the_clock_plays_the_last_key_or_nothing() {
+        let mut session = session(Player::Person, false);
+        assert!(session.runs());
+        session.obey(Command::Act(Action::Left));
+        session.obey(Command::Act(Action::Right));
+        session.tick();
+        session.tick();
+        assert_eq!(session.episode().actions, [Action::Right, Action::Nil]);
+        session.obey(Command::Pause);
+        assert!(!session.runs());
+        session.obey(Command::TurnBased);
+        assert!(session.is_turn_based() && !session.is_paused());
+    }
+
+    #[test]
+    fn what_is_taken_back_leaves_no_trace() {
+        let mut whole = session(Player::Person, true);
+        let actions = [Action::Down, Action::Nil, Action::Up, Action::Nil];
+        let action = |tick: usize| actions[tick % actions.len()];
+        let mut states = Vec::new();
+        for tick in 0..100 {
+            states.push(whole.state().state_hash());
+            whole.obey(Command::Act(action(tick)));
+        }
+        for tick in (0..100).rev() {
+            whole.obey(Command::Undo);
+            assert_eq!(whole.state().state_hash(), states[tick], "tick {tick}");
+        }
+        whole.obey(Command::Undo);
+        assert!(whole.episode().actions.is_empty() && whole.episode().hashes.is_empty());
+        // Forwards again: the same, and a record that replays.
+        (0..100).for_each(|tick| whole.obey(Command::Act(action(tick))));
+        assert!(whole.episode().replay(&whole.game, &whole.level).is_ok());
+    }
+
+    #[test]
+    fn recordings_end_and_can_be_stepped() {
+        let mut session = session(Player::Recording(vec![Action::Down, Action::Up]), true);
+        assert!(session.runs() && !session.is_turn_based());
+        session.obey(Command::Step);
+        assert!(!session.runs() && session.is_paused());
+        session.obey(Command::Act(Action::Left));
+        session.obey(Command::Step);
+        session.obey(Command::Step);
+        assert_eq!(session.episode().actions, [Action::Down, Action::Up]);
+        assert!(session.is_at_end());
+        session.obey(Command::Restart);
+        assert!(!session.is_at_end());
+    }
+
+    #[test]
+    fn the_pace_stays_in_bounds() {
+        let mut session = session(Player::Person, false);
+        (0..40).for_each(|_| session.obey(Command::Faster));
+        assert_eq!(session.pace(), MAX_PACE);
+        (0..80).for_each(|_| session.obey(Command::Slower));
+        assert_eq!(session.pace(), 1);
+        session.obey(Command::Faster);
+        assert_eq!(session.pace(), 2);
+    }
+}

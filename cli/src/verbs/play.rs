@@ -1,0 +1,116 @@
+//! `arcade play`: play a level in the terminal, watch a planner play it, or replay an episode.
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::play::screen;
+use crate::play::session::{MAX_PACE, Player, Session};
+use crate::play::view::View;
+use crate::{episodes, input};
+use agents::{Budget, planner};
+use engine::describe::Guide;
+use engine::{Analysis, Seed};
+use render::Looks;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Plays a level in the terminal: by hand, or by a planner that you watch, or a recorded episode again.
+///
+/// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` takes one back, `r` restarts, `+`
+/// and `-` change the pace, `t` changes between turn by turn and real time, Page Up and Page Down scroll the rules, `q`
+/// quits. A game in which nothing happens unless you act waits for you; in the others the clock runs.
+///
+/// Example: arcade play quiet-jars 0 --record win.json
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    #[arg(value_name = "GAME")]
+    game: String,
+    /// A level file, or the number of one of the game's own levels; the recording's level, or the first, if none is named
+    #[arg(value_name = "LEVEL")]
+    level: Option<String>,
+    /// Watch this planner play: do-nothing, random, mcts
+    #[arg(long, value_name = "NAME")]
+    planner: Option<String>,
+    /// Forward-model calls of one of the planner's decisions
+    #[arg(long, value_name = "CALLS", default_value_t = 1000)]
+    budget: u64,
+    /// Text that the seeds of chance and planner come from
+    #[arg(long, value_name = "TEXT", default_value = "play")]
+    seed: String,
+    /// Write what was played to this file when you quit; `arcade render --episode` shows it
+    #[arg(long, value_name = "FILE", conflicts_with = "replay")]
+    record: Option<PathBuf>,
+    /// Watch a recorded episode
+    #[arg(long, value_name = "FILE", conflicts_with = "planner")]
+    replay: Option<PathBuf>,
+    /// Ticks a second, where the clock runs
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_PACE)))]
+    fps: u16,
+    /// Wait for a key before each tick
+    #[arg(long, conflicts_with_all = ["real_time", "planner", "replay"])]
+    turn_based: bool,
+    /// Let the clock run, whatever the game
+    #[arg(long)]
+    real_time: bool,
+    /// Use no symbols beyond ASCII
+    #[arg(long)]
+    ascii: bool,
+    /// Load the game as the reference engine does: overlook faults that it overlooks
+    #[arg(long)]
+    as_reference: bool,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let input = input::game(&args.game)?;
+    let game = input.compile(args.as_reference)?;
+    let recorded = args.replay.as_deref().map(episodes::read).transpose()?;
+    let (named, level) = episodes::level(&input, &game, args.level.as_deref(), recorded.as_ref())?;
+    if let (Some(path), Some(episode)) = (&args.replay, &recorded) {
+        episodes::check(path, episode, &game, &level)?;
+    }
+    let own = Seed::from_text(&args.seed).child(&level.digest().to_string(), 0);
+    let seed = recorded.as_ref().map_or(own.child("chance", 0), |episode| episode.seed);
+    let player = match (recorded, &args.planner) {
+        (Some(episode), _) => Player::Recording(episode.actions),
+        (None, Some(name)) => {
+            let planner = planner(name, own.child("planner", 0)).map_err(Failure::malformed)?;
+            Player::Planner { name: name.clone(), planner, budget: Budget(args.budget) }
+        }
+        (None, None) => Player::Person,
+    };
+    let analysis = Analysis::of(&game);
+    let turn_based = args.turn_based || (analysis.is_turn_based() && !args.real_time);
+    let view = View {
+        looks: Looks::of(&analysis),
+        title: named.name.clone(),
+        rules: Guide::from_analysis(&analysis).to_string().lines().map(str::to_owned).collect(),
+        ascii: args.ascii,
+    };
+    let mut session = Session::begin((game, level), seed, player, turn_based, args.fps);
+    screen::play(&mut session, &view)?;
+
+    let episode = session.episode();
+    let written = args.record.as_ref().filter(|_| !episode.actions.is_empty());
+    if let Some(path) = written {
+        episodes::write(path, episode)?;
+    }
+    let (ticks, score) = (episode.actions.len(), episode.score);
+    console.document(&json!({
+        "game": input.source.name,
+        "level": named.name,
+        "ticks": ticks,
+        "score": score,
+        "outcome": episode.outcome,
+        "recorded": written,
+    }))?;
+    let outcome = format!("{:?}", episode.outcome).to_lowercase();
+    console.say(format_args!("{}: {outcome} after {ticks} ticks, score {score}", named.name));
+    match (&args.record, written) {
+        (Some(path), Some(_)) => console.say(format_args!("recorded in {}", path.display())),
+        (Some(path), None) => {
+            console.say(format_args!("nothing was played: {} is not written", path.display()))
+        }
+        (None, _) => {}
+    }
+    Ok(true)
+}
