@@ -1,7 +1,7 @@
 //! Episodes as animated GIF.
 //!
 //! All frames share one palette, made before the first one is written: the exact colours of all tiles, then the blends that
-//! smooth edges bring, most frequent first. A frame holds only the rectangle that changed.
+//! smooth edges bring: first those without anything near, most frequent first. A frame holds only the rectangle that changed.
 
 use crate::colour::Colour;
 use crate::error::RenderError;
@@ -14,6 +14,9 @@ use std::collections::BTreeMap;
 const COLOURS: usize = 256;
 /// The last frame stays so many times as long as the others.
 const LAST: u16 = 12;
+
+/// How far from all others (squared distance) a blend must be to enter the palette: first those without anything near.
+const APART: [u32; 3] = [1200, 300, 0];
 
 /// Writes pictures of one size as frames of an endlessly repeating GIF.
 pub struct Animation {
@@ -131,7 +134,14 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     blends.retain(|(colour, _)| !palette.contains(colour));
     // Stable, so that equally frequent ones stay sorted by colour.
     blends.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
-    palette.extend(blends.into_iter().map(|(colour, _)| colour).take(COLOURS - palette.len()));
+    // Those far from what is there first: many rare blends are better served by one entry in their midst.
+    for apart in APART {
+        for &(colour, _) in &blends {
+            if palette.len() < COLOURS && palette.iter().all(|known| known.distance(colour) > apart) {
+                palette.push(colour);
+            }
+        }
+    }
     Ok(palette)
 }
 

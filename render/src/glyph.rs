@@ -50,7 +50,7 @@ glyphs! {
     Exit, "a door with a star", "the way to win", GREEN, "★ ", "X ";
     Treasure, "a star", "take it to win", YELLOW, "☆ ", "* ";
     Prey, "a startled creature with a star", "catch or hit it to win", YELLOW, "◎ ", "& ";
-    Target, "rings with a star", "must go for the win", YELLOW, "◎ ", "() ";
+    Target, "rings with a star", "must go for the win", YELLOW, "⊛ ", "()";
     Peril, "spiked rings with a star", "harms, and must go for the win", VERMILION, "✶ ", "(^";
     Socket, "a sunken square with a star", "push things here", SKY, "□ ", "_ ";
     Ward, "a shield with a heart", "keep it safe", SKY, "♥ ", "V ";

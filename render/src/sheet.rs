@@ -55,8 +55,8 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
 
 /// Every glyph with what it stands for, in rows of `columns`: a legend to all boards.
 pub fn gallery(columns: usize) -> Picture {
-    const SIDE: u32 = 48;
-    const STEP: u32 = 300;
+    const SIDE: u32 = 44;
+    const STEP: u32 = 290;
     let columns = columns.max(1) as u32;
     let rows = (Glyph::ALL.len() as u32).div_ceil(columns);
     let (width, height) = (columns * STEP, rows * (SIDE + GAP) + GAP);
@@ -67,8 +67,7 @@ pub fn gallery(columns: usize) -> Picture {
         let place = Place { x, y, w: SIDE as f32, h: SIDE as f32 };
         gallery.sprite(place, glyph.form(), Look::plain(glyph), None);
         let left = x + (SIDE + GAP / 2) as f32;
-        gallery.text((left, y + 8.0), 13.0, INK, glyph.meaning());
-        gallery.text((left, y + 28.0), 10.0, INK.mixed(GROUND, 35), glyph.form());
+        gallery.text((left, y + 15.0), 13.0, INK, glyph.meaning());
     }
     gallery
 }

@@ -2,20 +2,54 @@
 
 use engine::{SpriteType, State};
 use ratatui::style::{Color, Modifier, Style};
-use render::{Colour, Glyph, Look, Looks};
+use render::{Colour, Glyph, Look, Looks, Symbols};
 
 /// The empty board.
-const GROUND: Color = Color::Indexed(235);
+pub(crate) const GROUND: Color = Color::Indexed(235);
 
 /// A cell of the board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Cell {
-    pub(crate) text: &'static str,
+pub(crate) struct Cell<'a> {
+    pub(crate) text: &'a str,
     pub(crate) style: Style,
 }
 
+/// By sprite type: its two columns.
+pub(crate) struct Signs {
+    texts: Vec<String>,
+    fallen: &'static str,
+    ascii: bool,
+}
+
+impl Signs {
+    /// The sign of the glyph; where several types have one glyph and its sign leaves the second column free, the type's own
+    /// character is there, so that more than colour tells them apart.
+    pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
+        let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };
+        let text = |stype: SpriteType| {
+            let glyph = looks.look(stype).glyph;
+            let kin = looks.shown().filter(|&other| looks.look(other).glyph == glyph).count();
+            let sign = sign(glyph);
+            match sign.strip_suffix(' ') {
+                Some(first) if kin > 1 && glyph != Glyph::Floor => {
+                    format!("{first}{}", symbols.symbol(stype))
+                }
+                _ => sign.to_owned(),
+            }
+        };
+        let texts = looks.game().sprite_types().map(text).collect();
+        Signs { texts, fallen: sign(Glyph::Fallen), ascii }
+    }
+
+    /// A sprite type on what lies below.
+    pub(crate) fn drawn(&self, looks: &Looks, stype: SpriteType, below: Color) -> Cell<'_> {
+        let look = looks.look(stype);
+        Cell { text: &self.texts[stype.index()], style: style(look, below, self.ascii) }
+    }
+}
+
 /// The cells, row-major. A sprite is in the cell that its centre is in; what the player steers is never covered.
-pub(crate) fn cells(looks: &Looks, state: &State, ascii: bool) -> Vec<Cell> {
+pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<Cell<'a>> {
     let game = looks.game();
     let (columns, rows) = (state.size().0.max(1), state.size().1.max(1));
     let mut order = vec![0; game.sprite_types().count()];
@@ -35,21 +69,20 @@ pub(crate) fn cells(looks: &Looks, state: &State, ascii: bool) -> Vec<Cell> {
         if !(0..columns).contains(&column) || !(0..rows).contains(&row) {
             continue;
         }
-        let look = looks.look(SpriteType(record.stype));
-        let dead = record.flags & 1 != 0;
-        let look = if dead { Look { glyph: Glyph::Fallen, ..look } } else { look };
         let below = &mut cells[(row * columns + column) as usize];
-        *below = drawn(look, below.style.bg.unwrap_or(GROUND), ascii);
+        *below = signs.drawn(looks, SpriteType(record.stype), below.style.bg.unwrap_or(GROUND));
+        // A killed avatar.
+        if record.flags & 1 != 0 {
+            below.text = signs.fallen;
+        }
     }
     cells
 }
 
-/// A look in two columns, on what lies below.
-pub(crate) fn drawn(look: Look, below: Color, ascii: bool) -> Cell {
+fn style(look: Look, below: Color, ascii: bool) -> Style {
     use Glyph as G;
-    let text = if ascii { look.glyph.ascii() } else { look.glyph.unicode() };
     let style = Style::new();
-    let style = match look.glyph {
+    match look.glyph {
         G::Avatar | G::Craft | G::Fallen => {
             style.fg(Color::Indexed(16)).bg(Color::Indexed(45)).add_modifier(Modifier::BOLD)
         }
@@ -63,8 +96,7 @@ pub(crate) fn drawn(look: Look, below: Color, ascii: bool) -> Cell {
         G::Mire | G::Spring | G::Conveyor => style.fg(light(look.colour)).bg(Color::Indexed(24)),
         G::Floor => style.bg(GROUND),
         _ => style.fg(light(look.colour)).bg(below),
-    };
-    Cell { text, style }
+    }
 }
 
 /// Light enough to be read on a dark ground.
@@ -104,9 +136,9 @@ mod tests {
     fn all_symbols_are_two_columns_wide() {
         for &glyph in Glyph::ALL {
             for ascii in [false, true] {
-                let cell = drawn(Look::plain(glyph), GROUND, ascii);
-                assert_eq!(ratatui::text::Line::from(cell.text).width(), 2, "{glyph:?}");
-                assert!(!ascii || cell.text.is_ascii(), "{glyph:?}");
+                let text = if ascii { glyph.ascii() } else { glyph.unicode() };
+                assert_eq!(ratatui::text::Line::from(text).width(), 2, "{glyph:?}");
+                assert!(!ascii || text.is_ascii(), "{glyph:?}");
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What a session looks like: the board, beside it what is held, the legend and the rules, below it the keys.
 
-use super::board::{self, Cell};
+use super::board::{self, Cell, GROUND, Signs};
 use super::session::{Player, Session};
 use engine::{Outcome, SpriteType};
 use ratatui::Frame;
@@ -18,11 +18,11 @@ const PANEL: (u16, u16) = (32, 64);
 /// What does not change in a session.
 pub(crate) struct View {
     pub(crate) looks: Looks,
+    pub(crate) signs: Signs,
     /// Game and level.
     pub(crate) title: String,
     /// The rules in plain English, a line each.
     pub(crate) rules: Vec<String>,
-    pub(crate) ascii: bool,
 }
 
 impl View {
@@ -68,7 +68,7 @@ impl View {
         frame.render_widget(block, area);
         let state = session.state();
         let (columns, rows) = size(session);
-        let cells = board::cells(&self.looks, state, self.ascii);
+        let cells = board::cells(&self.looks, &self.signs, state);
         let game = self.looks.game();
         let own = game.records(state).into_iter().find(|record| Some(record.id) == state.avatar_id());
         let (x, y) = own.map_or((0.0, 0.0), |record| record.rect.centre());
@@ -79,9 +79,9 @@ impl View {
         };
         let left = start(x, inner.width / 2, columns);
         let top = start(y, inner.height, rows);
-        let line = |row: &[Cell]| {
+        let line = |row: &[Cell<'_>]| {
             let seen = row.iter().skip(usize::from(left)).take(usize::from(inner.width / 2));
-            Line::from(seen.map(|cell| Span::styled(cell.text, cell.style)).collect::<Vec<_>>())
+            Line::from(seen.map(|cell| Span::styled(cell.text.to_owned(), cell.style)).collect::<Vec<_>>())
         };
         let lines = cells.chunks(usize::from(columns.max(1))).skip(usize::from(top));
         frame.render_widget(Paragraph::new(lines.map(line).collect::<Vec<_>>()), inner);
@@ -135,11 +135,11 @@ impl View {
             .collect();
         shown.sort_unstable();
         let line = |(glyph, stype): (Glyph, SpriteType)| {
-            let cell = board::drawn(self.looks.look(stype), Color::Indexed(235), self.ascii);
+            let cell = self.signs.drawn(&self.looks, stype, GROUND);
             let name = self.looks.game().name(stype).to_owned();
             let dim = Style::new().add_modifier(Modifier::DIM);
             Line::from(vec![
-                Span::styled(cell.text, cell.style),
+                Span::styled(cell.text.to_owned(), cell.style),
                 Span::raw(format!(" {name} ")),
                 Span::styled(format!(" {}", glyph.meaning()), dim),
             ])
@@ -195,5 +195,106 @@ fn keys_of(session: &Session) -> &'static str {
             "arrows or WASD move, space uses, p pauses, n one tick, u takes back, r restarts, + - pace, t turn by turn, PgUp PgDn rules, q quits"
         }
         _ => "p pauses, n one tick, u one back, r restarts, + - pace, PgUp PgDn rules, q quits",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::play::session::Command;
+    use engine::{Action, Analysis, Game, Seed};
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+    use render::Symbols;
+
+    const GAME: &str = "
+BasicGame
+    SpriteSet
+        stone > Immovable
+        hatch > Door
+        crumb > Resource limit=3
+        mouse > MovingAvatar
+    LevelMapping
+        s > stone
+        h > hatch
+        c > crumb
+        m > mouse
+    InteractionSet
+        mouse stone > stepBack
+        crumb mouse > collectResource scoreChange=1
+        hatch mouse > killSprite
+    TerminationSet
+        SpriteCounter stype=hatch win=True
+";
+
+    fn subject(ascii: bool) -> (Session, View) {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("sssssss\nsm c hs\nsssssss\n").unwrap();
+        let analysis = Analysis::of(&game);
+        let looks = Looks::of(&analysis);
+        let signs = Signs::of(&looks, &Symbols::of(&analysis, &looks), ascii);
+        let rules = vec!["How you win:".to_owned(), "  Leave.".to_owned()];
+        let view = View { looks, signs, title: "pantry lvl0".to_owned(), rules };
+        (Session::begin((game, level), Seed::from_text("view"), Player::Person, true, 8), view)
+    }
+
+    /// Draws on a terminal of this size.
+    fn drawn((session, view): &(Session, View), (width, height): (u16, u16)) -> String {
+        let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+        terminal.draw(|frame| view.draw(session, frame)).unwrap();
+        let buffer = terminal.backend().buffer();
+        let row =
+            |y| (0..width).map(|x| buffer[(x, y)].symbol()).collect::<String>().trim_end().to_owned() + "\n";
+        (0..height).map(row).collect()
+    }
+
+    #[test]
+    fn everything_stands_beside_the_board() {
+        let mut subject = subject(false);
+        subject.0.obey(Command::Act(Action::Right));
+        subject.0.obey(Command::Act(Action::Right));
+        let expect = "\
+┌ pantry lvl0 ─┐ tick 2   score 1
+│██████████████│ holds: crumb 1
+│██    @   ★ ██│ last action: right
+│██████████████│ waits for you
+└──────────────┘
+                 @  mouse  you
+                 ★  hatch  the way to win
+                 ○  crumb  a resource to hold
+                 ██ stone  blocks the way for good
+
+                 How you win:
+                   Leave.
+
+arrows or WASD move, space uses, . waits, u takes back, r
+restarts, t real time, PgUp PgDn rules, q quits
+";
+        assert_eq!(drawn(&subject, (64, 15)), expect);
+        subject.0.obey(Command::Act(Action::Right));
+        subject.0.obey(Command::Act(Action::Right));
+        let text = drawn(&subject, (64, 15));
+        assert!(text.contains("over") && text.contains(" WON"), "{text}");
+    }
+
+    #[test]
+    fn a_narrow_terminal_has_the_status_above_and_ascii_suffices() {
+        let subject = subject(true);
+        let expect = "\
+tick 0   score 0
+holds: nothing
+last action: none
+┌ pantry lvl0 ─┐
+│##############│
+│##@   $   X ##│
+│##############│
+└──────────────┘
+@  mouse  you
+X  hatch  the way to win
+arrows or WASD move, space uses, .
+waits, u takes back, r restarts, t
+";
+        assert_eq!(drawn(&subject, (36, 12)), expect);
+        assert!(drawn(&subject, (35, 12)).contains("too small"));
     }
 }

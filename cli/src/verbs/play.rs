@@ -2,6 +2,7 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::play::board::Signs;
 use crate::play::screen;
 use crate::play::session::{MAX_PACE, Player, Session};
 use crate::play::view::View;
@@ -9,9 +10,9 @@ use crate::{episodes, input};
 use agents::{Budget, planner};
 use engine::describe::Guide;
 use engine::{Analysis, Seed};
-use render::Looks;
+use render::{Looks, Symbols};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Plays a level in the terminal: by hand, or by a planner that you watch, or a recorded episode again.
 ///
@@ -80,11 +81,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let analysis = Analysis::of(&game);
     let turn_based = args.turn_based || (analysis.is_turn_based() && !args.real_time);
+    let looks = Looks::of(&analysis);
     let view = View {
-        looks: Looks::of(&analysis),
-        title: named.name.clone(),
+        signs: Signs::of(&looks, &Symbols::of(&analysis, &looks), args.ascii),
+        looks,
+        title: title(&input.title, &named.name),
         rules: Guide::from_analysis(&analysis).to_string().lines().map(str::to_owned).collect(),
-        ascii: args.ascii,
     };
     let mut session = Session::begin((game, level), seed, player, turn_based, args.fps);
     screen::play(&mut session, &view)?;
@@ -113,4 +115,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         (None, _) => {}
     }
     Ok(true)
+}
+
+/// The game and the file of the level, without the folders that lead there.
+fn title(game: &str, level: &str) -> String {
+    let file = |name: &str| {
+        Path::new(name).file_name().map_or(name.to_owned(), |n| n.to_string_lossy().into_owned())
+    };
+    format!("{} {}", file(game), file(level))
 }

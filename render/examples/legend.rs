@@ -1,0 +1,6 @@
+//! Writes `docs/legend.svg`, the picture of all tiles: `cargo run -p infinite-arcade-render --example legend`.
+
+fn main() -> std::io::Result<()> {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/legend.svg");
+    std::fs::write(file, render::svg(&render::gallery(3)))
+}
