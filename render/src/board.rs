@@ -1,7 +1,7 @@
 //! A state of a game as a picture: the board, and if asked for a caption and a legend.
 
 use crate::caption;
-use crate::colour::{GRID, GROUND};
+use crate::colour::{GRID, GROUND, INK};
 use crate::error::RenderError;
 use crate::glyph::Glyph;
 use crate::legend;
@@ -17,6 +17,9 @@ pub const MIN_CELL: u32 = 4;
 pub const MAX_CELL: u32 = 256;
 /// The most pixels of a picture.
 pub const MAX_PIXELS: u64 = 1 << 26;
+
+/// Pixels across of a picture with a caption or a legend, at least.
+const MIN_WIDTH: u32 = 260;
 
 /// A sprite over another one in the same rectangle is drawn this much smaller, so that both are seen.
 const OVER: f32 = 0.78;
@@ -54,16 +57,23 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
         return Err(RenderError::Cell { cell });
     }
     let (columns, rows) = state.size();
-    let (width, height) = (columns.cast_unsigned() * cell, rows.cast_unsigned() * cell);
+    let (own, height) = (columns.cast_unsigned() * cell, rows.cast_unsigned() * cell);
+    let width = if style.caption || style.legend { own.max(MIN_WIDTH) } else { own };
     let (strip, keys) = (caption::height(looks, style), legend::height(looks, style, width));
     let whole = u64::from(width) * u64::from(height + strip + keys);
     if whole > MAX_PIXELS {
         return Err(RenderError::TooLarge { pixels: whole });
     }
     let mut picture = Picture::new(width, height + strip + keys);
-    ground(&mut picture, width, height, cell);
-    sprites(&mut picture, looks, state, cell);
-    // What leaves the board is covered by what lies below it.
+    let left = (width - own) / 2;
+    ground(&mut picture, left, own, height, cell);
+    sprites(&mut picture, looks, state, left, cell);
+    // What leaves the board is covered by what lies around it.
+    for (x, w) in [(0, left), (left + own, width - own - left)] {
+        if w > 0 {
+            picture.rect(Place { x: x as f32, y: 0.0, w: w as f32, h: height as f32 }, INK);
+        }
+    }
     if strip > 0 {
         caption::draw(&mut picture, looks, state, style, height);
     }
@@ -73,19 +83,19 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
     Ok(picture)
 }
 
-fn ground(picture: &mut Picture, width: u32, height: u32, cell: u32) {
-    let (w, h, step) = (width as f32, height as f32, cell as f32);
-    picture.rect(Place { x: 0.0, y: 0.0, w, h }, GROUND);
+fn ground(picture: &mut Picture, left: u32, width: u32, height: u32, cell: u32) {
+    let (x, w, h, step) = (left as f32, width as f32, height as f32, cell as f32);
+    picture.rect(Place { x, y: 0.0, w, h }, GROUND);
     let line = (step / 32.0).max(1.0);
     for at in 1..width / cell {
-        picture.rect(Place { x: at as f32 * step - line / 2.0, y: 0.0, w: line, h }, GRID);
+        picture.rect(Place { x: x + at as f32 * step - line / 2.0, y: 0.0, w: line, h }, GRID);
     }
     for at in 1..height / cell {
-        picture.rect(Place { x: 0.0, y: at as f32 * step - line / 2.0, w, h: line }, GRID);
+        picture.rect(Place { x, y: at as f32 * step - line / 2.0, w, h: line }, GRID);
     }
 }
 
-fn sprites(picture: &mut Picture, looks: &Looks, state: &State, cell: u32) {
+fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell: u32) {
     let game = looks.game();
     let mut records = game.records(state);
     let mut place_in_order = vec![usize::MAX; game.sprite_types().count()];
@@ -104,7 +114,7 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, cell: u32) {
         let look = looks.look(stype);
         let rect = record.rect;
         let mut place = Place {
-            x: (f64::from(rect.x) * scale) as f32,
+            x: (f64::from(left) + f64::from(rect.x) * scale) as f32,
             y: (f64::from(rect.y) * scale) as f32,
             w: (f64::from(rect.w) * scale) as f32,
             h: (f64::from(rect.h) * scale) as f32,

@@ -10,8 +10,10 @@ use crate::pixels::{Image, Painter};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Colours of a palette.
-const COLOURS: usize = 256;
+/// Colours of a palette, beside the entry for [`UNCHANGED`].
+const COLOURS: usize = 255;
+/// The entry that leaves a pixel as it was: long runs of it take little room.
+const UNCHANGED: u8 = 255;
 /// The last frame stays so many times as long as the others.
 const LAST: u16 = 12;
 
@@ -47,7 +49,8 @@ impl Animation {
             |length: u32| u16::try_from(length).map_err(|_| RenderError::TooLargeForGif { width, height });
         let size = (side(width)?, side(height)?);
         let palette = palette(specimens, &mut painter)?;
-        let bytes: Vec<u8> = palette.iter().flat_map(|colour| colour.0).collect();
+        let mut bytes: Vec<u8> = palette.iter().flat_map(|colour| colour.0).collect();
+        bytes.resize(3 * (COLOURS + 1), 0);
         let mut encoder = ::gif::Encoder::new(Vec::new(), size.0, size.1, &bytes)?;
         encoder.set_repeat(::gif::Repeat::Infinite)?;
         let (nearest, shown) = (BTreeMap::new(), Vec::new());
@@ -67,7 +70,9 @@ impl Animation {
         let indices = self.indices(&image);
         let changed = changed(&self.shown, &indices, width);
         let [left, top, right, bottom] = changed;
-        let rows = (top..bottom).flat_map(|row| &indices[row * width + left..row * width + right]);
+        let first = self.shown.is_empty();
+        let pixel = |at: usize| if first || indices[at] != self.shown[at] { indices[at] } else { UNCHANGED };
+        let pixels = (top..bottom).flat_map(|row| (row * width + left..row * width + right).map(pixel));
         let frame = ::gif::Frame {
             left: left as u16,
             top: top as u16,
@@ -75,7 +80,8 @@ impl Animation {
             height: (bottom - top) as u16,
             delay: self.delay,
             dispose: ::gif::DisposalMethod::Keep,
-            buffer: Cow::Owned(rows.copied().collect()),
+            transparent: (!first).then_some(UNCHANGED),
+            buffer: Cow::Owned(pixels.collect()),
             ..::gif::Frame::default()
         };
         self.shown = indices;

@@ -126,17 +126,20 @@ impl Picture {
         }
     }
 
-    /// Another picture, shrunk or enlarged, with its top left corner at `(x, y)`.
+    /// Another picture, shrunk or enlarged, with its top left corner at `(x, y)`. What lies wholly outside of it is left out.
     pub(crate) fn inset(&mut self, other: &Picture, (x, y): (f32, f32), scale: f32) {
         let mut here = vec![0; other.tiles.len()];
         for (key, &at) in &other.keys {
             here[at] = self.tile(key.clone(), || other.tiles[at].clone());
         }
-        self.stamps.extend(other.stamps.iter().map(|stamp| {
-            let Place { x: left, y: top, w, h } = stamp.place;
-            let place = Place { x: x + left * scale, y: y + top * scale, w: w * scale, h: h * scale };
-            Stamp { tile: here[stamp.tile], place }
-        }));
+        let (width, height) = (other.width as f32, other.height as f32);
+        for Stamp { tile, place } in &other.stamps {
+            let Place { x: left, y: top, w, h } = *place;
+            if left < width && top < height && left + w > 0.0 && top + h > 0.0 {
+                let place = Place { x: x + left * scale, y: y + top * scale, w: w * scale, h: h * scale };
+                self.stamps.push(Stamp { tile: here[*tile], place });
+            }
+        }
     }
 
     fn tile(&mut self, key: Key, draw: impl FnOnce() -> Tile) -> usize {
