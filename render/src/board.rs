@@ -24,6 +24,9 @@ const MIN_WIDTH: u32 = 260;
 /// A sprite over another one in the same rectangle is drawn this much smaller, so that both are seen.
 const OVER: f32 = 0.78;
 
+/// How many times as long as wide a sprite must be to be drawn as a plate.
+const LONG: f32 = 1.3;
+
 /// How a state is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
@@ -129,8 +132,23 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
         }
         let dead = record.flags & DISABLED != 0;
         let look = if dead { Look { glyph: Glyph::Fallen, ..look } } else { look };
+        let place = if look.glyph.is_ground() { place } else { plated(picture, place, look) };
         picture.sprite(place, game.name(stype), look, facing(&record, look.glyph));
     }
+}
+
+/// A sprite much wider than high, or higher than wide, is a plate of its size with its form in the middle: stretched, it would
+/// not be recognised. Where the form goes.
+fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
+    let Place { x, y, w, h } = place;
+    let side = w.min(h);
+    if w.max(h) <= side * LONG {
+        return place;
+    }
+    let rim = side / 20.0;
+    picture.rect(place, INK);
+    picture.rect(Place { x: x + rim, y: y + rim, w: w - 2.0 * rim, h: h - 2.0 * rim }, look.colour.light());
+    Place { x: x + (w - side) / 2.0, y: y + (h - side) / 2.0, w: side, h: side }
 }
 
 /// A killed avatar, in [`SpriteRecord::flags`].

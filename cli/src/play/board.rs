@@ -3,6 +3,7 @@
 use engine::{SpriteType, State};
 use ratatui::style::{Color, Modifier, Style};
 use render::{Colour, Glyph, Look, Looks, Symbols};
+use std::ops::Range;
 
 /// The empty board.
 pub(crate) const GROUND: Color = Color::Indexed(235);
@@ -48,10 +49,11 @@ impl Signs {
     }
 }
 
-/// The cells, row-major. A sprite is in the cell that its centre is in; what the player steers is never covered.
+/// The cells, row-major. A sprite is in the cell that its middle is in, a large one in all that it covers; what the player steers is never covered.
 pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<Cell<'a>> {
     let game = looks.game();
     let (columns, rows) = (state.size().0.max(1), state.size().1.max(1));
+    let block = state.block().max(1);
     let mut order = vec![0; game.sprite_types().count()];
     for (at, stype) in game.drawing_order().into_iter().enumerate() {
         order[usize::from(stype)] = at;
@@ -63,17 +65,16 @@ pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<C
     let empty = Cell { text: "  ", style: Style::new().bg(GROUND) };
     let mut cells = vec![empty; (columns * rows) as usize];
     for record in records {
-        let (x, y) = record.rect.centre();
-        let cell = |at: f64| (at / f64::from(state.block().max(1))).floor() as i32;
-        let (column, row) = (cell(x), cell(y));
-        if !(0..columns).contains(&column) || !(0..rows).contains(&row) {
-            continue;
-        }
-        let below = &mut cells[(row * columns + column) as usize];
-        *below = signs.drawn(looks, SpriteType(record.stype), below.style.bg.unwrap_or(GROUND));
-        // A killed avatar.
-        if record.flags & 1 != 0 {
-            below.text = signs.fallen;
+        let stype = SpriteType(record.stype);
+        for row in covered(record.rect.y, record.rect.h, block, rows) {
+            for column in covered(record.rect.x, record.rect.w, block, columns) {
+                let cell = &mut cells[(row * columns + column) as usize];
+                *cell = signs.drawn(looks, stype, cell.style.bg.unwrap_or(GROUND));
+                // A killed avatar.
+                if record.flags & 1 != 0 {
+                    cell.text = signs.fallen;
+                }
+            }
         }
     }
     cells
@@ -97,6 +98,17 @@ fn style(look: Look, below: Color, ascii: bool) -> Style {
         G::Floor => style.bg(GROUND),
         _ => style.fg(light(look.colour)).bg(below),
     }
+}
+
+/// The columns, or rows, of a board of `limit` that a sprite covers: the one that its middle is in, and of a sprite larger
+/// than a cell all whose middle it covers.
+fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
+    let middle = from.saturating_add(size / 2).div_euclid(block);
+    let first = from.saturating_add(block / 2).div_euclid(block).min(middle);
+    let end =
+        from.saturating_add(size).saturating_add(block / 2).div_euclid(block).max(middle.saturating_add(1));
+    let (first, end) = if size <= block { (middle, middle.saturating_add(1)) } else { (first, end) };
+    first.clamp(0, limit)..end.clamp(0, limit)
 }
 
 /// Light enough to be read on a dark ground.
@@ -130,6 +142,22 @@ mod tests {
         check([255, 0, 0], 196);
         check([95, 135, 175], 67);
         assert_eq!(light(Colour([0, 0, 0])), Color::Indexed(16 + 36 * 3 + 6 * 3 + 3));
+    }
+
+    #[test]
+    fn sprites_cover_cells_by_their_middle() {
+        let check = |from: i32, size: i32, expect: Range<i32>| {
+            assert_eq!(covered(from, size, 10, 5), expect, "{from} {size}");
+        };
+        check(0, 10, 0..1);
+        check(4, 10, 0..1);
+        check(5, 10, 1..2);
+        check(-6, 10, 0..0);
+        check(48, 10, 5..5);
+        check(10, 30, 1..4);
+        check(16, 30, 2..5);
+        check(-100, 400, 0..5);
+        check(13, 4, 1..2);
     }
 
     #[test]

@@ -45,9 +45,9 @@ impl Screen {
             restore();
             told(panic);
         }));
-        terminal::enable_raw_mode()?;
         // From here on a failure drops the screen, which restores.
         let screen = Screen(Terminal::new(CrosstermBackend::new(std::io::stderr()))?);
+        terminal::enable_raw_mode()?;
         execute!(std::io::stderr(), terminal::EnterAlternateScreen, cursor::Hide)?;
         Ok(screen)
     }
@@ -75,7 +75,10 @@ impl Screen {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        restore();
+        // Twice would put the cursor back to before what the panic has told.
+        if !std::thread::panicking() {
+            restore();
+        }
     }
 }
 
