@@ -9,7 +9,7 @@ use crate::look::{Look, Looks};
 use crate::picture::{Picture, Place};
 use crate::shape::Point;
 use engine::{SpriteRecord, SpriteType, State};
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 /// The fewest pixels of a cell: below, tiles are dots.
 pub const MIN_CELL: u32 = 4;
@@ -108,7 +108,7 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     // The sort keeps the order of creation among sprites of a type.
     records.sort_by_key(|record| place_in_order[usize::from(record.stype)]);
     let scale = f64::from(cell) / f64::from(state.block().max(1));
-    let mut below: BTreeMap<[i32; 4], u8> = BTreeMap::new();
+    let mut below: BTreeSet<[i32; 4]> = BTreeSet::new();
     for record in records {
         let stype = SpriteType(record.stype);
         if !looks.is_visible(stype) {
@@ -122,13 +122,10 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
             w: (f64::from(rect.w) * scale) as f32,
             h: (f64::from(rect.h) * scale) as f32,
         };
-        if !look.glyph.is_ground() {
-            let covered = below.entry([rect.x, rect.y, rect.w, rect.h]).or_default();
-            if *covered > 0 {
-                let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
-                place = Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER };
-            }
-            *covered += 1;
+        let covers = !look.glyph.is_ground() && !below.insert([rect.x, rect.y, rect.w, rect.h]);
+        if covers {
+            let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
+            place = Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER };
         }
         let dead = record.flags & DISABLED != 0;
         let look = if dead { Look { glyph: Glyph::Fallen, ..look } } else { look };

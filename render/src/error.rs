@@ -17,6 +17,9 @@ pub enum RenderError {
         /// How many it would have.
         pixels: u64,
     },
+    /// The picture has no pixels.
+    #[error("a picture without pixels cannot be written")]
+    Empty,
     /// A frame of an animation has another size than the first one.
     #[error("a frame of {width} × {height} pixels in an animation of another size")]
     Frame {

@@ -27,7 +27,9 @@ pub struct Animation {
     palette: Vec<Colour>,
     /// The nearest entry of the palette, for every colour met so far.
     nearest: BTreeMap<Colour, u8>,
-    /// What is seen after the last frame written, as indices into the palette.
+    /// What the last frame shows; empty before the first one.
+    before: Vec<Colour>,
+    /// The same as indices into the palette.
     shown: Vec<u8>,
     /// The frame that comes next: the last frame lasts longer, so each waits for its successor.
     pending: Option<::gif::Frame<'static>>,
@@ -53,8 +55,8 @@ impl Animation {
         bytes.resize(3 * (COLOURS + 1), 0);
         let mut encoder = ::gif::Encoder::new(Vec::new(), size.0, size.1, &bytes)?;
         encoder.set_repeat(::gif::Repeat::Infinite)?;
-        let (nearest, shown) = (BTreeMap::new(), Vec::new());
-        Ok(Animation { painter, encoder, palette, nearest, shown, pending: None, size, delay })
+        let (nearest, before, shown) = (BTreeMap::new(), Vec::new(), Vec::new());
+        Ok(Animation { painter, encoder, palette, nearest, before, shown, pending: None, size, delay })
     }
 
     /// Adds a frame.
@@ -84,7 +86,7 @@ impl Animation {
             buffer: Cow::Owned(pixels.collect()),
             ..::gif::Frame::default()
         };
-        self.shown = indices;
+        (self.before, self.shown) = (image.pixels, indices);
         match self.pending.replace(frame) {
             Some(before) => Ok(self.encoder.write_frame(&before)?),
             None => Ok(()),
@@ -103,23 +105,27 @@ impl Animation {
         Ok(self.encoder.into_inner()?)
     }
 
+    /// Looks up only what changed: most pixels are what they were.
     fn indices(&mut self, image: &Image) -> Vec<u8> {
-        let (palette, nearest) = (&self.palette, &mut self.nearest);
-        let mut last = (Colour([0; 3]), None);
-        let mut index = |colour: Colour| {
-            if let (known, Some(at)) = last
+        let Animation { palette, nearest, before, shown, .. } = self;
+        let mut last = None;
+        let mut index = |(at, &colour): (usize, &Colour)| {
+            if before.get(at) == Some(&colour) {
+                return shown[at];
+            }
+            if let Some((known, index)) = last
                 && known == colour
             {
-                return at;
+                return index;
             }
-            let at = *nearest.entry(colour).or_insert_with(|| {
+            let index = *nearest.entry(colour).or_insert_with(|| {
                 let closest = (0..palette.len()).min_by_key(|&at| palette[at].distance(colour));
                 closest.map_or(0, |at| at as u8)
             });
-            last = (colour, Some(at));
-            at
+            last = Some((colour, index));
+            index
         };
-        image.pixels.iter().map(|&colour| index(colour)).collect()
+        image.pixels.iter().enumerate().map(&mut index).collect()
     }
 }
 

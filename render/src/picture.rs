@@ -41,6 +41,18 @@ pub struct Tile {
     pub name: Option<String>,
 }
 
+impl Tile {
+    /// Whether it is one colour from edge to edge.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.name.is_none() && matches!(&self.shapes[..], [only] if only.outline == whole())
+    }
+}
+
+/// The edge of the unit square.
+fn whole() -> Outline {
+    Outline::rect(0.0, 0.0, 1.0, 1.0)
+}
+
 /// A tile at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stamp {
@@ -96,7 +108,7 @@ impl Picture {
     /// A rectangle of one colour.
     pub(crate) fn rect(&mut self, place: Place, colour: Colour) {
         let tile = self.tile(Key::Plain(colour), || Tile {
-            shapes: vec![Shape { outline: Outline::rect(0.0, 0.0, 1.0, 1.0), paint: Paint::Fill, colour }],
+            shapes: vec![Shape { outline: whole(), paint: Paint::Fill, colour }],
             name: None,
         });
         self.stamps.push(Stamp { tile, place });

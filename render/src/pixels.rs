@@ -5,9 +5,10 @@ use crate::error::RenderError;
 use crate::picture::{Key, Picture, Stamp, Tile};
 use crate::shape::{Outline, Paint, Segment, Shape};
 use std::collections::BTreeMap;
-use tiny_skia::{
-    FillRule, IntSize, LineCap, LineJoin, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, Transform,
-};
+use tiny_skia::{FillRule, IntSize, LineCap, LineJoin, Path, PathBuilder, Pixmap, Stroke, Transform};
+
+/// The most pixels of a tile that is drawn in detail.
+const MAX_TILE: u64 = 1 << 22;
 
 /// An image without transparency.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,27 +41,68 @@ impl Painter {
     /// drawn for the first time.
     ///
     /// # Errors
-    /// If the picture is empty or too large for the memory.
+    /// If the picture is empty.
     pub fn paint(&mut self, picture: &Picture) -> Result<Image, RenderError> {
         let (width, height) = (picture.width(), picture.height());
-        let too_large = || RenderError::TooLarge { pixels: u64::from(width) * u64::from(height) };
-        let mut canvas = Pixmap::new(width, height).ok_or_else(too_large)?;
-        let [red, green, blue] = PAPER.0;
-        canvas.fill(tiny_skia::Color::from_rgba8(red, green, blue, 255));
+        if width == 0 || height == 0 {
+            return Err(RenderError::Empty);
+        }
         let mut numbers = Vec::with_capacity(picture.tiles().len());
         for key in picture.keys() {
             let next = self.numbers.len();
             numbers.push(*self.numbers.entry(key.clone()).or_insert(next));
         }
+        let mut image = Image { width, height, pixels: vec![PAPER; width as usize * height as usize] };
         for stamp in picture.stamps() {
             let Some((x, y, w, h)) = snapped(stamp, width, height) else { continue };
+            let drawn = &picture.tiles()[stamp.tile];
+            // A single colour, or a giant, of which no more than that could be seen anyway.
+            if drawn.is_plain() || u64::from(w) * u64::from(h) > MAX_TILE {
+                let colour = drawn.shapes.first().map_or(PAPER, |shape| shape.colour);
+                image.fill((x, y), (w, h), colour);
+                continue;
+            }
             let key = (numbers[stamp.tile], w, h);
-            let tile = self.tiles.entry(key).or_insert_with(|| tile(&picture.tiles()[stamp.tile], w, h));
-            let paint = PixmapPaint::default();
-            canvas.draw_pixmap(x, y, tile.as_ref(), &paint, Transform::identity(), None);
+            let tile = self.tiles.entry(key).or_insert_with(|| tile(drawn, w, h));
+            image.blend(tile, x, y);
         }
-        let pixels = canvas.pixels().iter().map(|pixel| Colour([pixel.red(), pixel.green(), pixel.blue()]));
-        Ok(Image { width, height, pixels: pixels.collect() })
+        Ok(image)
+    }
+}
+
+impl Image {
+    /// Fills a rectangle, as far as it lies in the image.
+    fn fill(&mut self, (x, y): (i32, i32), (w, h): (u32, u32), colour: Colour) {
+        let span = |from: i32, size: u32, limit: u32| {
+            let (start, limit) = (i64::from(from), i64::from(limit));
+            start.clamp(0, limit) as usize..(start + i64::from(size)).clamp(0, limit) as usize
+        };
+        let (columns, rows) = (span(x, w, self.width), span(y, h, self.height));
+        for row in self.pixels.chunks_mut(self.width as usize).take(rows.end).skip(rows.start) {
+            row[columns.clone()].fill(colour);
+        }
+    }
+
+    /// Lays a tile over the image, its top left corner at `(x, y)`.
+    fn blend(&mut self, tile: &Pixmap, x: i32, y: i32) {
+        let (width, height) = (self.width as usize, self.height as usize);
+        // What is left of the image, or above, is skipped.
+        let [skipped_columns, skipped_rows] = [x, y].map(|at| at.min(0).unsigned_abs() as usize);
+        let (left, top) = (x.max(0) as usize, y.max(0) as usize);
+        let sources = tile.pixels().chunks(tile.width() as usize).skip(skipped_rows);
+        let targets = self.pixels.chunks_mut(width).take(height).skip(top);
+        for (source, target) in sources.zip(targets) {
+            let source = source.iter().skip(skipped_columns);
+            for (pixel, below) in source.zip(target.iter_mut().skip(left)) {
+                let through = 255 - u16::from(pixel.alpha());
+                let own = [pixel.red(), pixel.green(), pixel.blue()];
+                // The tile's colours are multiplied with its alpha already.
+                let mix = |at: usize| {
+                    own[at].saturating_add(((u16::from(below.0[at]) * through + 127) / 255) as u8)
+                };
+                *below = if through == 0 { Colour(own) } else { Colour(std::array::from_fn(mix)) };
+            }
+        }
     }
 }
 
@@ -70,8 +112,6 @@ fn snapped(stamp: &Stamp, width: u32, height: u32) -> Option<(i32, i32, u32, u32
     let span = |from: f32, size: f32, limit: u32| {
         let (start, end) = (from.round() as i64, (from + size).round() as i64);
         let seen = start < i64::from(limit) && end > 0 && end > start;
-        // Larger than the picture: what is off it would only cost memory.
-        let end = end.min(start.max(0) + 4 * i64::from(limit));
         seen.then_some((i32::try_from(start).ok()?, u32::try_from(end - start).ok()?))
     };
     let ((x, w), (y, h)) = (span(place.x, place.w, width)?, span(place.y, place.h, height)?);

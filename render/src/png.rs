@@ -7,7 +7,7 @@ use crate::pixels::{Image, Painter};
 /// The picture as a PNG file.
 ///
 /// # Errors
-/// If it is empty or too large for the memory.
+/// If it is empty.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, RenderError> {
     encode(&Painter::new().paint(picture)?)
 }

@@ -7,7 +7,7 @@ use crate::play::screen;
 use crate::play::session::{MAX_PACE, Player, Session};
 use crate::play::view::View;
 use crate::{episodes, input};
-use agents::{Budget, planner};
+use agents::{Budget, PLANNERS, planner};
 use engine::describe::Guide;
 use engine::{Analysis, Seed};
 use render::{Looks, Symbols};
@@ -29,8 +29,7 @@ pub(crate) struct Args {
     /// A level file, or the number of one of the game's own levels; the recording's level, or the first, if none is named
     #[arg(value_name = "LEVEL")]
     level: Option<String>,
-    /// Watch this planner play: do-nothing, random, mcts
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
     /// Forward-model calls of one of the planner's decisions
     #[arg(long, value_name = "CALLS", default_value_t = 1000)]

@@ -29,8 +29,7 @@ pub(crate) struct Args {
     /// Show this recorded episode: what `arcade validate --witness` or `arcade play --record` wrote, or a snapshot's witness
     #[arg(long, value_name = "FILE", conflicts_with = "planner")]
     episode: Option<PathBuf>,
-    /// Let this planner play the episode: do-nothing, random, mcts
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = format!("Let this planner play the episode: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
     /// Forward-model calls of one of the planner's decisions
     #[arg(long, value_name = "CALLS", default_value_t = 1000)]

@@ -1,0 +1,71 @@
+//! Whatever loads can be drawn: the hostile games and the corpus, in every format.
+
+use engine::{Action, Analysis, Game, Level, Seed};
+use render::{Looks, RenderError, Style, Symbols};
+use std::fs;
+use tests::hostile::Case;
+use tests::workspace_root;
+
+/// Draws the start and the first tick; too many pixels may be refused.
+fn draw(name: &str, game: &Game, level: &Level) {
+    let analysis = Analysis::of(game);
+    let looks = Looks::of(&analysis);
+    let symbols = Symbols::of(&analysis, &looks);
+    let mut state = game.start(level, Seed::from_text("drawn"));
+    for action in [Action::Use, Action::Down] {
+        let text = render::rows(&looks, &symbols, &state);
+        let (columns, rows) = state.size();
+        assert_eq!(text.lines().count(), rows as usize, "{name}");
+        assert!(text.lines().all(|line| line.len() == columns as usize && line.is_ascii()), "{name}");
+        render::text(&looks, &symbols, &state);
+        match render::picture(&looks, &state, &Style { cell: 8, caption: true, legend: true }) {
+            Ok(picture) => {
+                assert!(render::svg(&picture).ends_with("</svg>\n"), "{name}");
+                render::png(&picture).unwrap_or_else(|error| panic!("{name}: {error}"));
+            }
+            Err(error) => assert!(matches!(error, RenderError::TooLarge { .. }), "{name}: {error}"),
+        }
+        game.step(&mut state, action);
+    }
+}
+
+#[test]
+fn hostile_games_can_be_drawn() {
+    let mut drawn = 0;
+    for case in Case::all() {
+        for load in [Game::from_source, Game::from_source_as_reference] {
+            let Ok(game) = load(&case.source) else { continue };
+            let Some(Ok(level)) = case.level.as_ref().map(|text| game.level(text)) else { continue };
+            draw(&case.name, &game, &level);
+            drawn += 1;
+        }
+    }
+    assert!(drawn > 50, "{drawn}");
+}
+
+#[test]
+fn in_the_corpus_every_type_has_its_own_look_and_symbol() {
+    let mut folders: Vec<_> =
+        fs::read_dir(workspace_root().join("corpora")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    folders.sort();
+    for folder in folders {
+        let name = folder.display().to_string();
+        let game = Game::from_source(&fs::read_to_string(folder.join("game.vgdl")).unwrap()).unwrap();
+        let level = game.level(&fs::read_to_string(folder.join("lvl0.txt")).unwrap()).unwrap();
+        draw(&name, &game, &level);
+        let analysis = Analysis::of(&game);
+        let looks = Looks::of(&analysis);
+        let symbols = Symbols::of(&analysis, &looks);
+        let shown: Vec<_> = looks.shown().collect();
+        let count = shown.len();
+        let mut distinct: Vec<_> = shown.iter().map(|&stype| looks.look(stype)).collect();
+        distinct.sort_unstable();
+        distinct.dedup();
+        assert_eq!(distinct.len(), count, "{name}");
+        let solid = shown.iter().filter(|&&stype| looks.look(stype).glyph != render::Glyph::Floor);
+        let mut characters: Vec<char> = solid.clone().map(|&stype| symbols.symbol(stype)).collect();
+        characters.sort_unstable();
+        characters.dedup();
+        assert_eq!(characters.len(), solid.count(), "{name}");
+    }
+}
