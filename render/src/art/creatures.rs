@@ -169,16 +169,20 @@ pub(super) fn charger(art: &mut Art) {
             main,
         ),
         1 => {
-            for y in [0.1, 0.72] {
-                for x in [0.14, 0.55] {
-                    art.solid(Outline::rounded(x, y, 0.24, 0.18, 0.05), INK);
+            for side in [-1.0_f32, 1.0] {
+                let y = |away: f32| 0.5 + side * away;
+                for x in [0.2, 0.4, 0.58] {
+                    art.stroke(Outline::line(&[[x, y(0.2)], [x - 0.08, y(0.44)]]), INK, 0.07);
                 }
+                art.solid(
+                    Outline::polygon(&[[0.66, y(0.26)], [0.92, y(0.3)], [0.99, y(0.08)], [0.84, y(0.16)]]),
+                    main.shade(),
+                );
             }
-            art.solid(
-                Outline::polygon(&[[0.98, 0.5], [0.78, 0.2], [0.06, 0.2], [0.06, 0.8], [0.78, 0.8]]),
-                main,
-            );
-            art.fill(Outline::rect(0.14, 0.3, 0.22, 0.4), main.shade());
+            art.solid(Outline::ellipse(0.43, 0.5, 0.4, 0.31), main);
+            for x in [0.18, 0.32] {
+                art.stroke(Outline::line(&[[x, 0.32], [x - 0.03, 0.5], [x, 0.68]]), main.shade(), 0.05);
+            }
         }
         _ => {
             art.solid(Outline::polygon(&[[0.3, 0.5], [0.02, 0.16], [0.1, 0.5], [0.02, 0.84]]), main.shade());
