@@ -7,7 +7,7 @@ use crate::play::screen;
 use crate::play::session::{MAX_PACE, Player, Session};
 use crate::play::view::View;
 use crate::{episodes, input};
-use agents::{Budget, PLANNERS, planner};
+use agents::{Budget, PLANNERS, PlannerSpec};
 use engine::describe::Guide;
 use engine::{Analysis, Seed};
 use render::{Looks, Symbols};
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     level: Option<String>,
     #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls of one of the planner's decisions
+    /// Forward-model calls of one of the planner's decisions, unless it is named with its own: `mcts:500`
     #[arg(long, value_name = "CALLS", default_value_t = 1000)]
     budget: u64,
     /// Text that the seeds of chance and planner come from
@@ -73,8 +73,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let player = match (recorded, &args.planner) {
         (Some(episode), _) => Player::Recording(episode.actions),
         (None, Some(name)) => {
-            let planner = planner(name, own.child("planner", 0)).map_err(Failure::malformed)?;
-            Player::Planner { name: name.clone(), planner, budget: Budget(args.budget) }
+            let spec: PlannerSpec = name.parse().map_err(Failure::malformed)?;
+            let budget = spec.budget().unwrap_or(Budget(args.budget));
+            let planner = Box::new(spec.player(own.child("planner", 0)));
+            Player::Planner { name: spec.name().to_owned(), planner, budget }
         }
         (None, None) => Player::Person,
     };

@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::{episodes, input};
-use agents::{Budget, Limits, PLANNERS, planner, play};
+use agents::{Budget, Limits, PLANNERS, PlannerSpec, play};
 use engine::{Analysis, Episode, Game, Level, Seed, State};
 use render::{Animation, Looks, RenderError, Style, Symbols};
 use serde_json::json;
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     episode: Option<PathBuf>,
     #[arg(long, value_name = "NAME", help = format!("Let this planner play the episode: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls of one of the planner's decisions
+    /// Forward-model calls of one of the planner's decisions, unless it is named with its own: `mcts:500`
     #[arg(long, value_name = "CALLS", default_value_t = 1000)]
     budget: u64,
     /// Text that the seeds of chance and planner come from
@@ -112,9 +112,8 @@ struct Subject<'a> {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let format = Format::of(&args.out)?;
-    if let Some(name) = &args.planner {
-        planner(name, Seed::from_text("")).map_err(Failure::malformed)?;
-    }
+    let spec: Option<PlannerSpec> =
+        args.planner.as_ref().map(|name| name.parse()).transpose().map_err(Failure::malformed)?;
     let input = input::game(&args.game)?;
     let game = input.compile(args.as_reference)?;
     let recorded = args.episode.as_deref().map(episodes::read).transpose()?;
@@ -123,10 +122,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         episodes::check(path, episode, &game, &level)?;
     }
     let seed = Seed::from_text(&args.seed).child(&level.digest().to_string(), 0);
-    let episode = match &args.planner {
-        Some(name) => Some(played(args, name, &game, &level, seed)?),
-        None => recorded,
-    };
+    let episode = spec.map(|spec| played(args, &spec, &game, &level, seed)).or(recorded);
     let actions = shown(args, format, episode.as_ref())?;
     let analysis = Analysis::of(&game);
     let looks = Looks::of(&analysis);
@@ -174,12 +170,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-fn played(args: &Args, name: &str, game: &Game, level: &Level, seed: Seed) -> Result<Episode, Failure> {
-    let mut planner = planner(name, seed.child("planner", 0)).map_err(Failure::malformed)?;
+fn played(args: &Args, spec: &PlannerSpec, game: &Game, level: &Level, seed: Seed) -> Episode {
+    let budget = spec.budget().unwrap_or(Budget(args.budget));
     // No more is played than is shown.
     let ticks = args.tick.map_or(args.max_ticks, |tick| tick.min(args.max_ticks));
     let limits = Limits { ticks, ..Limits::default() };
-    Ok(play(game, level, planner.as_mut(), Budget(args.budget), seed.child("chance", 0), limits).episode)
+    let mut planner = spec.player(seed.child("planner", 0));
+    play(game, level, &mut planner, budget, seed.child("chance", 0), limits).episode
 }
 
 /// The actions up to the tick that is shown.
