@@ -4,13 +4,13 @@
 //! Ours are played on the same cells, with the same budgets and the same limit of ticks (`spec/04` §10.2). Nothing is
 //! fitted: what differs is a difference of rules, to be found there.
 
+use crate::levels::load;
 use agents::{Budget, Limits, PlannerSpec, Play, play};
 use anyhow::{Context, bail};
 use engine::{Game, Level, Outcome, Seed};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Plays our MCTS, OLETS and RHEA where the reference's were recorded, and compares wins, scores and ticks.
@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
     let played = pool.install(|| -> anyhow::Result<Vec<Vec<Result>>> {
         let games: Vec<_> =
-            cells.iter().map(|cell| load(&args.games, &cell.game)).collect::<anyhow::Result<_>>()?;
+            cells.iter().map(|cell| load(&args.games.join(&cell.game))).collect::<anyhow::Result<_>>()?;
         let cells = cells.iter().zip(&games).collect::<Vec<_>>();
         cells.par_iter().map(|(cell, (game, levels))| play_cell(args, cell, game, levels)).collect()
     })?;
@@ -188,26 +188,6 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
         holds = false;
     }
     holds
-}
-
-/// A game and its levels, loaded as the reference does.
-fn load(games: &Path, name: &str) -> anyhow::Result<(Game, Vec<Level>)> {
-    let folder = games.join(name);
-    let file = ["game.vgdl", "game.txt"].map(|file| folder.join(file)).into_iter().find(|path| path.exists());
-    let file = file.with_context(|| format!("{}: no game.vgdl or game.txt", folder.display()))?;
-    let read = |path: &Path| fs::read_to_string(path).with_context(|| path.display().to_string());
-    let game = Game::from_source_as_reference(&read(&file)?);
-    let game = game.map_err(|problems| anyhow::anyhow!("{}: {problems:?}", file.display()))?;
-    let mut levels = Vec::new();
-    for number in 0.. {
-        let path = folder.join(format!("lvl{number}.txt"));
-        if !path.exists() {
-            break;
-        }
-        let level = game.level(&read(&path)?);
-        levels.push(level.map_err(|problems| anyhow::anyhow!("{}: {problems:?}", path.display()))?);
-    }
-    Ok((game, levels))
 }
 
 /// A line of the recorded episodes.

@@ -6,6 +6,8 @@ mod bench;
 mod course;
 mod fidelity;
 mod instructions;
+mod levels;
+mod solve;
 
 use clap::{Parser, Subcommand};
 
@@ -22,6 +24,7 @@ enum Chore {
     Bench(bench::Args),
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
+    Solve(solve::Args),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -29,5 +32,6 @@ fn main() -> anyhow::Result<()> {
         Chore::Bench(args) => bench::run(&args),
         Chore::Fidelity(args) => fidelity::run(&args),
         Chore::Instructions(args) => instructions::run(&args),
+        Chore::Solve(args) => solve::run(&args),
     }
 }

@@ -1,0 +1,154 @@
+//! Many ways to win one level: the default for "can it be won?".
+
+use crate::mcts::{Mcts, MctsConfig};
+use crate::planner::{Budget, Planner};
+use crate::play::{Limits, Play, play};
+use crate::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
+use crate::width::{Width, WidthConfig};
+use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// How a budget is shared out.
+///
+/// Where chance decides nothing, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. Then, and
+/// in games of chance from the start, planners play episodes in rounds, a short one each at first, then ever longer ones:
+/// [`Width`] sees far, [`MctsConfig::bold`] searches of short horizon react and those of long horizon plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PortfolioConfig {
+    /// Forward-model calls of all together.
+    pub budget: u64,
+    /// The share of it that may go into looking for the shortest win.
+    pub shortest: f64,
+    /// The share of it that may go into looking for some win systematically.
+    pub systematic: f64,
+    /// Bytes that a systematic search may use.
+    pub bytes: usize,
+    /// Calls of a decision of the planners that play.
+    pub decision: u64,
+    /// Look-ahead in ticks of the Monte-Carlo tree searches.
+    pub depths: Vec<u32>,
+}
+
+impl Default for PortfolioConfig {
+    fn default() -> PortfolioConfig {
+        PortfolioConfig {
+            budget: 3_000_000,
+            shortest: 0.1,
+            systematic: 0.4,
+            bytes: 1 << 30,
+            decision: 500,
+            depths: vec![10, 20, 40],
+        }
+    }
+}
+
+/// What the portfolio found.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// The answer.
+    pub solution: Solution,
+    /// Forward-model calls of all together.
+    pub calls: u64,
+    /// Episodes of the planners that played, in order.
+    pub plays: Vec<Play>,
+}
+
+/// Whether a level can be won.
+#[derive(Clone, Debug)]
+pub enum Solution {
+    /// This episode wins.
+    Won {
+        /// It replays bit for bit.
+        episode: Box<Episode>,
+        /// Whether it is proved that no fewer ticks win.
+        shortest: bool,
+    },
+    /// No: all states that can be reached were looked at, so many.
+    Impossible {
+        /// Different states.
+        states: u64,
+    },
+    /// Not known within the budget.
+    Unknown,
+}
+
+/// The first round may cost so small a share of the budget; each round after it twice as much.
+const FIRST_ROUND: u64 = 16;
+
+/// Looks for a win. The same configuration and seed give the same answer on any number of threads.
+pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed: Seed) -> Solved {
+    let game = analysis.game();
+    let mut solved = Solved { solution: Solution::Unknown, calls: 0, plays: Vec::new() };
+    let chance = seed.child("systematic", 0);
+    let start = game.start(level, chance);
+    if !start.is_over() && analysis.is_deterministic_from(&start) {
+        let pushes = Pushes::of(analysis, level);
+        let share = |share: f64| SearchLimits {
+            calls: (config.budget as f64 * share.clamp(0.0, 1.0)) as u64,
+            bytes: config.bytes,
+        };
+        let mut take = |searched: Searched| {
+            solved.calls += searched.calls;
+            match searched.answer {
+                Answer::Won { actions, shortest } => {
+                    let (mut episode, mut state) = Episode::begin(game, level, chance);
+                    for action in actions {
+                        episode.play(game, &mut state, action);
+                    }
+                    solved.solution = Solution::Won { episode: Box::new(episode), shortest };
+                }
+                Answer::Impossible => solved.solution = Solution::Impossible { states: searched.states },
+                Answer::OutOfCalls | Answer::OutOfMemory => return false,
+            }
+            true
+        };
+        if take(a_star(analysis, &pushes, &start, share(config.shortest)))
+            || take(best_first(analysis, &pushes, &start, share(config.systematic)))
+        {
+            return solved;
+        }
+    }
+    let mut share = config.budget / FIRST_ROUND;
+    for round in 0.. {
+        let left = config.budget.saturating_sub(solved.calls);
+        if left == 0 || round == MAX_ROUNDS {
+            break;
+        }
+        let plays = play_round(game, level, config, share.min(left), seed.child("round", round));
+        solved.calls += plays.iter().map(|play| play.calls).sum::<u64>();
+        let won = plays.iter().filter(|play| play.episode.outcome == Outcome::Won);
+        let shortest = won.min_by_key(|play| play.episode.actions.len());
+        if let Some(play) = shortest {
+            solved.solution = Solution::Won { episode: Box::new(play.episode.clone()), shortest: false };
+        }
+        solved.plays.extend(plays);
+        if matches!(solved.solution, Solution::Won { .. }) {
+            break;
+        }
+        share = share.saturating_mul(2);
+    }
+    solved
+}
+
+/// Rounds at most: plays of games that end at once cost next to nothing.
+const MAX_ROUNDS: u64 = 20;
+
+/// One play of each planner, with an equal share of the budget: a play stops at the first decision beyond it.
+fn play_round(game: &Game, level: &Level, config: &PortfolioConfig, budget: u64, seed: Seed) -> Vec<Play> {
+    let players = config.depths.len() + 1;
+    let limits = Limits { calls: budget / players as u64, ..Limits::default() };
+    (0..players)
+        .into_par_iter()
+        .map(|number| {
+            let seed = seed.child("play", number as u64);
+            let own = seed.child("planner", 0);
+            let mut planner: Box<dyn Planner> = match number.checked_sub(1) {
+                None => Box::new(Width::new(WidthConfig::default(), own)),
+                Some(depth) => Box::new(Mcts::new(MctsConfig::bold(config.depths[depth]), own)),
+            };
+            play(game, level, planner.as_mut(), Budget(config.decision), seed.child("chance", 0), limits)
+        })
+        .collect()
+}

@@ -1,0 +1,25 @@
+//! Games in folders, with their levels.
+
+use anyhow::Context;
+use engine::{Game, Level};
+use std::fs;
+use std::path::Path;
+
+/// A game and its levels, loaded as the reference does.
+pub(crate) fn load(folder: &Path) -> anyhow::Result<(Game, Vec<Level>)> {
+    let file = ["game.vgdl", "game.txt"].map(|file| folder.join(file)).into_iter().find(|path| path.exists());
+    let file = file.with_context(|| format!("{}: no game.vgdl or game.txt", folder.display()))?;
+    let read = |path: &Path| fs::read_to_string(path).with_context(|| path.display().to_string());
+    let game = Game::from_source_as_reference(&read(&file)?);
+    let game = game.map_err(|problems| anyhow::anyhow!("{}: {problems:?}", file.display()))?;
+    let mut levels = Vec::new();
+    for number in 0.. {
+        let path = folder.join(format!("lvl{number}.txt"));
+        if !path.exists() {
+            break;
+        }
+        let level = game.level(&read(&path)?);
+        levels.push(level.map_err(|problems| anyhow::anyhow!("{}: {problems:?}", path.display()))?);
+    }
+    Ok((game, levels))
+}
