@@ -1,10 +1,10 @@
 //! What novelty is measured on: which sprites are where, and what the avatar holds.
 
-use engine::analysis::{Analysis, Keying};
-use engine::{Game, SpriteType, State};
+use engine::analysis::{Analysis, Keying, Motion};
+use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// Amounts of a resource that are told apart.
+/// Amounts of a resource, and numbers of sprites, that are told apart.
 const AMOUNTS: usize = 16;
 
 /// The atoms of states that can follow from one state: "a sprite of this type is in this cell", "the avatar holds so many of
@@ -13,25 +13,50 @@ const AMOUNTS: usize = 16;
 pub(crate) struct Features {
     columns: i32,
     rows: i32,
-    /// By their place in the registry.
+    /// Those whose places count; by their place in the registry.
     types: Vec<u16>,
+    /// How many of `types`, the first ones, are avatars: where they face counts too, because some turn before they go.
+    avatars: usize,
+    /// Those whose number counts.
+    numbers: Vec<u16>,
     resources: Vec<u16>,
 }
 
 impl Features {
+    /// Everything that changes.
     pub(crate) fn of(analysis: &Analysis, keying: &Keying, start: &State) -> Features {
-        let game: &Game = analysis.game();
-        let (columns, rows) = start.size();
-        let types = game.sprite_types().filter(|&stype| {
+        let changes = |stype: SpriteType| {
             analysis.facts(stype).concrete && analysis.facts(stype).possible && !keying.is_constant(stype)
-        });
+        };
+        let (columns, rows) = start.size();
+        let types = analysis.game().sprite_types().filter(|&stype| changes(stype)).map(|stype| stype.0);
+        let is_avatar = |&stype: &u16| analysis.facts(SpriteType(stype)).motion == Motion::Steered;
+        let (mut types, others): (Vec<u16>, Vec<u16>) = types.partition(is_avatar);
+        let avatars = types.len();
+        types.extend(others);
         let resources = analysis.resources().iter().map(|resource| resource.stype.0).collect();
-        Features { columns, rows, types: types.map(|stype| stype.0).collect(), resources }
+        Features { columns, rows, types, avatars, numbers: Vec::new(), resources }
+    }
+
+    /// Of what moves by itself or soon vanishes, only how many there are: where it is, is not the player's doing, and new all the time.
+    pub(crate) fn without_bustle(analysis: &Analysis, keying: &Keying, start: &State) -> Features {
+        let mut features = Features::of(analysis, keying, start);
+        let calm = |&stype: &u16| {
+            let facts = analysis.facts(SpriteType(stype));
+            matches!(facts.motion, Motion::Still | Motion::Steered) && !facts.fleeting
+        };
+        features.numbers = features.types.iter().copied().filter(|stype| !calm(stype)).collect();
+        features.types.retain(calm);
+        features
     }
 
     /// How many atoms there are.
     pub(crate) fn len(&self) -> usize {
-        self.cells() * self.types.len() + AMOUNTS * self.resources.len()
+        self.places() + AMOUNTS * (self.resources.len() + self.numbers.len())
+    }
+
+    fn places(&self) -> usize {
+        self.cells() * (self.types.len() + (FACINGS - 1) * self.avatars)
     }
 
     /// With a cell for all that is outside.
@@ -44,20 +69,45 @@ impl Features {
         let block = state.block();
         let cells = self.cells();
         for (at, &stype) in self.types.iter().enumerate() {
-            for rect in state.rects(SpriteType(stype)) {
+            for (rect, facing) in state.bodies(SpriteType(stype)) {
                 // Where its centre is.
                 let column = rect.x.wrapping_add(rect.w / 2).div_euclid(block);
                 let row = rect.y.wrapping_add(rect.h / 2).div_euclid(block);
                 let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
                 let cell = if inside { (row * self.columns + column) as usize } else { cells - 1 };
-                atom(at * cells + cell);
+                let place = if at < self.avatars {
+                    FACINGS * at + quarter(facing)
+                } else {
+                    (FACINGS - 1) * self.avatars + at
+                };
+                atom(place * cells + cell);
             }
         }
-        let resources = cells * self.types.len();
+        let resources = self.places();
         for (at, &resource) in self.resources.iter().enumerate() {
             let amount = usize::try_from(state.amount_held(SpriteType(resource))).unwrap_or(0);
             atom(resources + at * AMOUNTS + amount.min(AMOUNTS - 1));
         }
+        let numbers = resources + AMOUNTS * self.resources.len();
+        for (at, &stype) in self.numbers.iter().enumerate() {
+            atom(numbers + at * AMOUNTS + state.alive(SpriteType(stype)).min(AMOUNTS - 1));
+        }
+    }
+}
+
+/// Nowhere, up, left, down, right.
+const FACINGS: usize = 5;
+
+fn quarter(facing: Direction) -> usize {
+    let Direction { x, y } = facing;
+    if x == 0.0 && y == 0.0 {
+        0
+    } else if y.abs() >= x.abs() {
+        if y < 0.0 { 1 } else { 3 }
+    } else if x < 0.0 {
+        2
+    } else {
+        4
     }
 }
 
@@ -68,10 +118,6 @@ pub(crate) struct Atoms(Vec<u64>);
 impl Atoms {
     pub(crate) fn new(atoms: usize) -> Atoms {
         Atoms(vec![0; atoms.div_ceil(64)])
-    }
-
-    pub(crate) fn contains(&self, atom: usize) -> bool {
-        self.0[atom / 64] >> (atom % 64) & 1 != 0
     }
 
     /// Whether the atom was not in the set yet.

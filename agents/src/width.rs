@@ -23,22 +23,23 @@ pub struct WidthConfig {
     pub discount: f64,
     /// The share of the budget that is spent on looking ahead; the rest tries the plans again.
     pub look: f64,
-    /// Ticks of a plan that are tried again at most.
+    /// Ticks of a plan that are tried again: beyond, there is time to plan again.
     pub horizon: usize,
-    /// What it is worth to come to a state with something that the episode has not had yet, in points.
+    /// A loss weighs as much as so many of the largest gains seen.
+    pub loss: f64,
+    /// What it is worth to come to a state with something that the episode has not had yet, in points; half of that for
+    /// what was there for one tick, a third for two.
     pub curiosity: f64,
 }
 
 impl Default for WidthConfig {
     fn default() -> WidthConfig {
-        WidthConfig { discount: 0.98, look: 0.6, horizon: 20, curiosity: 0.1 }
+        WidthConfig { discount: 0.98, look: 0.6, horizon: 8, loss: 10.0, curiosity: 0.1 }
     }
 }
 
 /// A win weighs as much as so many of the largest gains seen.
 const WIN: f64 = 20.0;
-/// A loss weighs half of that.
-const LOSS: f64 = 10.0;
 
 /// The planner.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -47,14 +48,49 @@ pub struct Width {
     streams: Streams,
     /// The largest change of the score in one tick seen so far, at least 1.
     unit: f64,
-    /// What the episode has had.
-    been: Option<(Features, Atoms)>,
+    /// In how many ticks of the episode each atom was there.
+    been: Option<(Features, Vec<u32>)>,
     /// The rest of the last plan.
-    plan: VecDeque<Action>,
+    plan: Option<Plan>,
     #[serde(skip)]
     analysis: Option<Analysis>,
     #[serde(skip)]
     pool: Vec<State>,
+}
+
+/// Actions, and what they were worth when they were found.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Plan {
+    actions: Vec<Action>,
+    /// The discounted rewards up to and with each action.
+    values: Vec<f64>,
+    /// What its end is worth besides.
+    bonus: f64,
+}
+
+impl Plan {
+    /// The rewards of so many ticks.
+    fn value(&self, ticks: usize) -> f64 {
+        let last = ticks.min(self.values.len());
+        last.checked_sub(1).map_or(0.0, |last| self.values[last])
+    }
+
+    fn worth(&self) -> f64 {
+        self.value(usize::MAX) + self.bonus
+    }
+
+    /// What is left after the first action.
+    fn rest(&self, discount: f64) -> Option<Plan> {
+        let (&first, values) = self.values.split_first()?;
+        if values.is_empty() {
+            return None;
+        }
+        Some(Plan {
+            actions: self.actions[1..].to_vec(),
+            values: values.iter().map(|value| (value - first) / discount).collect(),
+            bonus: self.bonus / discount,
+        })
+    }
 }
 
 struct Node {
@@ -76,24 +112,24 @@ impl Width {
             streams: Streams::new(seed),
             unit: 1.0,
             been: None,
-            plan: VecDeque::new(),
+            plan: None,
             analysis: None,
             pool: Vec::new(),
         }
     }
 
     /// The reward of a step.
-    fn reward(unit: &mut f64, progress: &Progress<'_>, before: &State, after: &State) -> f64 {
+    fn reward(&mut self, progress: &Progress<'_>, before: &State, after: &State) -> f64 {
         let gain = after.score() - before.score();
-        *unit = unit.max(gain.abs());
+        self.unit = self.unit.max(gain.abs());
         let (had, has) = (progress.sprites_missing(before), progress.sprites_missing(after));
         let nearer = f64::from(had) - f64::from(has);
         let end = match after.outcome() {
-            Outcome::Won => WIN * *unit,
-            Outcome::Lost | Outcome::Stopped(_) => -LOSS * *unit,
+            Outcome::Won => WIN * self.unit,
+            Outcome::Lost | Outcome::Stopped(_) => -self.config.loss * self.unit,
             Outcome::Ongoing | Outcome::Ended => 0.0,
         };
-        gain + nearer.clamp(-3.0, 3.0) * *unit + end
+        gain + nearer.clamp(-3.0, 3.0) * self.unit + end
     }
 
     /// One look ahead: the tree of novel states. Returns the plans, the best one for each first action, and the calls.
@@ -103,11 +139,11 @@ impl Width {
         root: &State,
         budget: u64,
         decision: &mut Decision,
-        plans: &mut Vec<(f64, Vec<Action>)>,
+        plans: &mut Vec<Plan>,
     ) -> u64 {
         let game = analysis.game();
         let progress = Progress::of(analysis);
-        let (features, been) = self.been.as_ref().expect("made before");
+        let (features, been) = self.been.take().expect("made before");
         let mut atoms = Atoms::new(features.len());
         features.each(root, |atom| _ = atoms.insert(atom));
         let mut nodes = vec![Node {
@@ -132,19 +168,19 @@ impl Width {
                 decision.imagine(&mut child, &state);
                 game.step(&mut child, action);
                 calls += 1;
-                let reward = Width::reward(&mut self.unit, &progress, &state, &child);
+                let reward = self.reward(&progress, &state, &child);
                 let value = nodes[at].value + steps * reward;
-                let (mut new, mut fresh) = (false, false);
+                let (mut new, mut rarest) = (false, u32::MAX);
                 features.each(&child, |atom| {
                     new |= atoms.insert(atom);
-                    fresh |= !been.contains(atom);
+                    rarest = rarest.min(been[atom]);
                 });
                 let depth = nodes[at].depth + 1;
-                let curious = if fresh && !child.is_over() {
-                    self.config.curiosity * discount(self.config.discount, depth)
-                } else {
-                    0.0
-                };
+                let mut curious = 0.0;
+                if !child.is_over() {
+                    curious = self.config.curiosity * discount(self.config.discount, depth);
+                    curious /= 1.0 + f64::from(rarest);
+                }
                 let open = new && !child.is_over();
                 nodes.push(Node { state: None, parent: at, action, depth, value, worth: value + curious });
                 if open {
@@ -170,43 +206,46 @@ impl Width {
             }
         }
         for (_, end) in best {
-            let mut plan = Vec::new();
+            let mut way = Vec::new();
             let mut at = end;
             while at != 0 {
-                plan.push(nodes[at].action);
+                way.push(at);
                 at = nodes[at].parent;
             }
-            plan.reverse();
-            plans.push((nodes[end].worth, plan));
+            way.reverse();
+            plans.push(Plan {
+                actions: way.iter().map(|&at| nodes[at].action).collect(),
+                values: way.iter().map(|&at| nodes[at].value).collect(),
+                bonus: nodes[end].worth - nodes[end].value,
+            });
         }
+        self.been = Some((features, been));
         calls
     }
 
-    /// The mean worth of a plan over some chances, and the calls.
+    /// The rewards of the first ticks of a plan with another chance, whether the game went on, and the calls.
     fn try_plan(
         &mut self,
         analysis: &Analysis,
         root: &State,
         plan: &[Action],
         decision: &mut Decision,
-        scratch: &mut (State, State),
-    ) -> (f64, u64) {
-        let game = analysis.game();
+        (state, before): &mut (State, State),
+    ) -> (f64, bool, u64) {
         let progress = Progress::of(analysis);
-        let (state, before) = scratch;
         decision.imagine(state, root);
         let (mut value, mut weight, mut calls) = (0.0, 1.0, 0);
         for &action in plan.iter().take(self.config.horizon) {
             before.clone_from(state);
-            game.step(state, action);
+            analysis.game().step(state, action);
             calls += 1;
-            value += weight * Width::reward(&mut self.unit, &progress, before, state);
+            value += weight * self.reward(&progress, before, state);
             weight *= self.config.discount;
             if state.is_over() {
                 break;
             }
         }
-        (value, calls)
+        (value, !state.is_over(), calls)
     }
 }
 
@@ -227,49 +266,58 @@ impl Planner for Width {
         let mut decision = self.streams.next();
         let analysis = self.analysis.take().unwrap_or_else(|| Analysis::of(game));
         if self.been.is_none() {
-            let features = Features::of(&analysis, &analysis.keying(state), state);
-            let atoms = Atoms::new(features.len());
-            self.been = Some((features, atoms));
+            let features = Features::without_bustle(&analysis, &analysis.keying(state), state);
+            let never = vec![0; features.len()];
+            self.been = Some((features, never));
         }
         let (features, been) = self.been.as_mut().expect("just made");
-        features.each(state, |atom| _ = been.insert(atom));
+        features.each(state, |atom| been[atom] = been[atom].saturating_add(1));
         if state.is_over() {
             self.analysis = Some(analysis);
             return (actions[0], 0);
         }
-        let mut plans: Vec<(f64, Vec<Action>)> = Vec::new();
-        if !self.plan.is_empty() {
-            plans.push((0.0, self.plan.iter().copied().collect()));
-        }
+        let mut plans: Vec<Plan> = self.plan.take().into_iter().collect();
         let look = (budget.0 as f64 * self.config.look) as u64;
         let mut calls = self.look(&analysis, state, look.max(1), &mut decision, &mut plans);
-        // What the first look expects beyond the horizon counts for plans that do as well in their first ticks.
         let mut scratch = (state.clone(), state.clone());
-        let mut tried: Vec<(f64, f64)> = vec![(0.0, 0.0); plans.len()];
+        let mut tried = vec![Tried::default(); plans.len()];
         while calls < budget.0 {
             for (plan, tried) in plans.iter().zip(&mut tried) {
-                let (value, cost) = self.try_plan(&analysis, state, &plan.1, &mut decision, &mut scratch);
+                let (value, alive, cost) =
+                    self.try_plan(&analysis, state, &plan.actions, &mut decision, &mut scratch);
                 calls += cost;
-                tried.0 += value;
-                tried.1 += 1.0;
+                tried.value += value;
+                tried.alive += f64::from(u8::from(alive));
+                tried.count += 1.0;
             }
         }
-        let mean = |at: usize| {
-            let (sum, count): (f64, f64) = tried[at];
-            let beyond = if plans[at].1.len() > self.config.horizon { 0.5 * plans[at].0 } else { 0.0 };
-            let expected = 0.1 * plans[at].0;
-            if count > 0.0 { sum / count + beyond + expected } else { plans[at].0 }
+        // What a plan promises beyond the horizon counts as often as it comes that far.
+        let expected = |(plan, tried): (&Plan, &Tried)| {
+            if tried.count == 0.0 {
+                return plan.worth();
+            }
+            let beyond = plan.worth() - plan.value(self.config.horizon);
+            (tried.value + tried.alive * beyond) / tried.count
         };
+        let values: Vec<f64> = plans.iter().zip(&tried).map(expected).collect();
         let mut best = 0;
         for at in 1..plans.len() {
-            if mean(at) > mean(best) {
+            if values[at] > values[best] {
                 best = at;
             }
         }
-        let mut plan: VecDeque<Action> = plans.swap_remove(best).1.into();
-        let action = plan.pop_front().unwrap_or(Action::Nil);
-        self.plan = plan;
+        let plan = plans.swap_remove(best);
+        let action = plan.actions.first().copied().unwrap_or(Action::Nil);
+        self.plan = plan.rest(self.config.discount);
         self.analysis = Some(analysis);
         (action, calls)
     }
+}
+
+/// What came of trying a plan: sums over the tries.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tried {
+    value: f64,
+    alive: f64,
+    count: f64,
 }

@@ -1,7 +1,7 @@
 //! What a player is shown, and the full record of a state that traces are compared with.
 
 use crate::game::{Game, Outcome, SpriteType};
-use crate::geometry::Rect;
+use crate::geometry::{Direction, Rect};
 use crate::limits::MAX_SEEN;
 use crate::state::{State, flag};
 
@@ -167,6 +167,11 @@ impl State {
     /// too. Cost: O(1) each.
     pub fn rects(&self, stype: SpriteType) -> impl Iterator<Item = Rect> + '_ {
         self.slots(stype).map(|slot| self.present(slot).rect)
+    }
+
+    /// The same, with where each faces.
+    pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
+        self.slots(stype).map(|slot| self.present(slot)).map(|sprite| (sprite.rect, sprite.orientation))
     }
 
     /// How many sprites of a type are there, disabled avatars apart. Cost: O(1).
