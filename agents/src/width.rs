@@ -34,7 +34,7 @@ pub struct WidthConfig {
 
 impl Default for WidthConfig {
     fn default() -> WidthConfig {
-        WidthConfig { discount: 0.98, look: 0.6, horizon: 8, loss: 10.0, curiosity: 0.1 }
+        WidthConfig { discount: 0.98, look: 0.6, horizon: 12, loss: 10.0, curiosity: 0.1 }
     }
 }
 
