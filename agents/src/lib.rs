@@ -6,10 +6,12 @@
 
 mod batch;
 mod branches;
+mod compass;
 mod do_nothing;
 mod features;
 mod heuristics;
 mod mcts;
+mod mcts_guided;
 mod olets;
 mod one_step;
 mod planner;
@@ -28,6 +30,7 @@ pub use batch::{Batch, BatchError};
 pub use do_nothing::DoNothing;
 pub use heuristics::Heuristic;
 pub use mcts::{Mcts, MctsConfig};
+pub use mcts_guided::{GuidedMcts, GuidedMctsConfig};
 pub use olets::{Olets, OletsConfig};
 pub use one_step::{OneStep, OneStepConfig};
 pub use planner::{Budget, Planner};

@@ -1,8 +1,9 @@
 //! Planners by name, for recipes and the command line.
 
 use crate::{
-    Budget, DoNothing, Heuristic, Mcts, MctsConfig, Olets, OletsConfig, OneStep, OneStepConfig, Planner,
-    Random, RandomSearch, RandomSearchConfig, Rhea, RheaConfig, Width, WidthConfig,
+    Budget, DoNothing, GuidedMcts, GuidedMctsConfig, Heuristic, Mcts, MctsConfig, Olets, OletsConfig,
+    OneStep, OneStepConfig, Planner, Random, RandomSearch, RandomSearchConfig, Rhea, RheaConfig, Width,
+    WidthConfig,
 };
 use engine::{Action, Game, Seed, State};
 use serde::{Deserialize, Serialize};
@@ -55,6 +56,7 @@ planners! {
     "rhea" Rhea(Rhea) |seed| Rhea::new(RheaConfig::default(), seed);
     "mcts" Mcts(Mcts) |seed| Mcts::new(MctsConfig::default(), seed);
     "width" Width(Width) |seed| Width::new(WidthConfig::default(), seed);
+    "guided-mcts" GuidedMcts(GuidedMcts) |seed| GuidedMcts::new(GuidedMctsConfig::default(), seed);
     "olets" Olets(Olets) |seed| Olets::new(OletsConfig::default(), seed);
 }
 
@@ -245,7 +247,7 @@ mod tests {
     fn budgets_are_kept_but_for_one_iteration() {
         let game = Game::from_source(GAME).unwrap();
         let state = game.start(&game.level(LEVEL).unwrap(), Seed::from_text("budget"));
-        for name in ["random-search", "rhea", "mcts", "olets"] {
+        for name in ["random-search", "rhea", "mcts", "guided-mcts", "olets"] {
             for budget in [0, 1, 5, 60, 1000] {
                 let mut player = name.parse::<PlannerSpec>().unwrap().player(Seed::from_text(name));
                 let (action, calls) = player.plan(&game, &state, Budget(budget));

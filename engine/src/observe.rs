@@ -156,6 +156,11 @@ impl Game {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }
 
+    /// How many of a resource the avatar holds.
+    pub fn held(&self, state: &State, resource: SpriteType) -> i32 {
+        state.amount(state.avatar, resource)
+    }
+
     /// The drawing order of the types, as indices into the registry.
     pub fn drawing_order(&self) -> Vec<u16> {
         self.0.order.iter().map(|stype| stype.0).collect()
@@ -205,6 +210,11 @@ impl State {
             let rect = self.present(self.avatar).rect;
             (rect.x, rect.y)
         })
+    }
+
+    /// The type of the player's avatar, if there is one and it lives.
+    pub fn avatar_sprite_type(&self) -> Option<SpriteType> {
+        self.avatar_type()
     }
 
     /// The creation number of the player's avatar, disabled or not.

@@ -1,0 +1,224 @@
+//! How far is it to what helps to win? A number for a state, from what the rules mean.
+//!
+//! Two parts. *Progress* counts what is done: sprites that a winning termination still wants gone or there, keys that are
+//! held. *Closeness* says how near the next thing is that is worth going to, around what blocks the way; it is below 1, so
+//! that taking something is worth more than standing before the next.
+
+use engine::analysis::{Attainable, Fate, Goal, Harm, Key, Removal, Touch};
+use engine::{Analysis, Digest, Game, SpriteType, State};
+use std::collections::VecDeque;
+
+/// Cells at which closeness is half.
+const HALF_WAY: f64 = 8.0;
+const UNREACHED: u16 = u16::MAX;
+
+/// What is worth going to in one game, by avatar type.
+#[derive(Clone, Debug)]
+pub(crate) struct Compass {
+    digest: Digest,
+    analysis: Analysis,
+    /// The winning terminations that play can bring about by numbers of sprites.
+    goals: Vec<Goal>,
+    /// For each avatar type, in the order of the analysis.
+    charts: Vec<Chart>,
+    /// What is to be pushed onto what.
+    pushes: Vec<(SpriteType, SpriteType)>,
+}
+
+/// What types are to an avatar of one type.
+#[derive(Clone, Debug)]
+struct Chart {
+    avatar: SpriteType,
+    blocks: Vec<SpriteType>,
+    targets: Vec<Target>,
+}
+
+#[derive(Clone, Debug)]
+struct Target {
+    stype: SpriteType,
+    /// Only with so many of a resource.
+    needs: Option<(SpriteType, i32)>,
+}
+
+/// Buffers for the search of ways.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ways {
+    distances: Vec<u16>,
+    queue: VecDeque<u32>,
+}
+
+impl Compass {
+    /// Reads the rules. Cost: that of [`Analysis::of`].
+    pub(crate) fn of(game: &Game) -> Compass {
+        let analysis = Analysis::of(game);
+        let wanted = |goal: &&Goal| {
+            goal.win && goal.attainable == Attainable::InPlay && !goal.condition.types().is_empty()
+        };
+        let goals: Vec<Goal> = analysis.goals().iter().filter(wanted).cloned().collect();
+        let charts = analysis.avatars().iter().map(|avatar| chart(game, &analysis, avatar.stype)).collect();
+        let aims = analysis.aims();
+        let mut pushes = Vec::new();
+        for pushable in analysis.pushables() {
+            for sink in &pushable.sinks {
+                let helps = match sink.fate {
+                    Fate::Becomes(to) => aims.create.contains(&to) || aims.remove.contains(&pushable.stype),
+                    Fate::Goes => aims.remove.contains(&pushable.stype),
+                    Fate::Stays => false,
+                };
+                let fills = sink.fills && aims.remove.contains(&sink.partner);
+                if helps || fills || !sink.opens.is_empty() {
+                    pushes.push((pushable.stype, sink.partner));
+                }
+            }
+        }
+        Compass { digest: game.digest(), analysis, goals, charts, pushes }
+    }
+
+    /// Whether it is of this game.
+    pub(crate) fn fits(&self, game: &Game) -> bool {
+        self.digest == game.digest()
+    }
+
+    /// What is done: 0 for nothing, 1 for each sprite and each key.
+    pub(crate) fn progress(&self, game: &Game, state: &State) -> f64 {
+        let missing = self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min();
+        let avatar = state.avatar_sprite_type();
+        let keys = self.analysis.locks().iter().map(|lock| match &lock.key {
+            Key::Avatar(stype) => f64::from(u8::from(avatar == Some(*stype))),
+            Key::Resource { resource, amount, .. } => {
+                f64::from(game.held(state, *resource).clamp(0, *amount)) / f64::from((*amount).max(1))
+            }
+            Key::Switch(..) => 0.0,
+        });
+        let keys = keys.fold(0.0, f64::max);
+        keys - f64::from(missing.unwrap_or(0).min(1000))
+    }
+
+    /// How near the nearest thing is that is worth going to, in [0, 1); 0 if nothing is. Cost: O(cells + sprites).
+    pub(crate) fn closeness(&self, game: &Game, state: &State, ways: &mut Ways) -> f64 {
+        let Some(chart) = state.avatar_sprite_type().and_then(|avatar| self.chart(avatar)) else {
+            return 0.0;
+        };
+        let Some(place) = state.avatar_place() else { return 0.0 };
+        let at = cell(state, place);
+        self.flood(chart, state, at, ways);
+        let (columns, rows) = state.size();
+        let mut nearest = f64::INFINITY;
+        // The distance of what is not entered is that of the cell before it, plus one.
+        let mut consider = |place: (i32, i32), further: f64, ways: &Ways| {
+            let (x, y) = cell(state, place);
+            let reached = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].into_iter().filter_map(|(dx, dy)| {
+                let (x, y) = (x + dx, y + dy);
+                let inside = (0..columns).contains(&x) && (0..rows).contains(&y);
+                let steps = inside.then(|| ways.distances[(y * columns + x) as usize])?;
+                (steps != UNREACHED).then(|| f64::from(steps) + f64::from(u8::from((dx, dy) != (0, 0))))
+            });
+            let straight = f64::from((x - at.0).abs() + (y - at.1).abs());
+            // No way is known: worth little, but the nearer, the more.
+            let steps = reached.fold(f64::INFINITY, f64::min).min(40.0 + 4.0 * straight);
+            nearest = nearest.min(steps + further);
+        };
+        for target in &chart.targets {
+            if target.needs.is_none_or(|(resource, amount)| game.held(state, resource) >= amount) {
+                state.places(target.stype).for_each(|place| consider(place, 0.0, ways));
+            }
+        }
+        for &(pushed, onto) in &self.pushes {
+            for place in state.places(pushed) {
+                let (x, y) = cell(state, place);
+                let apart = state.places(onto).map(|other| {
+                    let (u, v) = cell(state, other);
+                    f64::from((x - u).abs() + (y - v).abs())
+                });
+                let apart = apart.fold(f64::INFINITY, f64::min);
+                if apart > 0.0 && apart.is_finite() {
+                    consider(place, 3.0 * apart, ways);
+                }
+            }
+        }
+        HALF_WAY / (HALF_WAY + nearest)
+    }
+
+    fn chart(&self, avatar: SpriteType) -> Option<&Chart> {
+        self.charts.iter().find(|chart| chart.avatar == avatar)
+    }
+
+    /// Steps from a cell to all others, around what blocks the way.
+    fn flood(&self, chart: &Chart, state: &State, from: (i32, i32), ways: &mut Ways) {
+        let (columns, rows) = state.size();
+        let Ways { distances, queue } = ways;
+        distances.clear();
+        distances.resize((columns * rows) as usize, UNREACHED);
+        let index = |(x, y): (i32, i32)| {
+            ((0..columns).contains(&x) && (0..rows).contains(&y)).then(|| (y * columns + x) as usize)
+        };
+        // Blocked cells count as reached until the flood is over.
+        for &stype in &chart.blocks {
+            for place in state.places(stype) {
+                if let Some(at) = index(cell(state, place)) {
+                    distances[at] = UNREACHED - 1;
+                }
+            }
+        }
+        queue.clear();
+        if let Some(at) = index(from) {
+            distances[at] = 0;
+            queue.push_back(at as u32);
+        }
+        while let Some(at) = queue.pop_front() {
+            let steps = distances[at as usize];
+            let (x, y) = (at as i32 % columns, at as i32 / columns);
+            for next in [(x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)] {
+                if let Some(next) = index(next)
+                    && distances[next] == UNREACHED
+                {
+                    distances[next] = steps + 1;
+                    queue.push_back(next as u32);
+                }
+            }
+        }
+        distances.iter_mut().filter(|steps| **steps == UNREACHED - 1).for_each(|steps| *steps = UNREACHED);
+    }
+}
+
+fn cell(state: &State, (x, y): (i32, i32)) -> (i32, i32) {
+    let block = state.block().max(1);
+    ((x + block / 2).div_euclid(block), (y + block / 2).div_euclid(block))
+}
+
+fn chart(game: &Game, analysis: &Analysis, avatar: SpriteType) -> Chart {
+    let aims = analysis.aims();
+    let shots = analysis.avatars().iter().find(|known| known.stype == avatar);
+    let shots = shots.map_or(&[][..], |known| &known.shots);
+    let mut blocks = Vec::new();
+    let mut targets = Vec::new();
+    for stype in game.sprite_types().filter(|&stype| stype != avatar && analysis.facts(stype).possible) {
+        let touch: &Touch = analysis.touch(avatar, stype);
+        if (touch.blocks && !touch.pushes) || touch.harm == Harm::Kills {
+            blocks.push(stype);
+        }
+        let wanted = aims.remove.contains(&stype);
+        let unlocked = |resource: &SpriteType| {
+            analysis.resources().iter().any(|known| known.stype == *resource && known.needed > 0)
+        };
+        let gives = touch.gives.iter().any(|(resource, amount)| *amount > 0 && unlocked(resource));
+        let creates = touch.makes.iter().chain(&touch.changes).any(|to| aims.create.contains(to));
+        let useful = gives
+            || creates
+            || touch.score > 0
+            || touch.becomes.is_some()
+            || touch.opens.iter().any(|opened| wanted || analysis.blocks(*opened, avatar))
+            || (wanted && touch.ends_other());
+        let by_shot = wanted
+            && !touch.ends_other()
+            && shots.iter().any(|&shot| analysis.between(stype, shot).next().is_some());
+        let needs = match touch.removal {
+            Removal::IfHolds(resource, amount) => Some((resource, amount)),
+            _ => touch.safe_with,
+        };
+        if (useful && (touch.harm < Harm::Wounds || needs.is_some())) || by_shot {
+            targets.push(Target { stype, needs });
+        }
+    }
+    Chart { avatar, blocks, targets }
+}

@@ -1,0 +1,350 @@
+//! Monte-Carlo tree search that knows where to go: the reference's search with its known weaknesses mended.
+//!
+//! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off by itself;
+//! `docs/planners.md` says what each is worth. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree
+//! search: long-term versus short-term planning"; knowledge of what is worth going to: Frydenberg et al. 2015,
+//! "Investigating MCTS modifications in general video game playing"; novelty: Soemers et al. 2016, "Enhancements for
+//! real-time Monte-Carlo tree search in general video game playing".)
+
+use crate::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
+use crate::compass::{Compass, Ways};
+use crate::planner::{Budget, Decision, Planner, Streams};
+use engine::{Action, Game, Outcome, Seed, State};
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, VecDeque};
+
+/// Breaks ties and guards divisions.
+const EPSILON: f64 = 1e-6;
+
+/// The parameters of the search.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GuidedMctsConfig {
+    /// Ticks that tree and rollout together look ahead.
+    pub depth: u32,
+    /// Weight of exploration in UCT.
+    pub exploration: f64,
+    /// What a win adds to a result, whose other parts are between −1 and 1 each. The reference adds 10⁷ to the score.
+    pub win: f64,
+    /// What a loss takes from it.
+    pub loss: f64,
+    /// Weight of the points gained, as a share of the most that was gained in this episode's searches.
+    pub score: f64,
+    /// By what a result is multiplied for each tick that it is away; 1 in the reference.
+    pub discount: f64,
+    /// Whether doing nothing is an action; not in the reference.
+    pub nil: bool,
+    /// Whether the tree under the chosen action is kept for the next decision; not in the reference.
+    pub reuse: bool,
+    /// In rollouts an action is repeated for 1 to so many ticks; 1 in the reference.
+    pub repeat: usize,
+    /// Weight of coming to a place, with what is held and done, where the avatar was not yet in this episode; 0 in the
+    /// reference.
+    pub novelty: f64,
+    /// Weight of coming nearer to what the rules say helps to win; 0 in the reference.
+    pub guidance: f64,
+    /// In games without chance, whether a win that was seen is played to its end without another look.
+    pub commit: bool,
+}
+
+impl Default for GuidedMctsConfig {
+    fn default() -> GuidedMctsConfig {
+        GuidedMctsConfig {
+            depth: 20,
+            exploration: 0.7,
+            win: 2.0,
+            loss: 1.0,
+            score: 1.0,
+            discount: 0.99,
+            nil: true,
+            reuse: true,
+            repeat: 4,
+            novelty: 0.5,
+            guidance: 1.0,
+            commit: true,
+        }
+    }
+}
+
+/// The planner.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct GuidedMcts {
+    config: GuidedMctsConfig,
+    streams: Streams,
+    /// The root first; between decisions, what is kept.
+    tree: Vec<Node>,
+    /// What the branches of the tree stand for.
+    actions: Vec<Action>,
+    /// How often the avatar was where, and in which circumstances.
+    #[serde(with = "pairs")]
+    visits: BTreeMap<u64, u32>,
+    /// The most points gained or lost in a rollout.
+    scale: f64,
+    /// What is still to be played of a win that is certain.
+    plan: VecDeque<Action>,
+    #[serde(skip)]
+    compass: Option<Box<Compass>>,
+    #[serde(skip)]
+    ways: Ways,
+    #[serde(skip)]
+    path: Vec<usize>,
+    #[serde(skip)]
+    played: Vec<Action>,
+    #[serde(skip)]
+    scratch: Option<State>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Node {
+    children: [u32; WIDTH],
+    visits: f64,
+    total: f64,
+}
+
+impl Node {
+    fn new() -> Node {
+        Node { children: [UNEXPANDED; WIDTH], visits: 0.0, total: 0.0 }
+    }
+
+    fn mean(&self) -> f64 {
+        self.total / (self.visits + EPSILON)
+    }
+}
+
+/// A map as a list of pairs: keys of JSON objects are texts.
+mod pairs {
+    use serde::{Deserialize, Deserializer, Serializer};
+    use std::collections::BTreeMap;
+
+    pub(super) fn serialize<S: Serializer>(map: &BTreeMap<u64, u32>, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(map)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<u64, u32>, D::Error> {
+        Ok(Vec::<(u64, u32)>::deserialize(from)?.into_iter().collect())
+    }
+}
+
+/// What results are measured against.
+struct Root {
+    score: f64,
+    progress: f64,
+    closeness: f64,
+}
+
+impl GuidedMcts {
+    /// A planner of its own streams of choices and imagined chance.
+    pub fn new(config: GuidedMctsConfig, seed: Seed) -> GuidedMcts {
+        GuidedMcts {
+            config,
+            streams: Streams::new(seed),
+            tree: Vec::new(),
+            actions: Vec::new(),
+            visits: BTreeMap::new(),
+            scale: 0.0,
+            plan: VecDeque::new(),
+            compass: None,
+            ways: Ways::default(),
+            path: Vec::new(),
+            played: Vec::new(),
+            scratch: None,
+        }
+    }
+
+    /// Makes the tree ready: what was kept of the last one, if it still fits.
+    fn begin(&mut self, game: &Game, state: &State) {
+        let mut actions = game.actions(state).to_vec();
+        if self.config.nil && !actions.contains(&Action::Nil) {
+            actions.push(Action::Nil);
+        }
+        if self.actions != actions || self.tree.is_empty() {
+            self.actions = actions;
+            self.tree.clear();
+            self.tree.push(Node::new());
+        }
+        if self.compass.as_ref().is_none_or(|compass| !compass.fits(game)) {
+            self.compass = Some(Box::new(Compass::of(game)));
+        }
+    }
+
+    /// One iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls, and
+    /// whether it has won.
+    fn iterate(
+        &mut self,
+        game: &Game,
+        state: &mut State,
+        root: &Root,
+        decision: &mut Decision,
+    ) -> (u64, bool) {
+        let (depth, width) = (self.config.depth as usize, self.actions.len());
+        let mut node = 0;
+        self.path.clear();
+        self.path.push(0);
+        self.played.clear();
+        let mut gained = Gains { score: root.score, value: 0.0, weight: 1.0, discount: self.config.discount };
+        let mut grown = false;
+        while !grown && !state.is_over() && self.played.len() < depth {
+            let branch = match unexpanded(&self.tree[node].children[..width], &mut decision.choices) {
+                Some(branch) => {
+                    self.tree[node].children[branch] = self.tree.len() as u32;
+                    self.tree.push(Node::new());
+                    grown = true;
+                    branch
+                }
+                None => self.select(node, decision),
+            };
+            game.step(state, self.actions[branch]);
+            gained.tick(state);
+            self.played.push(self.actions[branch]);
+            node = self.tree[node].children[branch] as usize;
+            self.path.push(node);
+        }
+        let (mut action, mut left) = (Action::Nil, 0);
+        while !state.is_over() && self.played.len() < depth {
+            if left == 0 {
+                action = *decision.choices.choose(&self.actions);
+                left = 1 + decision.choices.below(self.config.repeat.max(1));
+            }
+            left -= 1;
+            game.step(state, action);
+            gained.tick(state);
+            self.played.push(action);
+        }
+        let result = self.result(game, state, root, &gained);
+        for &node in &self.path {
+            self.tree[node].visits += 1.0;
+            self.tree[node].total += result;
+        }
+        (self.played.len() as u64, state.outcome() == Outcome::Won)
+    }
+
+    /// What a rollout is worth: points, the way made, the news, and how it ended.
+    fn result(&mut self, game: &Game, state: &State, root: &Root, gained: &Gains) -> f64 {
+        let config = &self.config;
+        self.scale = self.scale.max(gained.value.abs());
+        let points = if self.scale > 0.0 { config.score * gained.value / self.scale } else { 0.0 };
+        let end = match state.outcome() {
+            Outcome::Won => return points + config.win * gained.weight,
+            Outcome::Lost | Outcome::Stopped(_) => return points - config.loss * gained.weight,
+            Outcome::Ongoing | Outcome::Ended => gained.weight,
+        };
+        let compass = self.compass.as_ref().expect("made when the decision began");
+        let mut worth = 0.0;
+        if config.guidance > 0.0 {
+            let done = (compass.progress(game, state) - root.progress).clamp(-1.0, 1.0);
+            let nearer = compass.closeness(game, state, &mut self.ways) - root.closeness;
+            worth += config.guidance * (done + if done > 0.0 { 0.0 } else { nearer });
+        }
+        if config.novelty > 0.0 {
+            let visits = self.visits.get(&circumstances(game, state, compass)).copied().unwrap_or(0);
+            worth += config.novelty / (1.0 + f64::from(visits)).sqrt();
+        }
+        points + end * worth
+    }
+
+    /// The branch of the greatest UCT value.
+    fn select(&self, node: usize, decision: &mut Decision) -> usize {
+        let Node { children, visits, .. } = &self.tree[node];
+        let logarithm = libm::log(visits + 1.0);
+        best(self.actions.len(), |branch| {
+            let child = &self.tree[children[branch] as usize];
+            let explore = (logarithm / (child.visits + EPSILON)).sqrt();
+            let value = child.mean() + self.config.exploration * explore;
+            blurred(value, EPSILON, decision.choices.unit())
+        })
+    }
+
+    /// The most visited branch, of several the better one.
+    fn decide(&self) -> usize {
+        best(self.actions.len(), |branch| {
+            let child = self.tree.get(self.tree[0].children[branch] as usize);
+            child.map_or(f64::NEG_INFINITY, |child| child.visits + 0.1 * child.mean().clamp(-4.0, 4.0))
+        })
+    }
+
+    /// Keeps the tree under a branch of the root, breadth first; or nothing.
+    fn keep(&mut self, branch: usize) {
+        let root = if self.config.reuse { self.tree[0].children[branch] } else { UNEXPANDED };
+        let mut kept: Vec<Node> = self.tree.get(root as usize).cloned().into_iter().collect();
+        let mut at = 0;
+        while at < kept.len() {
+            for branch in 0..WIDTH {
+                if let Some(child) = self.tree.get(kept[at].children[branch] as usize) {
+                    let child = child.clone();
+                    kept[at].children[branch] = kept.len() as u32;
+                    kept.push(child);
+                }
+            }
+            at += 1;
+        }
+        self.tree = kept;
+    }
+}
+
+/// Points gained along a rollout, those further off counting less.
+struct Gains {
+    score: f64,
+    value: f64,
+    /// What counts of what happens in the next tick.
+    weight: f64,
+    discount: f64,
+}
+
+impl Gains {
+    fn tick(&mut self, state: &State) {
+        self.value += self.weight * (state.score() - self.score);
+        self.score = state.score();
+        self.weight *= self.discount;
+    }
+}
+
+/// Where the avatar is, what it is, what it holds and what is done: equal numbers, no news.
+fn circumstances(game: &Game, state: &State, compass: &Compass) -> u64 {
+    let (x, y) = state.avatar_place().unwrap_or((-1, -1));
+    let block = state.block().max(1);
+    let mut key = (x / block) as u64 & 0xFFFF | ((y / block) as u64 & 0xFFFF) << 16;
+    key |= u64::from(state.avatar_sprite_type().map_or(u16::MAX, |stype| stype.0)) << 32;
+    let done = (compass.progress(game, state) * 16.0) as i64 as u64;
+    key ^ done.wrapping_mul(0x9E37_79B9_7F4A_7C15)
+}
+
+impl Planner for GuidedMcts {
+    fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64) {
+        let mut decision = self.streams.next();
+        if let Some(action) = self.plan.pop_front() {
+            return (action, 0);
+        }
+        self.begin(game, state);
+        if self.actions.len() == 1 {
+            self.tree.clear();
+            return (self.actions[0], 0);
+        }
+        let compass = self.compass.as_ref().expect("just made");
+        *self.visits.entry(circumstances(game, state, compass)).or_default() += 1;
+        let root = Root {
+            score: state.score(),
+            progress: compass.progress(game, state),
+            closeness: compass.closeness(game, state, &mut self.ways),
+        };
+        let mut copy = self.scratch.take().unwrap_or_else(|| state.clone());
+        let mut calls = 0;
+        let mut certain = false;
+        while calls < budget.0 && !certain {
+            decision.imagine(&mut copy, state);
+            let (cost, won) = self.iterate(game, &mut copy, &root, &mut decision);
+            calls += cost;
+            certain = won && self.config.commit && game.is_deterministic();
+            if cost == 0 {
+                break; // The episode is over: nothing to plan.
+            }
+        }
+        self.scratch = Some(copy);
+        if certain {
+            self.plan = self.played.iter().copied().collect();
+            return (self.plan.pop_front().unwrap_or(Action::Nil), calls);
+        }
+        let branch = self.decide();
+        self.keep(branch);
+        (self.actions[branch], calls)
+    }
+}
