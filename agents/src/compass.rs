@@ -222,3 +222,38 @@ fn chart(game: &Game, analysis: &Analysis, avatar: SpriteType) -> Chart {
     }
     Chart { avatar, blocks, targets }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::{Action, Seed};
+
+    /// A key makes another avatar of the bear, and only that one opens the hive.
+    const GAME: &str = "BasicGame\n  SpriteSet\n    hive > Door\n    key > Immovable\n    trap > Immovable\n    avatar >\n      bear > MovingAvatar\n      smith > MovingAvatar\n  LevelMapping\n    h > hive\n    k > key\n    t > trap\n    b > bear\n  InteractionSet\n    avatar wall > stepBack\n    bear hive > stepBack\n    bear trap > killSprite\n    smith trap > killSprite\n    hive smith > killSprite scoreChange=1\n    bear key > transformTo stype=smith\n    key smith > killSprite\n  TerminationSet\n    SpriteCounter stype=hive win=True\n    SpriteCounter stype=avatar win=False\n";
+
+    #[track_caller]
+    fn check(level: &str, actions: &[Action], progress: f64, steps: f64) {
+        let game = Game::from_source(GAME).unwrap();
+        let compass = Compass::of(&game);
+        let mut state = game.start(&game.level(level).unwrap(), Seed::from_text("compass"));
+        for &action in actions {
+            game.step(&mut state, action);
+        }
+        assert_eq!(compass.progress(&game, &state), progress);
+        let closeness = compass.closeness(&game, &state, &mut Ways::default());
+        assert_eq!(closeness, if steps.is_finite() { HALF_WAY / (HALF_WAY + steps) } else { 0.0 });
+    }
+
+    #[test]
+    fn keys_come_before_doors_and_ways_lead_around_walls() {
+        // One hive is to go, and the key is two steps away; the hive beside the bear is of no use yet.
+        check("hb k", &[], -1.0, 2.0);
+        // With the key, the hive is.
+        check("hb k", &[Action::Right, Action::Right], 0.0, 3.0);
+        // Around the wall, and around the trap; no hive is to go here.
+        check("bwk\n w \n   ", &[], 0.0, 6.0);
+        check("btk\n t \n   ", &[], 0.0, 6.0);
+        // Nothing worth going to: neither key nor way.
+        check("b h", &[], -1.0, f64::INFINITY);
+    }
+}
