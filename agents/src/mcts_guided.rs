@@ -58,7 +58,7 @@ impl Default for GuidedMctsConfig {
             discount: 0.99,
             nil: true,
             reuse: true,
-            repeat: 4,
+            repeat: 1,
             novelty: 0.5,
             guidance: 1.0,
             commit: true,
