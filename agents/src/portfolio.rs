@@ -1,6 +1,7 @@
 //! Many ways to win one level: the default for "can it be won?".
 
 use crate::mcts::{Mcts, MctsConfig};
+use crate::mcts_guided::{GuidedMcts, GuidedMctsConfig};
 use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, play};
 use crate::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
@@ -13,7 +14,8 @@ use serde::{Deserialize, Serialize};
 ///
 /// Where chance decides nothing, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. Then, and
 /// in games of chance from the start, planners play episodes in rounds, a short one each at first, then ever longer ones:
-/// [`Width`] sees far, [`MctsConfig::bold`] searches of short horizon react and those of long horizon plan.
+/// [`Width`] sees far, [`GuidedMcts`] knows where to go, [`MctsConfig::bold`] searches of short horizon react and those of
+/// long horizon plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PortfolioConfig {
@@ -27,7 +29,7 @@ pub struct PortfolioConfig {
     pub bytes: usize,
     /// Calls of a decision of the planners that play.
     pub decision: u64,
-    /// Look-ahead in ticks of the Monte-Carlo tree searches.
+    /// Look-ahead in ticks of the bold Monte-Carlo tree searches, one player each.
     pub depths: Vec<u32>,
 }
 
@@ -39,7 +41,7 @@ impl Default for PortfolioConfig {
             systematic: 0.4,
             bytes: 1 << 30,
             decision: 500,
-            depths: vec![10, 20, 40],
+            depths: vec![10, 40],
         }
     }
 }
@@ -137,16 +139,17 @@ const MAX_ROUNDS: u64 = 20;
 
 /// One play of each planner, with an equal share of the budget: a play stops at the first decision beyond it.
 fn play_round(game: &Game, level: &Level, config: &PortfolioConfig, budget: u64, seed: Seed) -> Vec<Play> {
-    let players = config.depths.len() + 1;
+    let players = config.depths.len() + 2;
     let limits = Limits { calls: budget / players as u64, ..Limits::default() };
     (0..players)
         .into_par_iter()
         .map(|number| {
             let seed = seed.child("play", number as u64);
             let own = seed.child("planner", 0);
-            let mut planner: Box<dyn Planner> = match number.checked_sub(1) {
-                None => Box::new(Width::new(WidthConfig::default(), own)),
-                Some(depth) => Box::new(Mcts::new(MctsConfig::bold(config.depths[depth]), own)),
+            let mut planner: Box<dyn Planner> = match number {
+                0 => Box::new(Width::new(WidthConfig::default(), own)),
+                1 => Box::new(GuidedMcts::new(GuidedMctsConfig::default(), own)),
+                _ => Box::new(Mcts::new(MctsConfig::bold(config.depths[number - 2]), own)),
             };
             play(game, level, planner.as_mut(), Budget(config.decision), seed.child("chance", 0), limits)
         })
