@@ -38,7 +38,7 @@ impl Kind {
 }
 
 /// The fixed tables of one game.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Contacts {
     /// By type.
     pub(crate) kinds: Vec<Kind>,

@@ -6,7 +6,7 @@ use crate::limits::EFFECT_WORK;
 use crate::ontology::effects;
 use crate::overlap::{Hit, Hits, Partners, Side};
 use crate::state::{NONE, Slot, Timer, flag, memory};
-use crate::step::{Step, Watch};
+use crate::step::{Meeting, Step, Watch};
 use smallvec::SmallVec;
 
 impl Step<'_> {
@@ -83,7 +83,7 @@ impl Step<'_> {
             while slot != NONE {
                 if !self.state.sprite(slot).is(flag::KILLED | flag::DISABLED) {
                     let tail = self.state.group(stype).tail;
-                    watch.interaction(timed.line);
+                    self.tell(watch, timed.line, slot, None);
                     self.work_of_effect();
                     effects::execute(self, timed.effect, &info.effect, slot, None);
                     self.credit(info, info.initial_memory(), 1);
@@ -318,7 +318,7 @@ impl Step<'_> {
 
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
-        watch.interaction(info.line);
+        self.tell(watch, info.line, one, two);
         self.work_of_effect();
         if self.flies {
             self.prepare(&info.effect, one);
@@ -330,10 +330,24 @@ impl Step<'_> {
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
+    /// Tells of an execution that is about to happen.
+    #[inline]
+    fn tell(&self, watch: &mut impl Watch, line: usize, one: Slot, two: Option<Slot>) {
+        watch.interaction(line);
+        if watch.wants_meetings() {
+            let first = self.state.present(one);
+            let cell = (first.rect.x.div_euclid(self.state.block), first.rect.y.div_euclid(self.state.block));
+            let second = two.map(|two| self.state.sprite(two).stype);
+            watch.meeting(Meeting { line, first: first.stype, second, cell });
+        }
+    }
+
     /// All partners at once; the score counts as often as the effect says.
     fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Partners, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
-        watch.interaction(info.line);
+        for &partner in partners.iter() {
+            self.tell(watch, info.line, one, Some(partner));
+        }
         self.work(EFFECT_WORK * partners.len());
         if self.flies {
             self.prepare(&info.effect, one);

@@ -143,7 +143,7 @@ impl fmt::Display for Limit {
 }
 
 /// A compiled sprite type.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct TypeInfo {
     pub(crate) name: String,
     /// None: a bare grouping node.
@@ -204,7 +204,7 @@ impl TypeInfo {
 }
 
 /// One interaction line, compiled. All its right-hand sprites share it and what it remembers.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct EffectInfo {
     pub(crate) effect: Effect,
     pub(crate) score_change: i32,
@@ -245,7 +245,7 @@ impl EffectInfo {
 }
 
 /// An effect that runs by the clock: written with TIME, or planned by addTimer (`spec/03` §6).
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Timed {
     /// The effect, with the memory of its own.
     pub(crate) effect: u16,
@@ -264,7 +264,7 @@ pub(crate) struct Timed {
 }
 
 /// One pass of the event phase over all pairs of two types (`spec/03` §4.5).
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Pass {
     pub(crate) first: SpriteType,
     pub(crate) second: SpriteType,
@@ -278,7 +278,7 @@ pub(crate) struct Pass {
 }
 
 /// Everything that a game file says, resolved.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Rules {
     pub(crate) description: Description,
     pub(crate) digest: Digest,

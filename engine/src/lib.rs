@@ -26,6 +26,7 @@
 //! # Ok::<(), engine::Diagnostics>(())
 //! ```
 
+mod ablation;
 pub mod analysis;
 mod causes;
 mod chance;
@@ -82,7 +83,7 @@ pub use pack::Packed;
 pub use sampler::Sampler;
 pub use seed::Seed;
 pub use state::State;
-pub use step::Watch;
+pub use step::{Meeting, Watch};
 pub use syntax::Description;
 
 /// Bumped when any golden trace moves: witnesses replay only under the same number.

@@ -161,6 +161,19 @@ impl Game {
         state.amount(state.avatar, resource)
     }
 
+    /// The types of which there are sprites, in registry order. Cost: O(types).
+    pub fn present_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
+        self.sprite_types().filter(|&stype| state.group(stype).count > 0)
+    }
+
+    /// The termination that has ended an episode, as an index into
+    /// [`Description::terminations`](crate::Description); none if it is not over, or ended otherwise.
+    pub fn ended_by(&self, state: &State) -> Option<usize> {
+        let ended = matches!(state.outcome, Outcome::Won | Outcome::Lost);
+        let mut terminations = self.0.terminations.iter();
+        terminations.position(|termination| termination.holds(&self.0, state)).filter(|_| ended)
+    }
+
     /// The drawing order of the types, as indices into the registry.
     pub fn drawing_order(&self) -> Vec<u16> {
         self.0.order.iter().map(|stype| stype.0).collect()

@@ -15,11 +15,33 @@ use crate::state::{Group, NONE, Slot, State, Timer, flag};
 /// Pixels of the longer side of a board whose game does not set `square_size`.
 const SCREEN: i32 = 800;
 
+/// An execution of an interaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Meeting {
+    /// Index into [`Description::interactions`](crate::Description).
+    pub line: usize,
+    /// The type of the sprite that is acted upon, before it is.
+    pub first: SpriteType,
+    /// The type of its partner; none: the edge of the screen, or the clock.
+    pub second: Option<SpriteType>,
+    /// Column and row of the cell in which the first sprite has its upper left corner.
+    pub cell: (i32, i32),
+}
+
 /// Learns what happens inside a step: which interaction of the description was executed on which sprites.
 pub trait Watch {
     /// Interaction `line` (index into [`Description::interactions`](crate::Description)) was executed. One that puts the same
     /// sprite back to the same place tick after tick is told of once.
     fn interaction(&mut self, line: usize);
+
+    /// Whether [`Watch::meeting`] is to be called.
+    fn wants_meetings(&self) -> bool {
+        false
+    }
+
+    /// An interaction was executed on these sprites; after [`Watch::interaction`]. Not for what runs by the clock on no
+    /// sprite.
+    fn meeting(&mut self, _meeting: Meeting) {}
 
     /// The step is over and was so much work, see [`MAX_WORK`].
     fn worked(&mut self, _work: usize) {}

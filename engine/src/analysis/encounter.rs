@@ -315,7 +315,7 @@ fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
         Effect::WallStop => always(smallvec![Deed::Stop]),
         Effect::WallBounce | Effect::WallReverse => always(smallvec![Deed::Stop, Deed::Turn]),
         // What happens, happens later: see `later`.
-        Effect::AddTimer { .. } => always(smallvec![]),
+        Effect::AddTimer { .. } | Effect::Disabled(_) => always(smallvec![]),
         Effect::ShieldFrom { stype, keyword } => {
             let keyword =
                 crate::ontology::effects::NAMES.get(usize::from(keyword)).copied().unwrap_or_default();

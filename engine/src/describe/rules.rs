@@ -258,6 +258,7 @@ fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> St
             let later = by_itself(analysis, &rules.effects[usize::from(timed.effect)].effect, timed.target);
             format!("{when}, {} later {later}", count(i64::from(timed.timer), "tick"))
         }
+        Effect::Disabled(_) => format!("{when}, nothing happens"),
         Effect::ShieldFrom { stype, .. } => {
             format!(
                 "while {s} {} {b}, {} {} safe from {}",

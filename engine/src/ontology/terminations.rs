@@ -5,7 +5,7 @@ use crate::state::State;
 use smallvec::SmallVec;
 
 /// A termination: the first one that holds ends the game.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Termination {
     pub(crate) condition: Condition,
     /// Whether the player wins by it, or may.
@@ -27,7 +27,7 @@ pub(crate) enum Decision {
     Value(i32),
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Condition {
     /// At most so many are left.
     SpriteCounter { stype: SpriteType, limit: i32 },

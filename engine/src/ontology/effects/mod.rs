@@ -179,6 +179,8 @@ pub(crate) enum Effect {
     AddTimer {
         timed: u16,
     },
+    /// Draws what the effect within would draw, and does nothing else (`ablation.rs`).
+    Disabled(Box<Effect>),
 }
 
 /// The parameters of transformIfCount.
@@ -288,6 +290,9 @@ impl Effect {
 
     /// Whether executing it can draw from the chance.
     pub(crate) fn draws(&self) -> bool {
+        if let Effect::Disabled(effect) = self {
+            return effect.draws();
+        }
         matches!(
             self,
             Effect::FlipDirection
@@ -359,6 +364,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         (Effect::SpawnIfCounterSubTypes { .. }, _) => spawn::if_counter_subtypes(step, index, one, effect),
         (Effect::WaterPhysics, _) => step.state.extra(step.rules, one).gravity = 0.2,
         (Effect::AddTimer { timed }, _) => add_timer(step, *timed),
+        (Effect::Disabled(effect), _) => draw_only(step, effect, one, two),
         (_, None) => step.message(),
         (Effect::KillBoth, Some(two)) => {
             step.kill(one);
@@ -437,11 +443,32 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
             }
         }
         Effect::AddTimer { timed } => add_timer(step, *timed),
+        // None of those that run alone draws.
+        Effect::Disabled(_) => {}
         Effect::KillIfNotUpright | Effect::WaterPhysics => step.stop(Limit::NoSprite),
         Effect::UpdateSpawnType { stype, spawn_point } => {
             spawn::update_type(step, None, *stype, *spawn_point)
         }
         _ => step.message(),
+    }
+}
+
+/// The draws of an effect without what follows from them, so that chance goes on as it would.
+fn draw_only(step: &mut Step<'_>, effect: &Effect, one: Slot, two: Option<Slot>) {
+    match (effect, two) {
+        (Effect::FlipDirection, _) => {
+            step.state.chance.below(4);
+        }
+        (Effect::Spawn { .. } | Effect::SpawnIf { .. }, _)
+        | (Effect::SpawnBeside { .. } | Effect::SpawnBehind { .. }, Some(_)) => {
+            step.state.chance.double();
+        }
+        (Effect::TransformToRandomChild { options, .. }, _) if !options.is_empty() => {
+            step.state.chance.below(options.len() as i32);
+        }
+        (Effect::AttractGaze { .. }, Some(two)) => motion::draw_gaze(step, one, two),
+        (Effect::TeleportToExit, Some(two)) => motion::draw_exit(step, two),
+        _ => {}
     }
 }
 

@@ -127,6 +127,13 @@ pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: boo
     }
 }
 
+/// The draw of attractGaze, without its consequence.
+pub(super) fn draw_gaze(step: &mut Step<'_>, one: Slot, two: Slot) {
+    if step.state.sprite(one).is(flag::ORIENTED) && step.state.sprite(two).is(flag::ORIENTED) {
+        step.state.chance.double();
+    }
+}
+
 /// The partner pushes: the sprite moves where the partner moved in this tick, and faces there.
 pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
@@ -164,12 +171,7 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
 
 /// To a drawn sprite of the type that the partner leads to; to its death if there is none.
 pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
-    let sprite = step.state.sprite(two);
-    let info = &step.rules.types[sprite.stype.index()];
-    let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
-    // What a spawner makes is where it leads to, and may change.
-    let leads_to = if spawns { Some(sprite.spawns) } else { info.leads_to() };
-    let Some(exit_type) = leads_to.filter(|&stype| stype != SpriteType::NONE) else { return step.message() };
+    let Some(exit_type) = exit_of(step, two) else { return step.message() };
     let count = step.state.group(exit_type).count;
     if count == 0 {
         return step.kill(one);
@@ -183,6 +185,24 @@ pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
     if exit.is(flag::ORIENTED) {
         step.state.edit(one).orientation = exit.orientation;
     }
+}
+
+/// The draw of teleportToExit, without its consequence.
+pub(super) fn draw_exit(step: &mut Step<'_>, two: Slot) {
+    let count = exit_of(step, two).map_or(0, |exit_type| step.state.group(exit_type).count);
+    if count > 0 {
+        step.state.chance.below(i32::from(count));
+    }
+}
+
+/// Where touching a sprite leads.
+fn exit_of(step: &Step<'_>, two: Slot) -> Option<SpriteType> {
+    let sprite = step.state.sprite(two);
+    let info = &step.rules.types[sprite.stype.index()];
+    let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
+    // What a spawner makes is where it leads to, and may change.
+    let leads_to = if spawns { Some(sprite.spawns) } else { info.leads_to() };
+    leads_to.filter(|&stype| stype != SpriteType::NONE)
 }
 
 pub(super) fn change_speed(step: &mut Step<'_>, stype: SpriteType, value: f64, how: SpeedChange) {

@@ -1,0 +1,72 @@
+//! A game with one interaction disabled: what would be different without it?
+//!
+//! The interaction still happens and still draws from the chance what it drew before, but nothing follows from it. So an
+//! episode of the two games is the same up to the first consequence: chance does not shift.
+
+use crate::Digest;
+use crate::game::{Game, Rules};
+use crate::ontology::effects::Effect;
+use crate::rest::foresight;
+use std::sync::{Arc, OnceLock};
+
+impl Game {
+    /// The game in which nothing follows from interaction `line` (index into
+    /// [`Description::interactions`](crate::Description)), though it draws what it drew. Levels of the one fit the other. The
+    /// digest is one of its own: it belongs to no text. Cost: a copy of the rules.
+    ///
+    /// # Panics
+    /// If there is no such line.
+    pub fn without(&self, line: usize) -> Game {
+        assert!(line < self.description().interactions.len(), "interaction {line} is one of the game's");
+        let mut rules = Rules { all_warnings: OnceLock::new(), ..(*self.0).clone() };
+        for info in rules.effects.iter_mut().filter(|info| info.line == line) {
+            let effect = std::mem::replace(&mut info.effect, Effect::KillBoth);
+            info.effect = Effect::Disabled(Box::new(effect));
+            info.score_change = 0;
+            info.apply_score = false;
+            info.counting = None;
+        }
+        for timed in rules.timed.iter_mut().filter(|timed| timed.line == line) {
+            timed.score_change = 0;
+            timed.apply_score = false;
+        }
+        // What puts nothing back lets nothing rest.
+        rules.foresight = foresight(&rules.types, &rules.passes, &rules.effects);
+        rules.any_rests = rules.foresight.iter().any(|of_type| of_type.rests);
+        rules.any_flies = rules.foresight.iter().any(|of_type| of_type.flies);
+        rules.digest = Digest::of(format!("{} without interaction {line}", rules.digest).as_bytes());
+        Game(Arc::new(rules))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Action, Game, Level, Outcome, Seed};
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    nut > Immovable\n    moth > RandomNPC\n    squirrel > MovingAvatar\n  LevelMapping\n    n > nut\n    m > moth\n    S > squirrel\n  InteractionSet\n    nut squirrel > killSprite scoreChange=1\n    moth nut > flipDirection\n    moth nut > spawn stype=moth prob=0.5\n    moth EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=nut win=True\n    Timeout limit=50\n";
+
+    fn episode(game: &Game, level: &Level, actions: &[Action]) -> (Outcome, f64, u64, usize) {
+        let mut state = game.start(level, Seed::from_text("ablation"));
+        for &action in actions {
+            game.step(&mut state, action);
+        }
+        (state.outcome(), state.score(), state.chance().state(), game.records(&state).len())
+    }
+
+    #[test]
+    fn nothing_follows_and_the_draws_stay() {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("Snnnn\nnnmnn").unwrap();
+        let (right, wait) = ([Action::Right; 4], [Action::Nil; 6]);
+        assert!(episode(&game, &level, &right).1 >= 4.0);
+        let (outcome, score, ..) = episode(&game.without(0), &level, &right);
+        assert_eq!((outcome, score), (Outcome::Ongoing, 0.0));
+        // A rule that draws and then does nothing, because its odds are none, is a disabled one.
+        let never = Game::from_source(&GAME.replace("prob=0.5", "prob=0.0")).unwrap();
+        let without = game.without(2);
+        assert_eq!(episode(&without, &level, &wait), episode(&never, &level, &wait));
+        assert!(episode(&without, &level, &wait).3 < episode(&game, &level, &wait).3);
+        assert_eq!(without.digest(), game.without(2).digest());
+        assert_ne!(without.digest(), game.digest());
+    }
+}
