@@ -166,6 +166,12 @@ impl Game {
         self.sprite_types().filter(|&stype| state.group(stype).count > 0)
     }
 
+    /// The types that some sprite holds as resources, a type once for each holder.
+    pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
+        let held = state.held.iter().filter(|held| held.amount != 0).map(|held| held.resource);
+        held.filter(|&stype| stype != SpriteType::NONE)
+    }
+
     /// The termination that has ended an episode, as an index into
     /// [`Description::terminations`](crate::Description); none if it is not over, or ended otherwise.
     pub fn ended_by(&self, state: &State) -> Option<usize> {

@@ -2,7 +2,7 @@
 
 use engine::Digest;
 use serde::{Deserialize, Serialize};
-use validators::Rate;
+use validators::{Ladder, Rate};
 
 /// Where a game comes from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +52,9 @@ pub struct LevelCard {
     pub random: Rate,
     /// How players fared who did nothing.
     pub idle: Rate,
+    /// How the players of a ladder fared, and how hard that makes the level, if the recipe asks for `skill`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ladder: Option<Ladder>,
 }
 
 /// A game of a release.

@@ -2,7 +2,7 @@
 
 use engine::{Digest, Seed};
 use serde::{Deserialize, Serialize};
-use validators::Criteria;
+use validators::{Criteria, CriteriaError};
 
 /// Bytes of a recipe that are read.
 pub const MAX_RECIPE: usize = 1 << 16;
@@ -84,6 +84,9 @@ pub enum RecipeError {
         /// What it must be.
         message: String,
     },
+    /// A criterion out of its range.
+    #[error("`criteria.{}` {}", .0.key, .0.message)]
+    Criteria(#[from] CriteriaError),
     /// Longer than [`MAX_RECIPE`].
     #[error("the recipe is larger than {MAX_RECIPE} bytes")]
     TooLarge,
@@ -148,24 +151,12 @@ impl Recipe {
                 );
             }
         }
-        let Criteria { depths, random_wins, least_ticks, most_ticks, decision, .. } = &self.criteria;
-        if depths.is_empty() || depths.len() > 20 || depths.iter().any(|depth| !(1..=1000).contains(depth)) {
-            return wrong(
-                "criteria.depths",
-                "takes 1 to 20 numbers of ticks, each from 1 to 1000".to_owned(),
-            );
-        }
-        if !(0.0..=1.0).contains(random_wins) {
-            return wrong("criteria.random_wins", format!("is {random_wins}; it takes a share from 0 to 1"));
-        }
-        if *decision == 0 || *decision > 1_000_000 {
-            return wrong("criteria.decision", format!("is {decision}; it takes 1 to 1000000 calls"));
-        }
-        if least_ticks > most_ticks {
-            return wrong(
-                "criteria.least_ticks",
-                format!("is {least_ticks}, above `most_ticks`, {most_ticks}"),
-            );
+        self.criteria.check()?;
+        // What the cards show.
+        if let Some(missing) =
+            ["not-idle", "not-random", "winnable"].into_iter().find(|name| !self.criteria.asks(name))
+        {
+            return wrong("criteria.ask", format!("lacks `{missing}`, which every card shows"));
         }
         Ok(())
     }
@@ -208,6 +199,8 @@ mod tests {
         check(&GOOD.replace("= 2", "= 0"), "nothing to mint");
         check(&format!("{GOOD}levels = 0"), "`generated.levels` is 0");
         check(&format!("{GOOD}[criteria]\ndepths = []"), "`criteria.depths`");
+        check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");
+        check(&format!("{GOOD}[criteria]\nask = ['winable']"), "did you mean `winnable`?");
         check(&format!("{GOOD}[board]\ncolumns = [9, 4]"), "`board.columns`");
         check("name = ", "expected");
         check(&"#".repeat(MAX_RECIPE + 1), "larger than");

@@ -1,6 +1,7 @@
 //! Is it won by doing nothing?
 
-use crate::verdict::{Case, Finding, Rate, Reason, Validator, Verdict};
+use crate::ending::Ending;
+use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
 use agents::{Budget, DoNothing, Limits, play};
 use engine::Outcome;
 
@@ -23,14 +24,19 @@ impl Validator for NotIdle {
             let seed = case.seed.child("idle", run);
             played.push(play(case.game, case.level, &mut DoNothing, Budget(0), seed, Limits::default()));
         }
+        let measured = Rate::of(&played);
         let won = played.iter().find(|play| play.episode.outcome == Outcome::Won);
-        let verdict = match won {
-            None => Verdict::pass(),
-            Some(play) => Verdict::Fail {
-                reason: Reason(format!("doing nothing wins after {} ticks", play.episode.actions.len())),
-                witness: Some(play.episode.clone()),
-            },
+        let finding = match won {
+            None => Finding::from(Verdict::pass()),
+            Some(play) => {
+                let ticks = play.episode.actions.len();
+                let reason = format!("doing nothing wins after {ticks} ticks");
+                let ending = Ending::of(case.analysis, case.level, &play.episode).evidence(case.game);
+                let advice = "let the win ask for something that only the player can do";
+                let ending = ending.into_iter().map(|seen| seen.advise(advice));
+                Finding::from(Verdict::fail_with(reason, play.episode.clone())).seen(ending)
+            }
         };
-        Finding { verdict, measured: Some(Rate::of(&played)) }
+        finding.measured(measured).played(played.into_iter().map(|play| play.episode))
     }
 }

@@ -1,5 +1,6 @@
 //! Is it neither over at once nor endless?
 
+use crate::ending::Ending;
 use crate::verdict::{Case, Finding, Validator, Verdict};
 
 /// The witness takes a number of ticks within bounds.
@@ -19,13 +20,19 @@ impl Validator for LengthWithin {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Some(witness) = case.witness else { return Verdict::Unknown { spent: 0 }.into() };
         let ticks = witness.actions.len();
-        let verdict = if ticks < self.least {
-            Verdict::fail(format!("won in {ticks} ticks, fewer than {}", self.least))
-        } else if ticks > self.most {
-            Verdict::fail(format!("the shortest win found takes {ticks} ticks, more than {}", self.most))
-        } else {
-            Verdict::pass()
+        let ending = Ending::of(case.analysis, case.level, witness);
+        let seen = |advice: &str| {
+            let evidence = ending.evidence(case.game).into_iter().next();
+            evidence.map(|seen| seen.advise(advice))
         };
-        verdict.into()
+        if ticks < self.least {
+            let reason = format!("won in {ticks} ticks, fewer than {}", self.least);
+            Finding::from(Verdict::fail(reason)).seen(seen("put the goal farther off"))
+        } else if ticks > self.most {
+            let reason = format!("the shortest win found takes {ticks} ticks, more than {}", self.most);
+            Finding::from(Verdict::fail(reason)).seen(seen("make the level smaller, or ask for less"))
+        } else {
+            Verdict::pass().into()
+        }
     }
 }

@@ -3,18 +3,43 @@
 //! A verdict has three answers. *Pass* may carry a witness: an episode that replays. *Fail* says why and may carry a
 //! counter-example. *Unknown* says how much was spent: running out of budget is never called unsolvable.
 
+mod ablation;
+mod board;
+mod criteria;
+mod early_death;
+mod ending;
+mod evidence;
+mod game_report;
 mod idle;
+mod ladder;
 mod length;
 mod panel;
 mod random;
+mod reachable;
+mod readable;
+mod recording;
+mod rule_use;
+mod skill;
 mod verdict;
 mod well_formed;
 mod winnable;
 
+pub use ablation::RulesMatter;
+pub use board::Board;
+pub use criteria::{Criteria, CriteriaError, GAME_CRITERIA, LEVEL_CRITERIA};
+pub use early_death::NoEarlyDeath;
+pub use evidence::{Evidence, Line};
+pub use game_report::{GameCase, GameReport, GameValidator};
 pub use idle::NotIdle;
+pub use ladder::{Climb, Difficulty, Fared, Ladder, Rung};
 pub use length::LengthWithin;
-pub use panel::{Criteria, Judgement, Panel, Report};
+pub use panel::{Judgement, Panel, Report};
 pub use random::NotRandom;
+pub use reachable::Reachable;
+pub use readable::Readable;
+pub use recording::Recorded;
+pub use rule_use::RuleUse;
+pub use skill::SkillPays;
 pub use verdict::{Case, Finding, Rate, Reason, Validator, Verdict};
 pub use well_formed::WellFormed;
 pub use winnable::Winnable;

@@ -1,49 +1,20 @@
-//! All criteria of a release, in one place.
+//! All judges together.
 
-use crate::{Case, Finding, LengthWithin, NotIdle, NotRandom, Validator, Verdict, WellFormed, Winnable};
-use engine::{Episode, Game, Level, Seed};
-use serde::{Deserialize, Serialize};
-
-/// The thresholds of all criteria; what a recipe's `[criteria]` says.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Criteria {
-    /// Forward-model calls of one decision of the searching player.
-    pub decision: u64,
-    /// Forward-model calls to find a win, all plays together.
-    pub budget: u64,
-    /// Look-ahead in ticks of each searching play.
-    pub depths: Vec<u32>,
-    /// Episodes of doing nothing.
-    pub idle_plays: u32,
-    /// Episodes of random play.
-    pub random_plays: u32,
-    /// The greatest share of them that may be won.
-    pub random_wins: f64,
-    /// Ticks that the shortest win found takes at least.
-    pub least_ticks: usize,
-    /// Ticks that it takes at most.
-    pub most_ticks: usize,
-}
-
-impl Default for Criteria {
-    fn default() -> Criteria {
-        Criteria {
-            decision: 500,
-            budget: 3_000_000,
-            depths: vec![10, 20, 40],
-            idle_plays: 8,
-            random_plays: 40,
-            random_wins: 0.2,
-            least_ticks: 8,
-            most_ticks: 1000,
-        }
-    }
-}
+use crate::ablation::RulesMatter;
+use crate::game_report::{GameCase, GameReport, GameValidator};
+use crate::recording::{Recorded, Usage};
+use crate::{
+    Case, Criteria, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom, Reachable, Readable,
+    RuleUse, SkillPays, Validator, Verdict, WellFormed, Winnable,
+};
+use engine::{Analysis, Episode, Game, Level, Seed};
+use rayon::prelude::*;
+use serde::Serialize;
 
 /// The validators of a set of criteria, cheapest first.
 pub struct Panel {
     validators: Vec<Box<dyn Validator + Send>>,
+    of_game: Vec<Box<dyn GameValidator + Send>>,
 }
 
 /// What one validator found.
@@ -56,7 +27,7 @@ pub struct Judgement {
     pub finding: Finding,
 }
 
-/// What all validators found.
+/// What all validators found of a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// In the order of asking.
@@ -76,34 +47,82 @@ impl Report {
     pub fn first_obstacle(&self) -> Option<&Judgement> {
         self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
     }
+
+    /// What was found of a criterion, if it was asked.
+    pub fn finding(&self, criterion: &str) -> Option<&Finding> {
+        let judgement = self.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
+        Some(&judgement.finding)
+    }
+
+    /// How the players of the ladder fared, if they played.
+    pub fn ladder(&self) -> Option<&Ladder> {
+        self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
+    }
+
+    /// All episodes that the judges played, the telling ones first: the witness, then those of the last judges.
+    pub fn episodes(&self) -> Vec<Episode> {
+        let played = self.judgements.iter().rev().flat_map(|judgement| {
+            let shown = match &judgement.finding.verdict {
+                Verdict::Fail { witness, .. } => witness.as_ref(),
+                _ => None,
+            };
+            shown.into_iter().chain(&judgement.finding.episodes)
+        });
+        self.witness.iter().chain(played).cloned().collect()
+    }
 }
 
 impl Panel {
     /// The panel of these criteria.
+    ///
+    /// # Panics
+    /// If they name players or criteria that there are not; see [`Criteria::check`].
     pub fn new(criteria: &Criteria) -> Panel {
-        let &Criteria {
-            decision,
-            budget,
-            idle_plays,
-            random_plays,
-            random_wins,
-            least_ticks,
-            most_ticks,
-            ..
-        } = criteria;
-        let depths = criteria.depths.clone();
+        let c = criteria;
+        let level: [(&str, Box<dyn Validator + Send>); 8] = [
+            ("well-formed", Box::new(WellFormed)),
+            ("readable", Box::new(Readable)),
+            ("not-idle", Box::new(NotIdle { plays: c.idle_plays })),
+            ("not-random", Box::new(NotRandom { plays: c.random_plays, most: c.random_wins })),
+            (
+                "early-death",
+                Box::new(NoEarlyDeath {
+                    ticks: c.early_ticks,
+                    calls: c.early_calls,
+                    chances: c.early_chances,
+                    share: c.early_deaths,
+                }),
+            ),
+            (
+                "winnable",
+                Box::new(Reachable(Winnable {
+                    decision: c.decision,
+                    budget: c.budget,
+                    depths: c.depths.clone(),
+                })),
+            ),
+            ("length", Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
+            (
+                "skill",
+                Box::new(SkillPays {
+                    climb: c.climb().expect("the criteria name planners that exist"),
+                    wins: c.skill_wins,
+                    scores: c.skill_scores,
+                    patience: c.patience,
+                }),
+            ),
+        ];
+        let game: [(&str, Box<dyn GameValidator + Send>); 2] = [
+            ("rule-use", Box::new(RuleUse)),
+            ("ablation", Box::new(RulesMatter { calls: c.ablation_calls })),
+        ];
         Panel {
-            validators: vec![
-                Box::new(WellFormed),
-                Box::new(NotIdle { plays: idle_plays }),
-                Box::new(NotRandom { plays: random_plays, most: random_wins }),
-                Box::new(Winnable { decision, budget, depths }),
-                Box::new(LengthWithin { least: least_ticks, most: most_ticks }),
-            ],
+            validators: level.into_iter().filter(|(name, _)| c.asks(name)).map(|(_, judge)| judge).collect(),
+            of_game: game.into_iter().filter(|(name, _)| c.asks(name)).map(|(_, judge)| judge).collect(),
         }
     }
 
-    /// Asks every validator.
+    /// Asks every validator of levels.
     pub fn judge(&self, game: &Game, level: &Level, seed: Seed) -> Report {
         self.ask(game, level, seed, false)
     }
@@ -113,13 +132,50 @@ impl Panel {
         self.ask(game, level, seed, true)
     }
 
+    /// Asks every validator, of the levels and of the game. Each level has a seed of its own, derived from its text, so that
+    /// it gets the same answer alone and among others.
+    pub fn judge_game(&self, game: &Game, levels: &[Level], seed: Seed) -> GameReport {
+        let judge = |level: &Level| self.judge(game, level, seed.child(&level.digest().to_string(), 0));
+        let reports: Vec<Report> = levels.par_iter().map(judge).collect();
+        let judgements = self.judge_together(game, levels, &reports, seed);
+        GameReport { levels: reports, judgements }
+    }
+
+    /// Asks the validators of a game over all its levels, whose reports are given in their order.
+    pub fn judge_together(
+        &self,
+        game: &Game,
+        levels: &[Level],
+        reports: &[Report],
+        seed: Seed,
+    ) -> Vec<Judgement> {
+        if self.of_game.is_empty() || levels.is_empty() {
+            return Vec::new();
+        }
+        let analysis = Analysis::of(game);
+        let episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
+        let recorded = |(level, episodes)| Recorded { level, episodes };
+        let recording: Vec<Recorded<'_>> =
+            levels.iter().zip(episodes.iter().map(Vec::as_slice)).map(recorded).collect();
+        let usage = Usage::of(game, &recording);
+        let judge = |validator: &Box<dyn GameValidator + Send>| {
+            let criterion = validator.name();
+            let seed = seed.child(criterion, 0);
+            let case = GameCase { game, analysis: &analysis, recording: &recording, usage: &usage, seed };
+            Judgement { criterion, finding: validator.validate(case) }
+        };
+        self.of_game.iter().map(judge).collect()
+    }
+
     fn ask(&self, game: &Game, level: &Level, seed: Seed, screen: bool) -> Report {
+        let analysis = Analysis::of(game);
         let mut report = Report { judgements: Vec::new(), witness: None };
         for validator in &self.validators {
             let criterion = validator.name();
-            let case = Case { game, level, seed: seed.child(criterion, 0), witness: report.witness.as_ref() };
+            let witness = report.witness.as_ref();
+            let case = Case { game, level, seed: seed.child(criterion, 0), analysis: &analysis, witness };
             let finding = validator.validate(case);
-            if let Verdict::Pass { witness: Some(witness) } = &finding.verdict {
+            if let (Verdict::Pass { witness: Some(witness) }, None) = (&finding.verdict, &report.witness) {
                 report.witness = Some(witness.clone());
             }
             let passed = finding.verdict.is_pass();

@@ -1,6 +1,7 @@
 //! Is it won by pressing any key?
 
-use crate::verdict::{Case, Finding, Rate, Reason, Validator, Verdict};
+use crate::ending::Ending;
+use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
 use agents::{Budget, Limits, Play, Random, play};
 use engine::Outcome;
 use rayon::prelude::*;
@@ -37,15 +38,20 @@ impl Validator for NotRandom {
             .collect();
         let measured = Rate::of(&played);
         let share = measured.wins as f64 / measured.plays.max(1) as f64;
-        let won = played.into_iter().find(|play| play.episode.outcome == Outcome::Won);
-        let verdict = if share > self.most {
-            let Rate { wins, plays, .. } = measured;
-            let reason =
-                format!("random play wins {wins} of {plays} episodes, more than {:.0} %", 100.0 * self.most);
-            Verdict::Fail { reason: Reason(reason), witness: won.map(|play| play.episode) }
-        } else {
-            Verdict::pass()
+        let won = played.iter().map(|play| &play.episode).filter(|episode| episode.outcome == Outcome::Won);
+        let shortest = won.min_by_key(|episode| episode.actions.len());
+        let finding = match shortest.filter(|_| share > self.most) {
+            None => Finding::from(Verdict::pass()),
+            Some(shortest) => {
+                let Rate { wins, plays, .. } = measured;
+                let most = 100.0 * self.most;
+                let reason = format!("random play wins {wins} of {plays} episodes, more than {most:.0} %");
+                let ending = Ending::of(case.analysis, case.level, shortest).evidence(case.game);
+                let advice = "put the goal farther off, or something in the way that takes a plan";
+                let ending = ending.into_iter().map(|seen| seen.advise(advice));
+                Finding::from(Verdict::fail_with(reason, shortest.clone())).seen(ending)
+            }
         };
-        Finding { verdict, measured: Some(measured) }
+        finding.measured(measured).played(played.into_iter().map(|play| play.episode))
     }
 }

@@ -1,6 +1,8 @@
 //! What a validator is asked, and what it answers.
 
-use engine::{Episode, Game, Level, Seed};
+use crate::evidence::Evidence;
+use crate::ladder::Ladder;
+use engine::{Analysis, Episode, Game, Level, Seed};
 use serde::{Deserialize, Serialize};
 
 /// What is judged, and with which seed.
@@ -12,6 +14,8 @@ pub struct Case<'a> {
     pub level: &'a Level,
     /// Where the validator's own chance comes from.
     pub seed: Seed,
+    /// What the rules of the game mean.
+    pub analysis: &'a Analysis,
     /// An episode that wins, if an earlier validator found one.
     pub witness: Option<&'a Episode>,
 }
@@ -25,7 +29,7 @@ pub trait Validator: Sync {
     fn validate(&self, case: Case<'_>) -> Finding;
 }
 
-/// A verdict and what was measured on the way.
+/// A verdict, and what was seen and measured on the way.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// The answer.
@@ -34,11 +38,42 @@ pub struct Finding {
     /// How often players won, where players played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Rate>,
+    /// What was seen, in the order of telling.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub evidence: Vec<Evidence>,
+    /// How a ladder of players fared, where one played.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ladder: Option<Ladder>,
+    /// Episodes that were played: what shows which rules are used.
+    #[serde(skip)]
+    pub episodes: Vec<Episode>,
 }
 
 impl From<Verdict> for Finding {
     fn from(verdict: Verdict) -> Finding {
-        Finding { verdict, measured: None }
+        Finding { verdict, measured: None, evidence: Vec::new(), ladder: None, episodes: Vec::new() }
+    }
+}
+
+impl Finding {
+    /// With a rate.
+    #[must_use]
+    pub fn measured(self, rate: Rate) -> Finding {
+        Finding { measured: Some(rate), ..self }
+    }
+
+    /// With evidence.
+    #[must_use]
+    pub fn seen(mut self, evidence: impl IntoIterator<Item = Evidence>) -> Finding {
+        self.evidence.extend(evidence);
+        self
+    }
+
+    /// With episodes.
+    #[must_use]
+    pub fn played(mut self, episodes: impl IntoIterator<Item = Episode>) -> Finding {
+        self.episodes.extend(episodes);
+        self
     }
 }
 
@@ -78,6 +113,11 @@ impl Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: None }
     }
 
+    /// A failure that an episode shows.
+    pub fn fail_with(reason: impl Into<String>, witness: Episode) -> Verdict {
+        Verdict::Fail { reason: Reason(reason.into()), witness: Some(witness) }
+    }
+
     /// Whether the answer is yes.
     pub fn is_pass(&self) -> bool {
         matches!(self, Verdict::Pass { .. })
@@ -89,7 +129,7 @@ impl Verdict {
 #[serde(transparent)]
 pub struct Reason(pub String);
 
-/// How often players won.
+/// How often players won, and how they scored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// Episodes won.

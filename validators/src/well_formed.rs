@@ -1,7 +1,9 @@
 //! Is there a game at all?
 
+use crate::ending::Ending;
+use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Validator, Verdict};
-use engine::{Action, Analysis, Outcome};
+use engine::{Action, Episode, Outcome};
 
 /// The game can be won in principle, is not over in its first tick, and does nothing that the engine stops at.
 ///
@@ -15,21 +17,29 @@ impl Validator for WellFormed {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        if !Analysis::of(case.game).can_win() {
-            let told = case.game.warnings().iter().find(|warning| warning.code == "no-win");
+        let Case { game, level, analysis, seed, .. } = case;
+        if !analysis.can_win() {
+            let told = game.warnings().iter().find(|warning| warning.code == "no-win");
             let reason = told.map_or("the game cannot be won", |warning| warning.message.as_str());
-            return Verdict::fail(reason).into();
+            let help = told.and_then(|warning| warning.help.clone());
+            let wins = analysis.goals().iter().filter(|goal| goal.win);
+            let seen = wins.map(|goal| Evidence {
+                text: "this can never hold".to_owned(),
+                rule: Some(Line::termination(game, goal.line)),
+                advice: help.clone(),
+                ..Evidence::default()
+            });
+            return Finding::from(Verdict::fail(reason)).seen(seen);
         }
-        let mut state = case.game.start(case.level, case.seed);
-        let verdict = match case.game.step(&mut state, Action::Nil) {
-            Outcome::Ongoing => Verdict::pass(),
-            Outcome::Won => {
-                Verdict::fail("the game is won in its first tick: a termination holds at the start")
-            }
-            Outcome::Lost => Verdict::fail("the game is lost in its first tick"),
-            Outcome::Ended => Verdict::fail("the game ends in its first tick, without a winner"),
-            Outcome::Stopped(limit) => Verdict::fail(format!("the game stops in its first tick: {limit}")),
+        let (mut episode, mut state) = Episode::begin(game, level, seed);
+        let reason = match episode.play(game, &mut state, Action::Nil) {
+            Outcome::Ongoing => return Verdict::pass().into(),
+            Outcome::Won => "the game is won in its first tick: a termination holds at the start".to_owned(),
+            Outcome::Lost => "the game is lost in its first tick".to_owned(),
+            Outcome::Ended => "the game ends in its first tick, without a winner".to_owned(),
+            Outcome::Stopped(limit) => format!("the game stops in its first tick: {limit}"),
         };
-        verdict.into()
+        let seen = Ending::of(analysis, level, &episode).evidence(game);
+        Finding::from(Verdict::fail_with(reason, episode)).seen(seen)
     }
 }

@@ -69,6 +69,6 @@ impl Validator for Winnable {
             Some(play) => Verdict::Pass { witness: Some(play.episode.clone()) },
             None => Verdict::Unknown { spent: measured.calls },
         };
-        Finding { verdict, measured: Some(measured) }
+        Finding::from(verdict).measured(measured).played(played.into_iter().map(|play| play.episode))
     }
 }

@@ -1,19 +1,25 @@
-//! `arcade validate`: is this game or level well-formed, winnable, and not for free?
+//! `arcade validate`: is this game or level well-formed, winnable, fair and worth playing?
+
+mod document;
+mod text;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
-use crate::render::{self, Placed};
-use engine::syntax::InteractionLine;
-use engine::{Analysis, Digest, Episode, Game, Level, Seed, Watch, describe};
-use serde::Serialize;
-use std::fmt::Write;
+use crate::render;
+use document::{Document, LevelDocument};
+use engine::{Analysis, Episode, Game, Level, Seed, describe};
+use rayon::prelude::*;
 use std::path::PathBuf;
-use validators::{Criteria, Judgement, Panel, Rate, Report, Verdict};
+use validators::{Criteria, Panel, Report};
 
 /// Judges a game and its levels: all problems of the files first, then each criterion of a release.
 ///
-/// Exit status 0: every level meets every criterion. 1: one does not, or could not be shown to. 2: a file is malformed.
+/// The verdict comes first, a line for each level and one for the game; then the reasons, each with what was seen and what
+/// to try. docs/validate.md says what each criterion asks.
+///
+/// Exit status 0: every level and the game meet every criterion. 1: one does not, or could not be shown to. 2: a file is
+/// malformed.
 ///
 /// Example: arcade validate my-game/ --witness win.json
 #[derive(clap::Args)]
@@ -38,27 +44,21 @@ pub(crate) struct Args {
     witness: Option<PathBuf>,
 }
 
-#[derive(Serialize)]
-struct Document {
-    game: String,
-    digest: Option<Digest>,
-    passes: bool,
-    problems: Vec<Placed>,
-    levels: Vec<LevelDocument>,
+/// A level, and what was found of it: problems of its text, or judgements.
+struct Judged<'a> {
+    named: &'a Named,
+    level: Result<Level, engine::Diagnostics>,
+    report: Option<Report>,
 }
 
-#[derive(Serialize)]
-struct LevelDocument {
-    level: String,
-    digest: Option<Digest>,
-    passes: bool,
-    problems: Vec<Placed>,
-    /// Terminations that win and can never hold in the level, whatever is played, with the cause.
-    out_of_reach: Vec<String>,
-    /// Interactions that the witness never executes.
-    unused_rules: Vec<String>,
-    #[serde(flatten)]
-    report: Option<Report>,
+impl<'a> Judged<'a> {
+    /// Judges a level. The seed is the level's own, so that it gets the same answer alone and among others.
+    fn of(game: &Game, named: &'a Named, panel: &Panel, seed: Seed) -> Judged<'a> {
+        let level = game.level(&named.text);
+        let judge = |level: &Level| panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
+        let report = level.as_ref().ok().map(judge);
+        Judged { named, level, report }
+    }
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -67,10 +67,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let game = match load(&input.source.text) {
         Ok(game) => game,
         Err(problems) => {
-            let problems_placed = render::placed(&input.source, &problems.0);
-            let (digest, passes, levels) = (None, false, Vec::new());
-            let game = input.source.name.clone();
-            console.document(&Document { game, digest, passes, problems: problems_placed, levels })?;
+            console.document(&Document::of_malformed(&input.source, &problems.0))?;
             return Err(Failure::malformed(render::problems(&input.source, &problems.0)));
         }
     };
@@ -89,133 +86,91 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let message = format!("--witness takes one level, not {}: name it after the game", levels.len());
         return Err(Failure::malformed(message));
     }
-    for warning in game.warnings() {
-        console.say(render::one(&input.source, warning).trim_end());
-    }
-    let criteria = Criteria { budget: args.budget, ..Criteria::default() };
+    let criteria = Criteria { budget: args.budget, ..Criteria::full() };
     let panel = Panel::new(&criteria);
     let seed = Seed::from_text(&args.seed);
-    let analysis = Analysis::of(&game);
-    let mut documents = Vec::new();
-    let mut malformed = Vec::new();
     let bar = console.progress(levels.len() as u64, "judging");
-    for named in &levels {
-        let level = match game.level(&named.text) {
-            Ok(level) => level,
-            Err(problems) => {
-                malformed.push(render::problems(named, &problems.0));
-                let problems = render::placed(named, &problems.0);
-                let (level, digest, passes, report) = (named.name.clone(), None, false, None);
-                let (out_of_reach, unused_rules) = (Vec::new(), Vec::new());
-                documents.push(LevelDocument {
-                    level,
-                    digest,
-                    passes,
-                    problems,
-                    out_of_reach,
-                    unused_rules,
-                    report,
-                });
-                continue;
-            }
-        };
-        for warning in level.warnings() {
-            console.say(render::one(named, warning).trim_end());
-        }
-        // The seed is the level's own, so that judging it alone or among others gives the same answer.
-        let report = panel.judge(&game, &level, seed.child(&level.digest().to_string(), 0));
-        bar.inc(1);
-        console.say(table(named, &report).trim_end());
-        let out_of_reach = describe::hindered_wins(&analysis, &level, &analysis.reach(&level));
-        for sentence in &out_of_reach {
-            console.say(format_args!("  note  out of reach: {sentence}"));
-        }
-        let unused_rules =
-            report.witness.as_ref().map_or(Vec::new(), |witness| unused(&game, &level, witness));
-        if !unused_rules.is_empty() {
-            console.say(format_args!(
-                "  note  rules that the winning episode never uses: {}",
-                unused_rules.join("; ")
-            ));
-        }
-        if let (Some(path), Some(witness)) = (&args.witness, &report.witness) {
-            let text = serde_json::to_string(witness)
-                .map_err(|error| Failure::surroundings(error, "the witness cannot be written as JSON"))?;
-            std::fs::write(path, text).map_err(|error| Failure::surroundings(error, path.display()))?;
-            console.say(format_args!("witness written to {}", path.display()));
-        }
-        documents.push(LevelDocument {
-            level: named.name.clone(),
-            digest: Some(level.digest()),
-            passes: report.passes(),
-            problems: render::placed(named, level.warnings()),
-            out_of_reach,
-            unused_rules,
-            report: Some(report),
-        });
-    }
+    let mut judged: Vec<Judged<'_>> = levels
+        .par_iter()
+        .map(|named| Judged::of(&game, named, &panel, seed))
+        .inspect(|_| bar.inc(1))
+        .collect();
+    let sound: Vec<Level> = judged.iter().filter_map(|judged| judged.level.clone().ok()).collect();
+    let reports: Vec<Report> = judged.iter().filter_map(|judged| judged.report.clone()).collect();
+    let mut of_game = panel.judge_together(&game, &sound, &reports, seed);
     bar.finish_and_clear();
-    let passes = documents.iter().all(|level| level.passes);
-    let (passed, count) = (documents.iter().filter(|level| level.passes).count(), documents.len());
-    console.document(&Document {
+    let findings = judged.iter_mut().filter_map(|judged| judged.report.as_mut());
+    let findings = findings.flat_map(|report| &mut report.judgements).chain(&mut of_game);
+    findings.for_each(|judgement| document::locate(&mut judgement.finding, &input.source));
+
+    let analysis = Analysis::of(&game);
+    let documents: Vec<LevelDocument<'_>> =
+        judged.iter().map(|judged| document_of(&analysis, judged)).collect();
+    let malformed: Vec<String> = judged
+        .iter()
+        .filter_map(|judged| Some(render::problems(judged.named, &judged.level.as_ref().err()?.0)))
+        .collect();
+    let passes_together = of_game.iter().all(|judgement| judgement.finding.verdict.is_pass());
+    let passes = passes_together && documents.iter().all(|level| level.passes);
+    let document = Document {
         game: input.source.name.clone(),
         digest: Some(game.digest()),
         passes,
+        seed: Some(&args.seed),
+        criteria: Some(&criteria),
         problems: render::placed(&input.source, game.warnings()),
         levels: documents,
-    })?;
+        judgements: &of_game,
+    };
+    console.document(&document)?;
+    console.say(text::review(&document, &input.source).trim_end());
+    for warning in game.warnings() {
+        console.say(format_args!("\n{}", render::one(&input.source, warning).trim_end()));
+    }
+    for judged in &judged {
+        for warning in judged.level.iter().flat_map(Level::warnings) {
+            console.say(format_args!("\n{}", render::one(judged.named, warning).trim_end()));
+        }
+    }
     if !malformed.is_empty() {
         return Err(Failure::malformed(malformed.join("\n")));
     }
-    console.say(format_args!("{passed} of {count} levels meet every criterion"));
+    if let Some(path) = &args.witness {
+        match judged.iter().find_map(|judged| judged.report.as_ref()?.witness.as_ref()) {
+            Some(witness) => {
+                save(witness, path)?;
+                console.say(format_args!("witness written to {}", path.display()));
+            }
+            None => console.remark(format_args!("{}: not written, as no win was found", path.display())),
+        }
+    }
     Ok(passes)
 }
 
-/// Marks the interactions that are executed.
-struct Used(Vec<bool>);
-
-impl Watch for Used {
-    fn interaction(&mut self, line: usize) {
-        self.0[line] = true;
-    }
+fn save(witness: &Episode, path: &PathBuf) -> Result<(), Failure> {
+    let text = serde_json::to_string(witness)
+        .map_err(|error| Failure::surroundings(error, "the witness cannot be written as JSON"))?;
+    std::fs::write(path, text).map_err(|error| Failure::surroundings(error, path.display()))
 }
 
-/// The interaction lines that an episode never executes, as `first second … > effect`.
-fn unused(game: &Game, level: &Level, witness: &Episode) -> Vec<String> {
-    let lines = &game.description().interactions;
-    let mut used = Used(vec![false; lines.len()]);
-    let mut state = game.start(level, witness.seed);
-    for &action in &witness.actions {
-        game.step_watched(&mut state, action, &mut used);
-    }
-    let text = |line: &InteractionLine| {
-        let second: Vec<&str> = line.second.iter().map(|word| word.text.as_str()).collect();
-        format!("`{} {} > {}`", line.first.text, second.join(" "), line.effect.text)
+fn document_of<'a>(analysis: &Analysis, judged: &'a Judged<'_>) -> LevelDocument<'a> {
+    let Judged { named, level, report } = judged;
+    let problems = match level {
+        Ok(level) => level.warnings(),
+        Err(problems) => &problems.0,
     };
-    lines.iter().zip(used.0).filter(|(_, used)| !used).map(|(line, _)| text(line)).collect()
-}
-
-/// The judgements on one level, a line each.
-fn table(level: &Named, report: &Report) -> String {
-    let mut text = format!("{}\n", level.name);
-    for Judgement { criterion, finding } in &report.judgements {
-        let measured = finding.measured.as_ref().map_or(String::new(), rate);
-        let (mark, words) = match &finding.verdict {
-            Verdict::Pass { witness: Some(witness) } => {
-                ("pass", format!("won in {} ticks, score {}", witness.actions.len(), witness.score))
-            }
-            Verdict::Pass { witness: None } => ("pass", String::new()),
-            Verdict::Fail { reason, .. } => ("FAIL", reason.0.clone()),
-            Verdict::Unknown { spent: 0 } => ("?", "nothing to judge without a win".to_owned()),
-            Verdict::Unknown { spent } => ("?", format!("no win found with {spent} forward-model calls")),
-        };
-        let comma = if words.is_empty() || measured.is_empty() { "" } else { "; " };
-        let _ = writeln!(text, "  {mark:<5}{criterion:<13}{words}{comma}{measured}");
+    let out_of_reach =
+        level.as_ref().map(|level| describe::hindered_wins(analysis, level, &analysis.reach(level)));
+    LevelDocument {
+        level: named.name.clone(),
+        digest: level.as_ref().ok().map(Level::digest),
+        passes: report.as_ref().is_some_and(Report::passes),
+        problems: render::placed(named, problems),
+        board: level
+            .as_ref()
+            .map_or(Vec::new(), |level| level.to_string().lines().map(str::to_owned).collect()),
+        out_of_reach: out_of_reach.unwrap_or_default(),
+        report: report.as_ref(),
+        witness: report.as_ref().and_then(|report| report.witness.as_ref()),
     }
-    text
-}
-
-fn rate(rate: &Rate) -> String {
-    let Rate { wins, plays, interval: [low, high], .. } = rate;
-    format!("{wins} of {plays} plays won (95 %: {:.0} to {:.0} %)", 100.0 * low, 100.0 * high)
 }

@@ -24,23 +24,32 @@ pub(super) struct Levels<'a> {
 }
 
 impl Levels<'_> {
-    /// All levels, from the easiest asked for to the hardest; None as soon as one cannot be had.
+    /// All levels, from the easiest asked for to the hardest; None as soon as one cannot be had, or if the game does not meet
+    /// a criterion on all of them together.
     pub(super) fn mint(&self, game: &Game, tally: &mut Tally) -> Option<Vec<MintedLevel>> {
-        let mut minted: Vec<MintedLevel> = Vec::new();
+        let mut found: Vec<Found> = Vec::new();
         for number in 0..self.part.levels {
-            let taken: Vec<Digest> = minted.iter().map(|level| level.card.digest).collect();
+            let taken: Vec<Digest> = found.iter().map(|found| found.level.digest()).collect();
             match self.level(game, number, &taken, tally) {
-                Some(level) => minted.push(level),
+                Some(level) => found.push(level),
                 None => {
                     tally.game_rejected(&format!("no level {number}"));
                     return None;
                 }
             }
         }
-        Some(minted)
+        let (levels, reports): (Vec<Level>, Vec<Report>) =
+            found.iter().map(|found| (found.level.clone(), found.report.clone())).unzip();
+        let together =
+            self.panel.judge_together(game, &levels, &reports, self.seed.child("judges of the game", 0));
+        if let Some(obstacle) = together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {
+            tally.game_rejected(obstacle.criterion);
+            return None;
+        }
+        found.into_iter().map(minted).collect()
     }
 
-    fn level(&self, game: &Game, number: u32, taken: &[Digest], tally: &mut Tally) -> Option<MintedLevel> {
+    fn level(&self, game: &Game, number: u32, taken: &[Digest], tally: &mut Tally) -> Option<Found> {
         let difficulty = f64::from(number) / f64::from((self.part.levels - 1).max(1));
         let board = &self.recipe.board;
         let config = LevelConfig { columns: board.columns, rows: board.rows, difficulty };
@@ -69,14 +78,17 @@ impl Levels<'_> {
             tally.level(calls(&report), obstacle);
             if obstacle.is_none() {
                 let file = format!("lvl{number}.txt");
-                return minted(level, report, LevelPlace { file, difficulty, candidate });
+                return Some(Found { level, report, file, difficulty, candidate });
             }
         }
         None
     }
 }
 
-struct LevelPlace {
+/// A level that passed, and its place.
+struct Found {
+    level: Level,
+    report: Report,
     file: String,
     difficulty: f64,
     candidate: u32,
@@ -91,25 +103,24 @@ fn calls(report: &Report) -> u64 {
         .sum()
 }
 
-fn minted(level: Level, report: Report, place: LevelPlace) -> Option<MintedLevel> {
-    let rate = |criterion: &str| -> Option<Rate> {
-        let judgement = report.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
-        judgement.finding.measured.clone()
-    };
+fn minted(found: Found) -> Option<MintedLevel> {
+    let Found { level, report, file, difficulty, candidate } = found;
+    let rate = |criterion: &str| -> Option<Rate> { report.finding(criterion)?.measured.clone() };
     let witness = report.witness.clone()?;
     let card = LevelCard {
-        file: place.file,
+        file,
         digest: level.digest(),
         columns: level.columns(),
         rows: level.rows(),
         generator: "constructive".to_owned(),
-        difficulty: place.difficulty,
-        candidate: place.candidate,
+        difficulty,
+        candidate,
         witness_ticks: witness.actions.len(),
         witness_score: witness.score,
         mcts: rate("winnable")?,
         random: rate("not-random")?,
         idle: rate("not-idle")?,
+        ladder: report.ladder().cloned(),
     };
     Some(MintedLevel { text: level.to_string(), card, witness })
 }

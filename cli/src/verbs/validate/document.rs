@@ -1,0 +1,58 @@
+//! The answer for programs; `docs/validate.md` is its schema.
+
+use crate::input::Named;
+use crate::render::{self, Placed};
+use engine::{Diagnostic, Digest, Episode, line_and_column};
+use serde::Serialize;
+use validators::{Criteria, Finding, Judgement, Report};
+
+#[derive(Serialize)]
+pub(super) struct Document<'a> {
+    pub(super) game: String,
+    pub(super) digest: Option<Digest>,
+    pub(super) passes: bool,
+    pub(super) seed: Option<&'a str>,
+    pub(super) criteria: Option<&'a Criteria>,
+    pub(super) problems: Vec<Placed>,
+    pub(super) levels: Vec<LevelDocument<'a>>,
+    /// Of the game over all its levels.
+    pub(super) judgements: &'a [Judgement],
+}
+
+impl Document<'_> {
+    /// The answer for a game that does not compile.
+    pub(super) fn of_malformed(source: &Named, problems: &[Diagnostic]) -> Document<'static> {
+        Document {
+            game: source.name.clone(),
+            digest: None,
+            passes: false,
+            seed: None,
+            criteria: None,
+            problems: render::placed(source, problems),
+            levels: Vec::new(),
+            judgements: &[],
+        }
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct LevelDocument<'a> {
+    pub(super) level: String,
+    pub(super) digest: Option<Digest>,
+    pub(super) passes: bool,
+    pub(super) problems: Vec<Placed>,
+    /// The level's characters, from the top.
+    pub(super) board: Vec<String>,
+    /// Terminations that win and can never hold in the level, whatever is played, with the cause.
+    pub(super) out_of_reach: Vec<String>,
+    #[serde(flatten)]
+    pub(super) report: Option<&'a Report>,
+    pub(super) witness: Option<&'a Episode>,
+}
+
+/// Fills in the line numbers of the rules that evidence is about.
+pub(super) fn locate(finding: &mut Finding, source: &Named) {
+    for rule in finding.evidence.iter_mut().filter_map(|seen| seen.rule.as_mut()) {
+        rule.line = Some(line_and_column(&source.text, rule.span.start).0);
+    }
+}

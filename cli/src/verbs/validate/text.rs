@@ -1,0 +1,204 @@
+//! The answer for people: the verdict first, then the reasons.
+
+use super::document::{Document, LevelDocument};
+use crate::input::Named;
+use std::fmt::Write;
+use validators::{Board, Evidence, Fared, Judgement, Ladder, Rate, Report, Verdict};
+
+/// Widest board that is shown.
+const WIDEST: usize = 100;
+/// Boards of a level that are shown at most.
+const MOST_BOARDS: usize = 2;
+/// Pieces of evidence of one criterion that are shown at most.
+const MOST_SEEN: usize = 6;
+
+/// The whole answer.
+pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
+    let mut text = String::new();
+    let names = document.levels.iter().map(|level| level.level.len());
+    let width = names.chain([source.name.len()]).max().unwrap_or_default();
+    for level in &document.levels {
+        let _ = writeln!(text, "{:<width$}  {}", level.level, headline(level));
+    }
+    let passed = document.levels.iter().filter(|level| level.passes).count();
+    let count = document.levels.len();
+    let together = document.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass());
+    let of_game = match together {
+        Some(judgement) => format!("; {}", obstacle(judgement)),
+        None => String::new(),
+    };
+    let word = if document.passes { "passes" } else { "does not pass" };
+    let _ = writeln!(
+        text,
+        "{:<width$}  {word}: {passed} of {count} levels meet every criterion{of_game}",
+        source.name
+    );
+    for level in &document.levels {
+        if let Some(report) = level.report {
+            let _ = writeln!(text, "\n{}", level.level);
+            reasons(&mut text, report, level, source);
+        }
+    }
+    if !document.judgements.is_empty() {
+        let _ = writeln!(text, "\n{}, all levels together", source.name);
+        let mut boards = 0;
+        for judgement in document.judgements {
+            criterion(&mut text, judgement, source, &mut boards);
+        }
+    }
+    text
+}
+
+/// The verdict on a level, in one line.
+fn headline(level: &LevelDocument<'_>) -> String {
+    let Some(report) = level.report else { return "is no level of this game".to_owned() };
+    if let Some(judgement) = report.first_obstacle() {
+        return obstacle(judgement);
+    }
+    let won =
+        report.witness.as_ref().map_or(String::new(), |won| format!(": won in {} ticks", won.actions.len()));
+    let hard = report.ladder().map_or(String::new(), |ladder| format!(", {}", ladder.difficulty));
+    format!("passes{won}{hard}")
+}
+
+/// What keeps something from passing, in one line.
+fn obstacle(Judgement { criterion, finding }: &Judgement) -> String {
+    match &finding.verdict {
+        Verdict::Fail { reason, .. } => format!("FAILS {criterion}: {}", reason.0),
+        _ => format!("not shown to pass {criterion}: {}", answer(criterion, finding)),
+    }
+}
+
+fn reasons(text: &mut String, report: &Report, level: &LevelDocument<'_>, source: &Named) {
+    if !report.passes() {
+        board(text, &level.board);
+    }
+    let mut boards = 0;
+    for judgement in &report.judgements {
+        criterion(text, judgement, source, &mut boards);
+        if let Some(ladder) = &judgement.finding.ladder {
+            climbed(text, ladder);
+        }
+    }
+}
+
+/// One criterion: the answer, and what was seen.
+fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &mut usize) {
+    let Judgement { criterion, finding } = judgement;
+    let mark = match &finding.verdict {
+        Verdict::Pass { .. } => "pass",
+        Verdict::Fail { .. } => "FAIL",
+        Verdict::Unknown { .. } => "?",
+    };
+    let words = answer(criterion, finding);
+    let measured = finding.measured.as_ref().filter(|rate| rate.plays > 0).map_or(String::new(), rate);
+    let comma = if words.is_empty() || measured.is_empty() { "" } else { "; " };
+    let line = format!("  {mark:<5}{criterion:<13}{words}{comma}{measured}");
+    let _ = writeln!(text, "{}", line.trim_end());
+    // The reason has said what the first one says.
+    let told = |seen: &&Evidence| seen.rule.is_some() || !words.contains(seen.text.as_str());
+    let shown: Vec<&Evidence> = finding.evidence.iter().filter(told).collect();
+    for seen in shown.iter().take(MOST_SEEN) {
+        evidence(text, seen, &words, source);
+        if let Some(seen) = seen.board.as_ref().filter(|_| *boards < MOST_BOARDS && mark != "pass") {
+            *boards += 1;
+            moment(text, seen);
+        }
+    }
+    if shown.len() > MOST_SEEN {
+        let _ = writeln!(text, "       and {} more (all with --json)", shown.len() - MOST_SEEN);
+    }
+    let mut advice: Vec<&str> = finding.evidence.iter().filter_map(|seen| seen.advice.as_deref()).collect();
+    advice.dedup();
+    for advice in advice.iter().take(2) {
+        let _ = writeln!(text, "       try: {advice}");
+    }
+}
+
+/// What a verdict says beside yes, no and unknown.
+fn answer(criterion: &str, finding: &validators::Finding) -> String {
+    match &finding.verdict {
+        Verdict::Pass { witness: Some(witness) } => {
+            format!("won in {} ticks, score {}", witness.actions.len(), witness.score)
+        }
+        Verdict::Pass { witness: None } => String::new(),
+        Verdict::Fail { reason, .. } => reason.0.clone(),
+        Verdict::Unknown { spent: 0 } => "nothing to judge without a win".to_owned(),
+        Verdict::Unknown { spent } => match criterion {
+            "winnable" => format!("no win found with {spent} forward-model calls; that proves nothing"),
+            "early-death" => {
+                format!("no way to live through the start found with {spent} forward-model calls")
+            }
+            "skill" => format!("too few plays to tell, {spent} forward-model calls"),
+            _ => {
+                let first = finding.evidence.first().map_or("not shown", |seen| seen.text.as_str());
+                let others = finding.evidence.iter().filter(|seen| seen.advice.is_some()).count();
+                match others {
+                    0 | 1 => first.to_owned(),
+                    _ => format!("{first}, and {} more", others - 1),
+                }
+            }
+        },
+    }
+}
+
+/// A thing that was seen: in words, with its tick, cell and line.
+fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
+    let mut parts = Vec::new();
+    if !said.contains(seen.text.as_str()) {
+        parts.push(seen.text.clone());
+    }
+    if let Some(tick) = seen.tick {
+        parts.push(format!("tick {tick}"));
+    }
+    if let Some((column, row)) = seen.cell {
+        parts.push(format!("column {column}, row {row}"));
+    }
+    if let Some(rule) = &seen.rule {
+        let quoted = format!("`{}`", rule.text);
+        let place = rule.line.map_or(String::new(), |line| format!("{}:{line}", source.name));
+        let said = said.contains(&quoted) || seen.text.contains(&quoted);
+        parts.push(if said { place } else { format!("{place} {quoted}") });
+    }
+    if !parts.is_empty() {
+        let _ = writeln!(text, "       - {}", parts.join("; "));
+    }
+}
+
+/// How the board looked, with a legend.
+fn moment(text: &mut String, Board { rows, legend }: &Board) {
+    board(text, rows);
+    let legend: Vec<String> = legend.iter().map(|(symbol, name)| format!("{symbol} {name}")).collect();
+    let _ = writeln!(text, "       ({})", legend.join(", "));
+}
+
+fn board(text: &mut String, rows: &[String]) {
+    if rows.iter().all(|row| row.chars().count() <= WIDEST) {
+        for row in rows {
+            let _ = writeln!(text, "       {}", row.trim_end());
+        }
+    }
+}
+
+/// How the players of a ladder fared.
+fn climbed(text: &mut String, ladder: &Ladder) {
+    let ease = ladder.ease.map_or(String::new(), |ease| format!(" (ease {ease:.2})"));
+    let _ = writeln!(text, "       difficulty: {}{ease}", ladder.difficulty);
+    let players = ladder.rungs.iter().chain(&ladder.held_out);
+    let width = players.clone().map(|fared| fared.player.len()).max().unwrap_or_default();
+    for fared in players {
+        let Fared { player, rate, win_ticks, .. } = fared;
+        let [low, high] = rate.interval.map(|end| 100.0 * end);
+        let ticks = win_ticks.map_or(String::new(), |ticks| format!(", a win takes {ticks:.0} ticks"));
+        let _ = writeln!(
+            text,
+            "         {player:<width$} {:>3} of {} won (95 %: {low:>2.0} to {high:>3.0} %), score {:.1}{ticks}",
+            rate.wins, rate.plays, rate.mean_score,
+        );
+    }
+}
+
+fn rate(rate: &Rate) -> String {
+    let Rate { wins, plays, interval: [low, high], .. } = rate;
+    format!("{wins} of {plays} plays won (95 %: {:.0} to {:.0} %)", 100.0 * low, 100.0 * high)
+}

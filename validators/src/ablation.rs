@@ -1,0 +1,206 @@
+//! Would anything be different without this rule?
+
+use crate::evidence::{Evidence, Line};
+use crate::game_report::{GameCase, GameValidator};
+use crate::recording::{Recorded, Use};
+use crate::rule_use::more;
+use crate::verdict::{Finding, Verdict};
+use agents::{Budget, Limits, Mcts, MctsConfig, play};
+use engine::{Action, Chance, Episode, Game, Outcome, Seed, SpriteRecord, State};
+use rayon::prelude::*;
+
+/// Every interaction that is executed matters: with its consequences disabled but its draws kept
+/// ([`Game::without`]), some outcome or score changes.
+///
+/// Three questions, the cheapest first. Do recorded episodes that execute it end otherwise, when their keys are pressed
+/// without it? Do random futures, from just before it is executed, with the same dice? Does what a searching player does
+/// without it lead elsewhere with it? One change is enough. Where not even the state differs after any execution that was
+/// looked at, the rule is idle: a failure. Where the state differs, but nothing that was tried ends otherwise, the answer is
+/// unknown.
+#[derive(Clone, Copy, Debug)]
+pub struct RulesMatter {
+    /// Forward-model calls for each interaction.
+    pub calls: u64,
+}
+
+/// Futures from each execution.
+const FUTURES: u64 = 12;
+/// Ticks of a future.
+const DEPTH: usize = 60;
+/// Calls of a decision of the searching player, and how far it looks.
+const DECISION: Budget = Budget(300);
+const SIGHT: u32 = 20;
+/// Ticks of its plays.
+const PLAY: usize = 400;
+
+/// What became of one interaction.
+enum Found {
+    /// Something ends otherwise without it.
+    Matters,
+    /// The state differs, and nothing that was tried ends otherwise.
+    Unshown,
+    /// Not even the state differs.
+    Idle,
+}
+
+impl GameValidator for RulesMatter {
+    fn name(&self) -> &'static str {
+        "ablation"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let lines = case.usage.lines.iter().enumerate().filter(|(_, uses)| !uses.is_empty());
+        let lines: Vec<(usize, &Vec<Use>)> = lines.collect();
+        let found: Vec<(Found, u64)> =
+            lines.par_iter().map(|(line, uses)| self.try_without(case, *line, uses)).collect();
+        let spent = found.iter().map(|(_, spent)| spent).sum();
+        let (mut idle, mut unshown) = (Vec::new(), Vec::new());
+        for ((line, uses), (found, _)) in lines.iter().zip(&found) {
+            let rule = Line::interaction(case.game, *line);
+            let (text, list) = match found {
+                Found::Matters => continue,
+                Found::Idle => (format!("`{}` runs, and nothing follows from it", rule.text), &mut idle),
+                Found::Unshown => {
+                    let text = format!("without `{}` nothing that was tried ends otherwise", rule.text);
+                    (text, &mut unshown)
+                }
+            };
+            let first = &uses[0];
+            let seen = Evidence { text, tick: Some(first.tick + 1), rule: Some(rule), ..Evidence::default() };
+            list.push(seen.advise("remove it, or let what it does count for a score or an ending"));
+        }
+        let verdict = match (idle.first(), unshown.is_empty()) {
+            (Some(first), _) => Verdict::fail(more(&first.text, idle.len() - 1)),
+            (None, false) => Verdict::Unknown { spent },
+            (None, true) => Verdict::pass(),
+        };
+        Finding::from(verdict).seen(idle).seen(unshown)
+    }
+}
+
+impl RulesMatter {
+    fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use]) -> (Found, u64) {
+        let without = case.game.without(line);
+        let mut calls = 0;
+        let of = |at: &Use| (case.recording[at.level], &case.recording[at.level].episodes[at.episode]);
+        for at in uses {
+            let (recorded, episode) = of(at);
+            calls += episode.actions.len() as u64;
+            if ends(&without, recorded, episode.seed, &episode.actions) != (episode.outcome, episode.score) {
+                return (Found::Matters, calls);
+            }
+        }
+        let mut differs = false;
+        for (number, at) in uses.iter().enumerate() {
+            let (recorded, episode) = of(at);
+            let seed = case.seed.child("line", line as u64).child("future", number as u64);
+            let futures = Futures { with: case.game, without: &without, recorded, episode, tick: at.tick };
+            let (matters, state, spent) = futures.differ(seed);
+            calls += spent;
+            differs |= state;
+            if matters {
+                return (Found::Matters, calls);
+            }
+            if calls >= self.calls {
+                break;
+            }
+        }
+        let mut levels: Vec<usize> = uses.iter().map(|at| at.level).collect();
+        levels.dedup();
+        for (number, level) in levels.into_iter().enumerate() {
+            if calls >= self.calls {
+                break;
+            }
+            let recorded = case.recording[level];
+            let seed = case.seed.child("line", line as u64).child("play", number as u64);
+            let mut planner = Mcts::new(MctsConfig::bold(SIGHT), seed.child("planner", 0));
+            let limits = Limits { ticks: PLAY, calls: self.calls - calls };
+            let played =
+                play(&without, recorded.level, &mut planner, DECISION, seed.child("chance", 0), limits);
+            calls += played.calls;
+            let Episode { seed, actions, outcome, score, .. } = &played.episode;
+            if ends(case.game, recorded, *seed, actions) != (*outcome, *score) {
+                return (Found::Matters, calls);
+            }
+        }
+        (if differs { Found::Unshown } else { Found::Idle }, calls)
+    }
+}
+
+/// How an episode with these keys ends.
+fn ends(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]) -> (Outcome, f64) {
+    let mut state = game.start(recorded.level, seed);
+    for &action in actions {
+        game.step(&mut state, action);
+    }
+    (state.outcome(), state.score())
+}
+
+/// Random futures of an episode, from just before a rule is executed for the first time: with it and without it.
+struct Futures<'a> {
+    with: &'a Game,
+    without: &'a Game,
+    recorded: Recorded<'a>,
+    episode: &'a Episode,
+    tick: usize,
+}
+
+impl Futures<'_> {
+    /// Whether some future ends otherwise without the rule, whether the episode ever looks different, and the calls.
+    fn differ(&self, seed: Seed) -> (bool, bool, u64) {
+        // States know what their game has foreseen, so each game plays the way to its own.
+        let before = [self.with, self.without].map(|game| {
+            let mut state = game.start(self.recorded.level, self.episode.seed);
+            self.episode.actions[..self.tick].iter().for_each(|&action| {
+                game.step(&mut state, action);
+            });
+            state
+        });
+        let mut calls = 2 * self.tick as u64;
+        let mut scratch = before.clone();
+        let mut differs = false;
+        for &action in &self.episode.actions[self.tick..] {
+            let [with, without] = &mut scratch;
+            self.with.step(with, action);
+            self.without.step(without, action);
+            calls += 2;
+            if self.looks(with) != self.looks(without) {
+                differs = true;
+                break;
+            }
+        }
+        for number in 0..FUTURES {
+            let mut choices = seed.child("keys", number).sampler();
+            let chance = Chance::from_java(choices.bits() as i64);
+            for (scratch, before) in scratch.iter_mut().zip(&before) {
+                scratch.fork_from(before, chance);
+            }
+            let [with, without] = &mut scratch;
+            for ahead in 0..DEPTH {
+                let action = match ahead {
+                    0 => self.episode.actions[self.tick],
+                    _ => *choices.choose(self.with.actions(with)),
+                };
+                self.with.step(with, action);
+                self.without.step(without, action);
+                calls += 2;
+                if told(with) != told(without) {
+                    return (true, true, calls);
+                }
+                if with.is_over() {
+                    break;
+                }
+            }
+        }
+        (false, differs, calls)
+    }
+
+    /// All that can be told of a state, apart from what its rules remember.
+    fn looks(&self, state: &State) -> (Vec<SpriteRecord>, Vec<i32>, (Outcome, f64)) {
+        (self.with.records(state), state.counters().to_vec(), told(state))
+    }
+}
+
+fn told(state: &State) -> (Outcome, f64) {
+    (state.outcome(), state.score())
+}

@@ -1,0 +1,88 @@
+//! A board in characters, for reasons and reports: each type has a character of its own.
+
+use engine::{Game, SpriteType, State};
+use serde::Serialize;
+use std::collections::BTreeSet;
+
+/// A state of a level in characters.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Board {
+    /// From the top; one character a cell, that of the sprite that is drawn last.
+    pub rows: Vec<String>,
+    /// What the characters on the board stand for, by character.
+    pub legend: Vec<(char, String)>,
+}
+
+impl Board {
+    /// What a player sees of a state. Cost: O(sprites + cells).
+    pub fn of(game: &Game, state: &State) -> Board {
+        let symbols = symbols(game);
+        let seen = game.observe(state);
+        let mut legend = BTreeSet::new();
+        let symbol = |cell: &Vec<String>| {
+            let name = cell.last()?;
+            let (_, symbol) = symbols.iter().find(|(stype, _)| game.name(*stype) == name)?;
+            legend.insert((*symbol, name.clone()));
+            Some(*symbol)
+        };
+        let cells: Vec<char> = seen.cells.iter().map(symbol).map(|symbol| symbol.unwrap_or(' ')).collect();
+        let rows = cells.chunks(seen.columns.max(1)).map(|row| row.iter().collect()).collect();
+        Board { rows, legend: legend.into_iter().collect() }
+    }
+}
+
+/// Characters for types that no level character places alone, in the order of trying.
+const SPARE: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@#$%&*+=?!";
+
+/// A character for every type with a class: that of the LevelMapping which places it on top of others, or the first free one
+/// of its name, of the alphabet. Types beyond those share `~`.
+fn symbols(game: &Game) -> Vec<(SpriteType, char)> {
+    let mut free: BTreeSet<char> = (' '..='~').filter(|&symbol| symbol != ' ' && symbol != '~').collect();
+    let mut symbols: Vec<(SpriteType, char)> = Vec::new();
+    // Characters that place fewer sprites say more about the one on top.
+    let mut mapped: Vec<(usize, char, SpriteType)> = Vec::new();
+    for symbol in '!'..='}' {
+        let placed = game.places(symbol as u8);
+        let top = placed.iter().max_by_key(|stype| drawn(game, **stype));
+        mapped.extend(top.map(|&top| (placed.len(), symbol, top)));
+    }
+    mapped.sort_unstable();
+    for (_, symbol, top) in mapped {
+        if symbols.iter().all(|(stype, _)| *stype != top) {
+            free.remove(&symbol);
+            symbols.push((top, symbol));
+        }
+    }
+    for stype in game.sprite_types().filter(|&stype| game.class(stype).is_some()) {
+        if symbols.iter().any(|(known, _)| *known == stype) {
+            continue;
+        }
+        let wanted = game.name(stype).chars().chain(SPARE.chars()).find(|symbol| free.contains(symbol));
+        let symbol = wanted.unwrap_or('~');
+        free.remove(&symbol);
+        symbols.push((stype, symbol));
+    }
+    symbols
+}
+
+/// The place of a type in the drawing order.
+pub(crate) fn drawn(game: &Game, stype: SpriteType) -> usize {
+    game.drawing_order().iter().position(|&other| other == stype.0).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Seed;
+
+    #[test]
+    fn sprites_on_top_are_shown_each_by_its_own_character() {
+        let source = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    moss > Immovable\n    plum > Immovable\n    pip > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    p > floor moss plum\n    m > moss\n    A > floor avatar\n  InteractionSet\n    plum avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=plum win=True\n";
+        let game = Game::from_source(source).unwrap();
+        let state = game.start(&game.level(".Ap\nmm.\n").unwrap(), Seed::from_text("board"));
+        let board = Board::of(&game, &state);
+        assert_eq!(board.rows, [" Ap", "mm "]);
+        let legend = [('A', "avatar"), ('m', "moss"), ('p', "plum")];
+        assert_eq!(board.legend, legend.map(|(symbol, name)| (symbol, name.to_owned())));
+    }
+}

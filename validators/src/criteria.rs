@@ -1,0 +1,211 @@
+//! The thresholds of all criteria, in one place.
+
+use crate::ladder::{Climb, Rung};
+use serde::{Deserialize, Serialize};
+
+/// The thresholds of all criteria; what a recipe's `[criteria]` says. The page `docs/validate.md` says what each means.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Criteria {
+    /// The criteria to ask, by name. They are asked in an order of their own, the cheapest first.
+    pub ask: Vec<String>,
+    /// Forward-model calls of one decision of the searching player, and of players of the ladder without a number.
+    pub decision: u64,
+    /// Forward-model calls to find a win, all plays together.
+    pub budget: u64,
+    /// Look-ahead in ticks of each searching play.
+    pub depths: Vec<u32>,
+    /// Episodes of doing nothing.
+    pub idle_plays: u32,
+    /// Episodes of random play.
+    pub random_plays: u32,
+    /// The greatest share of them that may be won.
+    pub random_wins: f64,
+    /// Ticks that the shortest win found takes at least.
+    pub least_ticks: usize,
+    /// Ticks that it takes at most.
+    pub most_ticks: usize,
+    /// Ticks at the start in which death must be avoidable.
+    pub early_ticks: usize,
+    /// Forward-model calls to look for a way to live through them, for each game of chance.
+    pub early_calls: u64,
+    /// Games of chance to try that in.
+    pub early_chances: u32,
+    /// The greatest share of them in which death may be unavoidable.
+    pub early_deaths: f64,
+    /// The players that difficulty and skill are measured with, the weakest first: `mcts:500`.
+    pub ladder: Vec<String>,
+    /// Players that skill must show with too, and that no search may be guided by.
+    pub held_out: Vec<String>,
+    /// Plays of each of them at most.
+    pub ladder_plays: u64,
+    /// Forward-model calls of all of them, after which no further round of plays begins.
+    pub ladder_calls: u64,
+    /// A play of the ladder is broken off after so many times the ticks of the witness (and 50 more).
+    pub patience: usize,
+    /// By how much the win rates of stronger and weaker players must differ …
+    pub skill_wins: f64,
+    /// … or else their mean scores, as a share of the range of all scores.
+    pub skill_scores: f64,
+    /// Forward-model calls to show that a rule matters, for each rule.
+    pub ablation_calls: u64,
+}
+
+/// The criteria of a level, in the order of asking.
+pub const LEVEL_CRITERIA: &[&str] =
+    &["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length", "skill"];
+
+/// The criteria of a game over all its levels, in the order of asking.
+pub const GAME_CRITERIA: &[&str] = &["rule-use", "ablation"];
+
+impl Default for Criteria {
+    /// What minting asks unless the recipe says otherwise: what is cheap enough for many candidates.
+    fn default() -> Criteria {
+        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
+        Criteria {
+            ask: names(&LEVEL_CRITERIA[..7]),
+            decision: 500,
+            budget: 3_000_000,
+            depths: vec![10, 20, 40],
+            idle_plays: 8,
+            random_plays: 40,
+            random_wins: 0.2,
+            least_ticks: 8,
+            most_ticks: 1000,
+            early_ticks: 12,
+            early_calls: 20_000,
+            early_chances: 20,
+            early_deaths: 0.05,
+            ladder: names(&["do-nothing", "random", "mcts:50", "mcts:200", "mcts:1000"]),
+            held_out: names(&["mcts:500"]),
+            ladder_plays: 12,
+            ladder_calls: 4_000_000,
+            patience: 3,
+            skill_wins: 0.25,
+            skill_scores: 0.2,
+            ablation_calls: 60_000,
+        }
+    }
+}
+
+/// What is wrong with a set of criteria.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{key}` {message}")]
+pub struct CriteriaError {
+    /// The key.
+    pub key: &'static str,
+    /// What it must be.
+    pub message: String,
+}
+
+impl Criteria {
+    /// Every criterion: for one game, where minting asks of many candidates.
+    pub fn full() -> Criteria {
+        let ask = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).map(|&name| name.to_owned()).collect();
+        Criteria { ask, ..Criteria::default() }
+    }
+
+    /// Whether a criterion is asked.
+    pub fn asks(&self, name: &str) -> bool {
+        self.ask.iter().any(|asked| asked == name)
+    }
+
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// The first value that is out of its range.
+    pub fn check(&self) -> Result<(), CriteriaError> {
+        let wrong = |key, message: String| Err(CriteriaError { key, message });
+        let known = || LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).copied();
+        if let Some(unknown) = self.ask.iter().find(|name| !known().any(|known| known == *name)) {
+            let near = engine::nearest(unknown, known());
+            let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let all: Vec<&str> = known().collect();
+            return wrong(
+                "ask",
+                format!("names no criterion `{unknown}`{help} There are {}", all.join(", ")),
+            );
+        }
+        let depths = &self.depths;
+        if depths.is_empty() || depths.len() > 20 || depths.iter().any(|depth| !(1..=1000).contains(depth)) {
+            return wrong("depths", "takes 1 to 20 numbers of ticks, each from 1 to 1000".to_owned());
+        }
+        for (key, share) in [
+            ("random_wins", self.random_wins),
+            ("early_deaths", self.early_deaths),
+            ("skill_wins", self.skill_wins),
+            ("skill_scores", self.skill_scores),
+        ] {
+            if !(0.0..=1.0).contains(&share) {
+                return wrong(key, format!("is {share}; it takes a share from 0 to 1"));
+            }
+        }
+        if self.decision == 0 || self.decision > 1_000_000 {
+            return wrong("decision", format!("is {}; it takes 1 to 1000000 calls", self.decision));
+        }
+        for (key, count, most) in [
+            ("early_ticks", self.early_ticks as u64, 100),
+            ("early_chances", u64::from(self.early_chances), 1000),
+            ("ladder_plays", self.ladder_plays, 1000),
+            ("patience", self.patience as u64, 1000),
+        ] {
+            if count == 0 || count > most {
+                return wrong(key, format!("is {count}; it takes 1 to {most}"));
+            }
+        }
+        if self.least_ticks > self.most_ticks {
+            let message = format!("is {}, above `most_ticks`, {}", self.least_ticks, self.most_ticks);
+            return wrong("least_ticks", message);
+        }
+        for (key, names) in [("ladder", &self.ladder), ("held_out", &self.held_out)] {
+            if let Err(unknown) = self.rungs(names) {
+                return wrong(key, format!("names {unknown}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The players of the ladder.
+    ///
+    /// # Errors
+    /// A name that no planner has.
+    pub(crate) fn climb(&self) -> Result<Climb, agents::UnknownPlanner> {
+        Ok(Climb {
+            rungs: self.rungs(&self.ladder)?,
+            held_out: self.rungs(&self.held_out)?,
+            plays: self.ladder_plays,
+            calls: self.ladder_calls,
+            ticks: self.most_ticks,
+        })
+    }
+
+    fn rungs(&self, names: &[String]) -> Result<Vec<Rung>, agents::UnknownPlanner> {
+        names.iter().map(|name| Rung::new(name, self.decision)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(alter: impl Fn(&mut Criteria), expect: &str) {
+        let mut criteria = Criteria::full();
+        alter(&mut criteria);
+        let error = criteria.check().unwrap_err().to_string();
+        assert!(error.contains(expect), "{error}");
+    }
+
+    #[test]
+    fn values_out_of_range_are_told_with_their_key() {
+        assert_eq!(Criteria::default().check(), Ok(()));
+        assert_eq!(Criteria::full().check(), Ok(()));
+        check(|criteria| criteria.ask.push("winable".to_owned()), "did you mean `winnable`?");
+        check(|criteria| criteria.ladder.push("mtcs:9".to_owned()), "`ladder` names");
+        check(|criteria| criteria.held_out.push("mcts:x".to_owned()), "`held_out` names");
+        check(|criteria| criteria.depths.clear(), "`depths`");
+        check(|criteria| criteria.skill_wins = 1.5, "`skill_wins` is 1.5");
+        check(|criteria| criteria.least_ticks = 5000, "`least_ticks`");
+        check(|criteria| criteria.patience = 0, "`patience` is 0");
+    }
+}

@@ -1,0 +1,201 @@
+//! Can the player live through the first ticks?
+
+use crate::ending::Ending;
+use crate::evidence::Evidence;
+use crate::verdict::{Case, Finding, Rate, Reason, Validator, Verdict};
+use agents::Play;
+use engine::{Action, Episode, Outcome, Seed, State};
+use rayon::prelude::*;
+use std::collections::HashSet;
+
+/// Some way of playing lives through the first ticks.
+///
+/// In a deterministic game all ways are searched, tick by tick, states that behave alike counted once: no way left is a proof.
+/// In a game of chance the same is asked for several games of chance, each with its dice known beforehand; where even who
+/// knows the dice dies, death is unavoidable. Doing nothing may well be deadly: that is told, and is no failure.
+#[derive(Clone, Copy, Debug)]
+pub struct NoEarlyDeath {
+    /// Ticks to live through.
+    pub ticks: usize,
+    /// Forward-model calls for each game of chance.
+    pub calls: u64,
+    /// Games of chance, where chance plays a part.
+    pub chances: u32,
+    /// The greatest share of them in which death may be unavoidable.
+    pub share: f64,
+}
+
+/// States of one tick that are followed up at most; beyond, the answer is unknown rather than no.
+const WIDEST: usize = 2000;
+/// Episodes of random keys that are tried before a search.
+const TRIES: u64 = 24;
+
+/// What became of one game of chance.
+struct Look {
+    /// Whether some way of playing lived.
+    lived: bool,
+    /// Whether all ways were tried.
+    complete: bool,
+    /// The longest life that was found, and the life of doing nothing.
+    longest: Episode,
+    idle: Episode,
+    calls: u64,
+}
+
+impl Validator for NoEarlyDeath {
+    fn name(&self) -> &'static str {
+        "early-death"
+    }
+
+    fn validate(&self, case: Case<'_>) -> Finding {
+        let chances = if case.game.is_deterministic() { 1 } else { u64::from(self.chances.max(1)) };
+        let looks: Vec<Look> =
+            (0..chances).into_par_iter().map(|run| self.look(case, case.seed.child("chance", run))).collect();
+        let doomed = looks.iter().filter(|look| !look.lived && look.complete).count() as u64;
+        let open = looks.iter().filter(|look| !look.lived && !look.complete).count() as u64;
+        let spent: u64 = looks.iter().map(|look| look.calls).sum();
+        let share = |count: u64| count as f64 / chances as f64;
+        let verdict = if share(doomed) > self.share {
+            let shown = looks.iter().filter(|look| !look.lived && look.complete);
+            let longest = shown.max_by_key(|look| look.longest.actions.len()).expect("one is doomed");
+            let reason = self.doom(longest.longest.actions.len(), doomed, chances);
+            Verdict::Fail { reason: Reason(reason), witness: Some(longest.longest.clone()) }
+        } else if share(doomed + open) > self.share {
+            Verdict::Unknown { spent }
+        } else {
+            Verdict::pass()
+        };
+        let mut evidence = Vec::new();
+        if let Verdict::Fail { witness: Some(witness), .. } = &verdict {
+            let ending = Ending::of(case.analysis, case.level, witness);
+            evidence.extend(ending.evidence(case.game));
+            if let Some(last) = evidence.last_mut() {
+                last.advice = Some("give the player room and time at the start".to_owned());
+            }
+        } else if let Some(note) = self.idleness(case, &looks) {
+            evidence.push(note);
+        }
+        let plays: Vec<Play> =
+            looks.into_iter().map(|look| Play { episode: look.longest, calls: look.calls }).collect();
+        let measured = Rate::of(&plays);
+        Finding::from(verdict)
+            .measured(measured)
+            .seen(evidence)
+            .played(plays.into_iter().map(|play| play.episode))
+    }
+}
+
+impl NoEarlyDeath {
+    fn doom(&self, ticks: usize, doomed: u64, chances: u64) -> String {
+        if chances == 1 {
+            return format!(
+                "whatever is played, the game is lost within {ticks} ticks: all ways were searched"
+            );
+        }
+        let interval = statistics::wilson(doomed, chances, statistics::Z95);
+        let (low, high) = (100.0 * interval.low, 100.0 * interval.high);
+        format!(
+            "in {doomed} of {chances} games of chance no way of playing lives through the first {} ticks \
+             (95 %: {low:.0} to {high:.0} %)",
+            self.ticks
+        )
+    }
+
+    /// Who does nothing dies, though there are ways to live.
+    fn idleness(&self, case: Case<'_>, looks: &[Look]) -> Option<Evidence> {
+        let dead: Vec<&Episode> =
+            looks.iter().map(|look| &look.idle).filter(|idle| idle.outcome == Outcome::Lost).collect();
+        let first = dead.iter().min_by_key(|idle| idle.actions.len())?;
+        let ticks = first.actions.len();
+        let of = if looks.len() == 1 {
+            String::new()
+        } else {
+            format!(", in {} of {} games of chance", dead.len(), looks.len())
+        };
+        let text = format!("who does nothing is lost in tick {ticks}{of}; who acts can live");
+        let ending = Ending::of(case.analysis, case.level, first).evidence(case.game);
+        let cause = ending.into_iter().next().unwrap_or_default();
+        Some(Evidence { text, board: None, ..cause })
+    }
+
+    /// Looks for a way to live in one game of chance: doing nothing, random keys, then every way.
+    fn look(&self, case: Case<'_>, seed: Seed) -> Look {
+        let idle = self.live(case, seed, |_| Action::Nil);
+        let mut calls = idle.actions.len() as u64;
+        let mut longest = idle.clone();
+        let lives = |episode: &Episode| !matches!(episode.outcome, Outcome::Lost | Outcome::Stopped(_));
+        for number in 0..TRIES {
+            if lives(&longest) {
+                break;
+            }
+            let mut sampler = seed.child("keys", number).sampler();
+            let tried = self.live(case, seed, |state| *sampler.choose(case.game.actions(state)));
+            calls += tried.actions.len() as u64;
+            if lives(&tried) || tried.actions.len() > longest.actions.len() {
+                longest = tried;
+            }
+        }
+        if lives(&longest) {
+            return Look { lived: true, complete: true, longest, idle, calls };
+        }
+        let (found, complete, spent) = self.search(case, seed);
+        let mut actions = found.iter();
+        let found = self.live(case, seed, |_| actions.next().copied().unwrap_or(Action::Nil));
+        let lived = lives(&found);
+        if lived || found.actions.len() >= longest.actions.len() {
+            longest = found;
+        }
+        Look { lived, complete, longest, idle, calls: calls + spent }
+    }
+
+    /// Plays the first ticks.
+    fn live(&self, case: Case<'_>, seed: Seed, mut choose: impl FnMut(&State) -> Action) -> Episode {
+        let (mut episode, mut state) = Episode::begin(case.game, case.level, seed);
+        while !state.is_over() && episode.actions.len() < self.ticks {
+            let action = choose(&state);
+            episode.play(case.game, &mut state, action);
+        }
+        episode
+    }
+
+    /// All ways to play, tick by tick: the longest one, whether all were tried, and the calls. A way that lives ends it.
+    fn search(&self, case: Case<'_>, seed: Seed) -> (Vec<Action>, bool, u64) {
+        let game = case.game;
+        let mut layer = vec![(game.start(case.level, seed), Vec::new())];
+        let (mut longest, mut complete, mut calls) = (Vec::new(), true, 0);
+        for _ in 0..self.ticks {
+            let mut next = Vec::new();
+            let mut seen = HashSet::new();
+            for (state, path) in &layer {
+                let actions = game.actions(state);
+                let idle = (!actions.contains(&Action::Nil)).then_some(&Action::Nil);
+                for &action in actions.iter().chain(idle) {
+                    if calls >= self.calls {
+                        return (longest, false, calls);
+                    }
+                    let mut after = state.clone();
+                    let outcome = game.step(&mut after, action);
+                    calls += 1;
+                    let mut path: Vec<Action> = path.clone();
+                    path.push(action);
+                    match outcome {
+                        Outcome::Won | Outcome::Ended => return (path, true, calls),
+                        Outcome::Lost | Outcome::Stopped(_) => {
+                            if path.len() > longest.len() {
+                                longest = path;
+                            }
+                        }
+                        Outcome::Ongoing if !seen.insert(after.search_key(game)) => {}
+                        Outcome::Ongoing if next.len() >= WIDEST => complete = false,
+                        Outcome::Ongoing => next.push((after, path)),
+                    }
+                }
+            }
+            layer = next;
+        }
+        match layer.into_iter().next() {
+            Some((_, path)) => (path, true, calls),
+            None => (longest, complete, calls),
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What a judge has seen: a sentence with its tick, cell, line and board, and what to try.
+
+use crate::board::Board;
+use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine};
+use engine::{Game, Span};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// One thing that was seen.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Evidence {
+    /// In words.
+    pub text: String,
+    /// In which tick; the first one is 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tick: Option<usize>,
+    /// Where: column and row, counted from 1, from the upper left.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cell: Option<(usize, usize)>,
+    /// The line of the game file that it is about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rule: Option<Line>,
+    /// How it looked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub board: Option<Board>,
+    /// What to try.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub advice: Option<String>,
+}
+
+impl Evidence {
+    /// In words alone.
+    pub fn new(text: impl Into<String>) -> Evidence {
+        Evidence { text: text.into(), ..Evidence::default() }
+    }
+
+    /// About a line.
+    #[must_use]
+    pub fn of_rule(self, rule: Line) -> Evidence {
+        Evidence { rule: Some(rule), ..self }
+    }
+
+    /// With advice.
+    #[must_use]
+    pub fn advise(self, advice: impl Into<String>) -> Evidence {
+        Evidence { advice: Some(advice.into()), ..self }
+    }
+}
+
+/// A line of a game file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Line {
+    /// What it says, in canonical spelling.
+    pub text: String,
+    /// Where in the text that the game was read from; nowhere for games that were made, not read.
+    #[serde(skip)]
+    pub span: Span,
+    /// The number of the line in that text, from 1; whoever has the text fills it in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
+}
+
+impl Line {
+    fn new(text: String, span: Span) -> Line {
+        Line { text, span, line: None }
+    }
+
+    /// An interaction, by index into [`Description::interactions`](engine::Description).
+    pub fn interaction(game: &Game, line: usize) -> Line {
+        let InteractionLine { first, second, effect, params, .. } = &game.description().interactions[line];
+        let mut text = first.text.clone();
+        for word in second {
+            let _ = write!(text, " {}", word.text);
+        }
+        Line::new(with_params(format!("{text} > {}", effect.text), params), first.span)
+    }
+
+    /// A termination, by index into [`Description::terminations`](engine::Description).
+    pub fn termination(game: &Game, line: usize) -> Line {
+        let TerminationLine { class, params, .. } = &game.description().terminations[line];
+        Line::new(with_params(class.text.clone(), params), class.span)
+    }
+
+    /// The line of the SpriteSet that declares a type; none for what is there without being declared.
+    pub fn sprite(game: &Game, name: &str) -> Option<Line> {
+        let lines = game.description().sprite_lines();
+        let (_, line) = lines.into_iter().find(|(_, line)| line.name.text == name)?;
+        let SpriteLine { name, class, params, .. } = line;
+        let class = class.as_ref().map_or(String::new(), |class| format!(" {}", class.text));
+        Some(Line::new(with_params(format!("{} >{class}", name.text), params), name.span))
+    }
+
+    /// The line of the LevelMapping for a character; none for what is mapped without being written.
+    pub fn mapping(game: &Game, symbol: char) -> Option<Line> {
+        let line = game.description().mapping.iter().find(|line| line.symbol == symbol)?;
+        let names: Vec<&str> = line.names.iter().map(|name| name.text.as_str()).collect();
+        Some(Line::new(format!("{symbol} > {}", names.join(" ")), line.span))
+    }
+}
+
+fn with_params(mut text: String, params: &[Param]) -> String {
+    for Param { key, value } in params {
+        let _ = write!(text, " {}={}", key.text, value.text);
+    }
+    text
+}

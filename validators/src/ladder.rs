@@ -1,0 +1,248 @@
+//! Players from weak to strong on one level: how often each wins, and how hard that makes the level.
+
+use crate::verdict::{Case, Rate};
+use agents::{Budget, Limits, Play, UnknownPlanner, planner, play};
+use engine::{Episode, Outcome, Seed};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// A player of a ladder: a planner of the registry with the forward-model calls of a decision, written `mcts:500`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rung {
+    name: String,
+    planner: String,
+    budget: Budget,
+}
+
+impl Rung {
+    /// Reads `planner:calls`, or `planner` with `calls` calls.
+    ///
+    /// # Errors
+    /// There is no such planner, or what follows the colon is no number.
+    pub fn new(name: &str, calls: u64) -> Result<Rung, UnknownPlanner> {
+        let (planner_name, written) = name.split_once(':').map_or((name, None), |(a, b)| (a, Some(b)));
+        let unknown = || UnknownPlanner(name.to_owned());
+        let calls = written.map_or(Ok(calls), |written| written.parse().map_err(|_| unknown()))?;
+        planner(planner_name, Seed::from_text(""))?;
+        Ok(Rung { name: name.to_owned(), planner: planner_name.to_owned(), budget: Budget(calls) })
+    }
+
+    /// Whether it looks ahead. Those who do nothing, or press any key, are what the others are measured against.
+    pub fn looks_ahead(&self) -> bool {
+        !FLOORS.contains(&self.planner.as_str())
+    }
+
+    fn play(&self, case: Case<'_>, run: u64, limits: Limits) -> Play {
+        // All rungs meet the same chance in plays of one number, so that they can be compared play by play.
+        let chance = case.seed.child("chance", run);
+        let seed = case.seed.child(&self.name, run);
+        let mut planner = planner(&self.planner, seed).expect("the name was checked");
+        play(case.game, case.level, &mut *planner, self.budget, chance, limits)
+    }
+}
+
+/// Planners that do not look ahead.
+const FLOORS: &[&str] = &["do-nothing", "random", "random-with-nil"];
+
+/// How one player fared.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fared {
+    /// Who: `mcts:500`.
+    pub player: String,
+    /// Whether it looks ahead.
+    pub looks_ahead: bool,
+    /// How often it won.
+    pub rate: Rate,
+    /// Mean ticks of the plays that were won, if any was.
+    pub win_ticks: Option<f64>,
+    /// Mean score, from 0 for the least to 1 for the greatest of all plays of the ladder; none if all are equal.
+    pub reward: Option<f64>,
+}
+
+/// How the players of a ladder fared.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ladder {
+    /// From the weakest to the strongest, as the criteria name them.
+    pub rungs: Vec<Fared>,
+    /// Players that only acceptance asks.
+    pub held_out: Vec<Fared>,
+    /// How easy, from 0 to 1 (`spec/06` §2.6); none without a player that looks ahead.
+    pub ease: Option<f64>,
+    /// The label of that.
+    pub difficulty: Difficulty,
+}
+
+/// How hard a level is (`spec/06` §2.6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Difficulty {
+    /// Ease of 0.8 or more.
+    VeryEasy,
+    /// 0.6 or more.
+    Easy,
+    /// 0.4 or more.
+    Medium,
+    /// 0.2 or more.
+    Hard,
+    /// Less.
+    VeryHard,
+    /// No player of the ladder has won.
+    Unbeaten,
+}
+
+impl Difficulty {
+    fn of(ease: f64) -> Difficulty {
+        use Difficulty as D;
+        let labels = [(0.8, D::VeryEasy), (0.6, D::Easy), (0.4, D::Medium), (0.2, D::Hard)];
+        labels.into_iter().find(|(least, _)| ease >= *least).map_or(D::VeryHard, |(_, label)| label)
+    }
+}
+
+impl fmt::Display for Difficulty {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Difficulty::VeryEasy => "very easy",
+            Difficulty::Easy => "easy",
+            Difficulty::Medium => "medium",
+            Difficulty::Hard => "hard",
+            Difficulty::VeryHard => "very hard",
+            Difficulty::Unbeaten => "unbeaten",
+        })
+    }
+}
+
+/// Whom to let play, and for how long.
+#[derive(Clone, Debug)]
+pub struct Climb {
+    /// From the weakest to the strongest.
+    pub rungs: Vec<Rung>,
+    /// Players that only acceptance asks: no search is guided by them.
+    pub held_out: Vec<Rung>,
+    /// Plays of each player at most.
+    pub plays: u64,
+    /// Forward-model calls of all plays together, after which no further round begins.
+    pub calls: u64,
+    /// Ticks of a play.
+    pub ticks: usize,
+}
+
+/// Plays of each player in a round.
+const ROUND: u64 = 2;
+
+/// The plays of each player, by number: the rungs, then those held out.
+pub(crate) struct Climbed {
+    pub(crate) plays: Vec<Vec<Play>>,
+}
+
+impl Climb {
+    fn players(&self) -> impl Iterator<Item = &Rung> {
+        self.rungs.iter().chain(&self.held_out)
+    }
+
+    /// Lets all play equally often. Rounds go on until the plays, or the calls, are spent.
+    pub(crate) fn climb(&self, case: Case<'_>) -> Climbed {
+        let limits = Limits { ticks: self.ticks, ..Limits::default() };
+        let players: Vec<&Rung> = self.players().collect();
+        let mut plays: Vec<Vec<Play>> = vec![Vec::new(); players.len()];
+        let mut spent = 0;
+        let mut played = 0;
+        while played < self.plays && (played == 0 || spent < self.calls) {
+            let runs = played..self.plays.min(played + ROUND);
+            played = runs.end;
+            // The strongest take longest: they begin.
+            let tasks: Vec<(usize, u64)> = (0..players.len())
+                .rev()
+                .flat_map(|player| runs.clone().map(move |run| (player, run)))
+                .collect();
+            let done: Vec<Play> =
+                tasks.par_iter().map(|&(player, run)| players[player].play(case, run, limits)).collect();
+            spent += done.iter().map(|play| play.calls + play.episode.actions.len() as u64).sum::<u64>();
+            for ((player, _), play) in tasks.into_iter().zip(done) {
+                plays[player].push(play);
+            }
+        }
+        Climbed { plays }
+    }
+
+    /// What the plays of the players say of the level.
+    pub(crate) fn measure(&self, climbed: &Climbed) -> Ladder {
+        let (rungs, held_out) = climbed.plays.split_at(self.rungs.len());
+        let all = || rungs.iter().flatten().map(|play| &play.episode);
+        let scores = || all().map(|episode| episode.score);
+        let (least, greatest) =
+            (scores().fold(f64::INFINITY, f64::min), scores().fold(f64::NEG_INFINITY, f64::max));
+        let longest = all().map(|episode| episode.actions.len()).max().unwrap_or_default() as f64;
+        let fared = |(rung, plays): (&Rung, &Vec<Play>)| {
+            let rate = Rate::of(plays);
+            let won: Vec<f64> = plays.iter().filter_map(|play| won_in(&play.episode)).collect();
+            let reward = (least < greatest).then(|| (rate.mean_score - least) / (greatest - least));
+            Fared {
+                player: rung.name.clone(),
+                looks_ahead: rung.looks_ahead(),
+                win_ticks: statistics::Summary::of(&won).map(|summary| summary.mean),
+                reward,
+                rate,
+            }
+        };
+        let held_out: Vec<Fared> = self.held_out.iter().zip(held_out).map(fared).collect();
+        let rungs: Vec<Fared> = self.rungs.iter().zip(rungs).map(fared).collect();
+        let eases: Vec<f64> =
+            rungs.iter().filter(|fared| fared.looks_ahead).map(|fared| ease(fared, longest)).collect();
+        let ease = statistics::Summary::of(&eases).map(|summary| summary.mean);
+        let beaten = rungs.iter().any(|fared| fared.rate.wins > 0);
+        let difficulty = if beaten { Difficulty::of(ease.unwrap_or_default()) } else { Difficulty::Unbeaten };
+        Ladder { rungs, held_out, ease, difficulty }
+    }
+}
+
+fn won_in(episode: &Episode) -> Option<f64> {
+    (episode.outcome == Outcome::Won).then_some(episode.actions.len() as f64)
+}
+
+/// 0.6 of the win rate, 0.2 of the reward and 0.2 of the step efficiency, `1 − mean ticks of wins / ticks of the longest play`;
+/// what is missing (scores all equal; no win) leaves its weight to the others.
+fn ease(fared: &Fared, longest: f64) -> f64 {
+    let Rate { wins, plays, .. } = fared.rate;
+    let won = wins as f64 / plays.max(1) as f64;
+    let efficiency = fared.win_ticks.filter(|_| longest > 0.0).map(|ticks| 1.0 - ticks / longest);
+    let terms = [(0.6, Some(won)), (0.2, fared.reward), (0.2, efficiency)];
+    let weight: f64 = terms.iter().filter(|(_, term)| term.is_some()).map(|(weight, _)| weight).sum();
+    terms.iter().map(|(weight, term)| weight * term.unwrap_or_default()).sum::<f64>() / weight
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rungs_are_read() {
+        let rung = Rung::new("mcts:70", 500).unwrap();
+        assert_eq!((rung.budget, rung.looks_ahead()), (Budget(70), true));
+        assert_eq!(Rung::new("mcts", 500).unwrap().budget, Budget(500));
+        assert!(!Rung::new("random", 500).unwrap().looks_ahead());
+        for wrong in ["mtcs", "mcts:many", "mcts:", ""] {
+            assert!(Rung::new(wrong, 500).is_err(), "{wrong}");
+        }
+    }
+
+    #[track_caller]
+    fn check(wins: u64, reward: Option<f64>, win_ticks: Option<f64>, expect: f64, label: Difficulty) {
+        let rate = Rate { wins, plays: 10, interval: [0.0, 1.0], calls: 0, mean_score: 0.0 };
+        let fared = Fared { player: String::new(), looks_ahead: true, rate, win_ticks, reward };
+        let found = ease(&fared, 100.0);
+        assert!((found - expect).abs() < 1e-12, "{found}");
+        assert_eq!(Difficulty::of(found), label);
+    }
+
+    #[test]
+    fn ease_is_a_weighted_mean_of_what_is_known() {
+        check(10, Some(1.0), Some(10.0), 0.98, Difficulty::VeryEasy);
+        check(10, None, Some(100.0), 0.75, Difficulty::Easy);
+        check(5, Some(0.5), Some(50.0), 0.5, Difficulty::Medium);
+        check(0, Some(1.0), None, 0.25, Difficulty::Hard);
+        check(0, None, None, 0.0, Difficulty::VeryHard);
+    }
+}

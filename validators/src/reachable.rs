@@ -1,0 +1,50 @@
+//! What is proved before anything is searched.
+
+use crate::evidence::{Evidence, Line};
+use crate::verdict::{Case, Finding, Validator, Verdict};
+use engine::analysis::Cause;
+use engine::describe;
+
+/// Asks the analysis of the level before a search: a win that is out of reach (`engine::analysis::Reach`) is a failure, and
+/// the validator within is not asked. Its name is that of the one within.
+#[derive(Clone, Debug)]
+pub struct Reachable<V>(pub V);
+
+impl<V: Validator> Validator for Reachable<V> {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+
+    fn validate(&self, case: Case<'_>) -> Finding {
+        let Case { game, level, analysis, .. } = case;
+        let reach = analysis.reach(level);
+        if reach.can_win() {
+            return self.0.validate(case);
+        }
+        let wins = reach.hindrances().iter().filter(|hindrance| analysis.goals()[hindrance.goal].win);
+        let told = describe::hindered_wins(analysis, level, &reach);
+        let columns = level.columns();
+        let evidence = wins.zip(&told).map(|(hindrance, sentence)| {
+            let (cell, advice) = match &hindrance.cause {
+                Cause::Stay(sprites) => {
+                    let advice = "open a way to it, or make it go";
+                    let first = sprites.first();
+                    (first.map(|(_, cell)| (cell % columns + 1, cell / columns + 1)), advice)
+                }
+                Cause::AtMost(_) => (None, "place more of what it counts, or ask for fewer"),
+            };
+            let rule = Some(Line::termination(game, analysis.goals()[hindrance.goal].line));
+            Evidence { text: sentence.clone(), cell, rule, ..Evidence::default() }.advise(advice)
+        });
+        let evidence: Vec<Evidence> = evidence.collect();
+        let why = told.first().map_or("no termination that wins can ever hold in it", String::as_str);
+        Finding::from(Verdict::fail(format!("no way to win, whatever is played: {}", lower(why))))
+            .seen(evidence)
+    }
+}
+
+/// A sentence as the end of another.
+fn lower(sentence: &str) -> String {
+    let mut characters = sentence.trim_end_matches('.').chars();
+    characters.next().map_or(String::new(), |first| first.to_lowercase().chain(characters).collect())
+}

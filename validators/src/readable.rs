@@ -1,0 +1,111 @@
+//! Can a player see what decides?
+
+use crate::board::drawn;
+use crate::evidence::{Evidence, Line};
+use crate::verdict::{Case, Finding, Validator, Verdict};
+use engine::analysis::{Analysis, Reach, Role};
+use engine::{Game, Level, SpriteType};
+
+/// Every visible type has a character of its own, and nothing that decides is hidden.
+///
+/// A type fails if it is `hidden` and counts towards a win or a loss or does something to the avatar, or if the level places
+/// it only under sprites that cover it. What is hidden and only makes others (a spawner) is told, not held against the level.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Readable;
+
+/// Printable characters without the blank: one for each visible type.
+const CHARACTERS: usize = 94;
+
+impl Validator for Readable {
+    fn name(&self) -> &'static str {
+        "readable"
+    }
+
+    fn validate(&self, case: Case<'_>) -> Finding {
+        let Case { game, level, analysis, .. } = case;
+        let reach = analysis.reach(level);
+        let mut faults = Vec::new();
+        let mut notes = Vec::new();
+        let hidden = |stype: &&SpriteType| is_there(&reach, **stype);
+        for &stype in analysis.unseen().iter().filter(hidden) {
+            let name = game.name(stype);
+            let seen = Evidence { rule: Line::sprite(game, name), ..Evidence::default() };
+            if decides(analysis, stype) {
+                let text = format!("`{name}` decides how the game goes, but is hidden");
+                faults.push(Evidence { text, ..seen }.advise("remove `hidden=True`"));
+            } else {
+                notes.push(Evidence { text: format!("`{name}` is hidden, and makes others"), ..seen });
+            }
+        }
+        faults.extend(covered(analysis, level));
+        let visible = |stype: &SpriteType| is_there(&reach, *stype) && !analysis.facts(*stype).hidden;
+        let types = game.sprite_types().filter(visible).count();
+        if types > CHARACTERS {
+            faults.push(Evidence::new(format!("{types} types are visible, more than there are characters")));
+        }
+        let verdict = match faults.first() {
+            None => Verdict::pass(),
+            Some(fault) => Verdict::fail(fault.text.clone()),
+        };
+        Finding::from(verdict).seen(faults).seen(notes)
+    }
+}
+
+fn is_there(reach: &Reach, stype: SpriteType) -> bool {
+    reach.touched(stype).next().is_some()
+}
+
+/// Whether a type counts for a termination, or a rule is about it and an avatar.
+fn decides(analysis: &Analysis, stype: SpriteType) -> bool {
+    let counted = analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype));
+    let meets = |avatar: SpriteType| {
+        analysis.between(avatar, stype).next().is_some() || analysis.between(stype, avatar).next().is_some()
+    };
+    counted || analysis.avatars().iter().any(|avatar| meets(avatar.stype))
+}
+
+/// Types that no character shows: wherever the level has them, something else is drawn over them.
+fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
+    let game = analysis.game();
+    let visible = |stype: &&SpriteType| !analysis.facts(**stype).hidden;
+    let ground = |stype: SpriteType| analysis.role(stype) == Role::Floor;
+    let mut faults = Vec::new();
+    let mut symbols: Vec<u8> = level.cells().to_vec();
+    symbols.sort_unstable();
+    symbols.dedup();
+    for stype in game.sprite_types().filter(|&stype| !ground(stype) && !analysis.facts(stype).hidden) {
+        let with = |symbol: &&u8| game.places(**symbol).contains(&stype);
+        let mut placing = symbols.iter().filter(with).peekable();
+        let Some(&&first) = placing.peek() else { continue };
+        // The avatar walks off what it stands on.
+        let over = |symbol: u8| {
+            let others = game.places(symbol).iter().filter(visible);
+            others.copied().find(|&other| {
+                other != stype
+                    && analysis.role(other) != Role::Avatar
+                    && drawn(game, other) > drawn(game, stype)
+            })
+        };
+        let Some(cover) = over(first).filter(|_| placing.all(|&symbol| over(symbol).is_some())) else {
+            continue;
+        };
+        if shown_elsewhere(game, stype, over) {
+            continue;
+        }
+        let (name, cover) = (game.name(stype), game.name(cover));
+        let symbol = char::from(first);
+        let text = format!("`{name}` has no symbol of its own: `{symbol}` shows the `{cover}` above it");
+        let cell = level.cells().iter().position(|&cell| cell == first);
+        let cell = cell.map(|at| (at % level.columns() + 1, at / level.columns() + 1));
+        let advice =
+            format!("give `{name}` a character of its own in the LevelMapping, and a cell of its own");
+        let rule = Line::mapping(game, symbol);
+        faults.push(Evidence { text, cell, rule, ..Evidence::default() }.advise(advice));
+    }
+    faults
+}
+
+/// Whether some character, used in this level or not, shows the type: then a player can learn what it looks like.
+fn shown_elsewhere(game: &Game, stype: SpriteType, over: impl Fn(u8) -> Option<SpriteType>) -> bool {
+    (b'!'..=b'~').any(|symbol| game.places(symbol).contains(&stype) && over(symbol).is_none())
+}

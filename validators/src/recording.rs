@@ -1,0 +1,118 @@
+//! What the recorded episodes of a game show: which interactions were executed, and which types were there.
+
+use engine::{Episode, Game, Level, Meeting, Watch};
+use rayon::prelude::*;
+
+/// A level with the episodes that its judges have played, the telling ones first.
+#[derive(Clone, Copy, Debug)]
+pub struct Recorded<'a> {
+    /// The level.
+    pub level: &'a Level,
+    /// What was played on it.
+    pub episodes: &'a [Episode],
+}
+
+/// An execution of an interaction in a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Use {
+    pub(crate) level: usize,
+    pub(crate) episode: usize,
+    /// The tick of the episode in which the line is executed for the first time, counted from 0.
+    pub(crate) tick: usize,
+}
+
+/// What a recording shows.
+#[derive(Clone, Debug)]
+pub(crate) struct Usage {
+    /// By interaction line: the first executions in some episodes, in the order of the recording.
+    pub(crate) lines: Vec<Vec<Use>>,
+    /// By type: whether such a sprite was there, or was held.
+    pub(crate) types: Vec<bool>,
+    /// How many episodes were looked at, and their ticks.
+    pub(crate) episodes: usize,
+    pub(crate) ticks: u64,
+}
+
+/// Episodes of an interaction that are kept.
+const USES: usize = 8;
+/// Ticks of a level's episodes that are looked at; the telling episodes come first.
+const TICKS: u64 = 100_000;
+
+struct Ear<'a> {
+    usage: &'a mut Usage,
+    at: Use,
+}
+
+impl Watch for Ear<'_> {
+    fn interaction(&mut self, line: usize) {
+        let uses = &mut self.usage.lines[line];
+        let of_this = |last: &Use| (last.level, last.episode) == (self.at.level, self.at.episode);
+        if uses.len() < USES && !uses.last().is_some_and(of_this) {
+            uses.push(self.at);
+        }
+    }
+
+    fn wants_meetings(&self) -> bool {
+        true
+    }
+
+    fn meeting(&mut self, meeting: Meeting) {
+        for stype in [Some(meeting.first), meeting.second].into_iter().flatten() {
+            self.usage.types[stype.index()] = true;
+        }
+    }
+}
+
+impl Usage {
+    fn new(game: &Game) -> Usage {
+        let lines = vec![Vec::new(); game.description().interactions.len()];
+        Usage { lines, types: vec![false; game.sprite_types().count()], episodes: 0, ticks: 0 }
+    }
+
+    /// Plays the recording again. Cost: that of the episodes, at most 100,000 ticks a level.
+    pub(crate) fn of(game: &Game, recording: &[Recorded<'_>]) -> Usage {
+        let numbered: Vec<(usize, &Recorded<'_>)> = recording.iter().enumerate().collect();
+        let of_level =
+            |&(number, recorded): &(usize, &Recorded<'_>)| Usage::of_level(game, number, *recorded);
+        let mut usage = Usage::new(game);
+        for of_level in numbered.par_iter().map(of_level).collect::<Vec<Usage>>() {
+            for (all, uses) in usage.lines.iter_mut().zip(of_level.lines) {
+                all.extend(uses.into_iter().take(USES.saturating_sub(all.len())));
+            }
+            for (all, there) in usage.types.iter_mut().zip(of_level.types) {
+                *all |= there;
+            }
+            usage.episodes += of_level.episodes;
+            usage.ticks += of_level.ticks;
+        }
+        usage
+    }
+
+    fn of_level(game: &Game, number: usize, recorded: Recorded<'_>) -> Usage {
+        let mut usage = Usage::new(game);
+        for (episode, played) in recorded.episodes.iter().enumerate() {
+            if usage.ticks >= TICKS {
+                break;
+            }
+            let mut state = game.start(recorded.level, played.seed);
+            usage.note_types(game, &state);
+            for (tick, &action) in played.actions.iter().enumerate() {
+                let at = Use { level: number, episode, tick };
+                game.step_watched(&mut state, action, &mut Ear { usage: &mut usage, at });
+                usage.note_types(game, &state);
+            }
+            usage.episodes += 1;
+            usage.ticks += played.actions.len() as u64;
+        }
+        usage
+    }
+
+    fn note_types(&mut self, game: &Game, state: &engine::State) {
+        for stype in game.present_types(state) {
+            self.types[stype.index()] = true;
+        }
+        for stype in game.held_types(state) {
+            self.types[stype.index()] = true;
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Is every rule, and every sprite type, used?
+
+use crate::evidence::{Evidence, Line};
+use crate::game_report::{GameCase, GameValidator};
+use crate::recording::{Recorded, Usage};
+use crate::verdict::{Finding, Verdict};
+use engine::analysis::{Analysis, Reach};
+use engine::{Game, SpriteType};
+
+/// Every interaction is executed, and a sprite of every type is there, in some recorded episode of the game.
+///
+/// What was not seen and is proved never to happen in any of the levels is a failure; what was not seen, but might be, is
+/// unknown. Rules on the edge of the screen are told but not asked for: they are guards, which walls make idle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RuleUse;
+
+/// The name of the edge of the screen in interactions.
+const EDGE: &str = "EOS";
+
+impl GameValidator for RuleUse {
+    fn name(&self) -> &'static str {
+        "rule-use"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let GameCase { game, analysis, recording, usage, .. } = case;
+        let reaches: Vec<Reach> = recording.iter().map(|recorded| analysis.reach(recorded.level)).collect();
+        let (mut dead, mut unseen, mut guards) = (Vec::new(), Vec::new(), Vec::new());
+        for stype in unused_types(game, usage) {
+            let name = game.name(stype);
+            let text = format!("no `{name}` is ever there");
+            let never = reaches.iter().all(|reach| reach.touched(stype).next().is_none());
+            let rule = Line::sprite(game, name);
+            let advice = format!("place it in a level, or remove `{name}` and its rules");
+            let seen = Evidence { text, rule, ..Evidence::default() }.advise(advice);
+            if never { &mut dead } else { &mut unseen }.push(seen);
+        }
+        for line in (0..usage.lines.len()).filter(|&line| usage.lines[line].is_empty()) {
+            let rule = Line::interaction(game, line);
+            let written = &game.description().interactions[line];
+            if written.second.iter().any(|word| word.text == EDGE) || written.first.text == EDGE {
+                let text = format!("`{}` never runs; a guard at the edge, perhaps", rule.text);
+                guards.push(Evidence::new(text).of_rule(rule));
+                continue;
+            }
+            let (why, list) = match meets(analysis, recording, &reaches, line) {
+                false => (": its sprites can never meet", &mut dead),
+                true => ("", &mut unseen),
+            };
+            let text = format!("`{}` never runs{why}", rule.text);
+            list.push(Evidence::new(text).of_rule(rule).advise("remove it, or make a level that needs it"));
+        }
+        let verdict = match (dead.first(), unseen.is_empty()) {
+            (Some(first), _) => Verdict::fail(more(&first.text, dead.len() - 1)),
+            (None, false) => Verdict::Unknown { spent: usage.ticks },
+            (None, true) => Verdict::pass(),
+        };
+        let shown =
+            Evidence::new(format!("{} episodes of {} ticks were looked at", usage.episodes, usage.ticks));
+        Finding::from(verdict).seen(dead).seen(unseen).seen(guards).seen([shown])
+    }
+}
+
+/// A reason and how many more there are.
+pub(crate) fn more(first: &str, others: usize) -> String {
+    match others {
+        0 => first.to_owned(),
+        _ => format!("{first}, and {others} more"),
+    }
+}
+
+/// Types that were never there, of those that the file declares and that can have sprites.
+fn unused_types(game: &Game, usage: &Usage) -> Vec<SpriteType> {
+    let declared = |name: &str| {
+        let lines = game.description().sprite_lines();
+        lines.iter().any(|(_, line)| line.name.text == name && line.children.is_empty())
+    };
+    game.sprite_types()
+        .filter(|&stype| {
+            game.class(stype).is_some() && !usage.types[stype.index()] && declared(game.name(stype))
+        })
+        .collect()
+}
+
+/// Whether the two sides of an interaction may meet in some level: false only if it is proved that they cannot.
+fn meets(analysis: &Analysis, recording: &[Recorded<'_>], reaches: &[Reach], line: usize) -> bool {
+    let game = analysis.game();
+    let of_line: Vec<_> = analysis.encounters().iter().filter(|encounter| encounter.line == line).collect();
+    // Lines by the clock are no encounters.
+    if of_line.is_empty() {
+        return true;
+    }
+    let family = |written: SpriteType| game.sprite_types().filter(move |&s| analysis.applies(written, s));
+    recording.iter().zip(reaches).any(|(recorded, reach)| {
+        let cells = recorded.level.cells().len();
+        let covered = |written: SpriteType| -> Vec<bool> {
+            let mut cover = vec![false; cells];
+            family(written).flat_map(|stype| reach.touched(stype)).for_each(|cell| cover[cell] = true);
+            cover
+        };
+        of_line.iter().any(|encounter| {
+            let Some(second) = encounter.second else { return true };
+            let (first, second) = (covered(encounter.first), covered(second));
+            first.iter().zip(&second).any(|(&first, &second)| first && second)
+        })
+    })
+}

@@ -1,0 +1,158 @@
+//! Does it pay to play well?
+
+use crate::evidence::Evidence;
+use crate::ladder::{Climb, Climbed, Fared, Ladder};
+use crate::verdict::{Case, Finding, Reason, Validator, Verdict};
+use agents::Play;
+use statistics::{Interval, Z95};
+
+/// Stronger players win more, or score more, than those who do not look ahead: by a margin, and surely (the 95 % interval of
+/// the difference is above 0). One of the ladder must show it, and one that was held out from all search: a level must not
+/// be fitted to the players that found it.
+///
+/// In a deterministic game a witness is a player that always wins, and was held out; so a puzzle that is too deep for every
+/// player of the ladder still shows skill, if those who do not look ahead lose it.
+#[derive(Clone, Debug)]
+pub struct SkillPays {
+    /// Who plays.
+    pub climb: Climb,
+    /// By how much the win rates must differ.
+    pub wins: f64,
+    /// Or by how much the mean scores must, as a share of the range of all scores.
+    pub scores: f64,
+    /// A play is broken off after so many times the ticks of the witness, and some more.
+    pub patience: usize,
+}
+
+/// Ticks that every play has beyond a multiple of the witness's.
+const GRACE: usize = 50;
+/// Resamples for an interval of scores.
+const RESAMPLES: usize = 1000;
+
+/// How much better one player is than another.
+struct Edge {
+    text: String,
+    /// It is large enough, and sure.
+    pays: bool,
+    /// It is large enough, but not sure.
+    unsure: bool,
+}
+
+impl Validator for SkillPays {
+    fn name(&self) -> &'static str {
+        "skill"
+    }
+
+    fn validate(&self, case: Case<'_>) -> Finding {
+        let mut climb = self.climb.clone();
+        if let Some(witness) = case.witness {
+            climb.ticks = climb.ticks.min(self.patience * witness.actions.len() + GRACE);
+        }
+        let climbed = climb.climb(case);
+        let ladder = climb.measure(&climbed);
+        let spent = climbed.plays.iter().flatten().map(|play| play.calls).sum();
+        let range = range(&climbed);
+        // Of those who do not look ahead, the best one counts.
+        let floor = |&at: &usize| !ladder.rungs[at].looks_ahead;
+        let Some(weak) = (0..ladder.rungs.len()).filter(floor).max_by(|&a, &b| better(&ladder, a, b)) else {
+            return Verdict::Unknown { spent }.into();
+        };
+        let strong = (0..ladder.rungs.len()).filter(|at| !floor(at));
+        let edges: Vec<Edge> = strong
+            .map(|at| self.edge(&ladder.rungs[at], &climbed.plays[at], (&ladder, &climbed), weak, range))
+            .collect();
+        let first = ladder.rungs.len();
+        let mut held: Vec<Edge> = ladder
+            .held_out
+            .iter()
+            .enumerate()
+            .map(|(at, fared)| self.edge(fared, &climbed.plays[first + at], (&ladder, &climbed), weak, range))
+            .collect();
+        let sure = case.game.is_deterministic().then_some(case.witness).flatten();
+        let by_search = sure.map(|_| self.against_search(&ladder.rungs[weak]));
+        let searched = by_search.as_ref().is_some_and(|edge| edge.pays);
+        let shown = edges.iter().any(|edge| edge.pays) || searched;
+        held.extend(by_search);
+        let accepted = held.iter().any(|edge| edge.pays);
+        let unsure = edges.iter().chain(&held).any(|edge| edge.unsure);
+        let verdict = if shown && accepted {
+            Verdict::pass()
+        } else if unsure || (shown && !accepted) {
+            Verdict::Unknown { spent }
+        } else {
+            let best = edges.iter().chain(&held).map(|edge| edge.text.as_str()).next_back();
+            let reason = format!("playing well does not pay: {}", best.unwrap_or("nobody looks ahead"));
+            Verdict::Fail { reason: Reason(reason), witness: None }
+        };
+        let mut evidence: Vec<Evidence> =
+            edges.iter().chain(&held).map(|edge| Evidence::new(edge.text.clone())).collect();
+        if let (false, Some(last)) = (verdict.is_pass(), evidence.last_mut()) {
+            last.advice = Some(
+                "let choices matter: dangers that foresight avoids, points that a plan earns, less luck"
+                    .to_owned(),
+            );
+        }
+        let episodes = climbed.plays.into_iter().flatten().map(|play| play.episode);
+        Finding { ladder: Some(ladder), ..Finding::from(verdict).seen(evidence).played(episodes) }
+    }
+}
+
+impl SkillPays {
+    fn edge(
+        &self,
+        fared: &Fared,
+        plays: &[Play],
+        (ladder, climbed): (&Ladder, &Climbed),
+        weak: usize,
+        range: f64,
+    ) -> Edge {
+        let weaker = &ladder.rungs[weak];
+        let ([won, lost], [of, out_of]) =
+            ([fared.rate.wins, weaker.rate.wins], [fared.rate.plays, weaker.rate.plays]);
+        let interval = statistics::difference([won, lost], [of, out_of], Z95);
+        let more = won as f64 / of.max(1) as f64 - lost as f64 / out_of.max(1) as f64;
+        let (points, least, most) = (100.0 * more, 100.0 * interval.low, 100.0 * interval.high);
+        let mut text = format!(
+            "{} wins {won} of {of}, {} {lost} of {out_of} ({points:+.0} points; 95 %: {least:+.0} to {most:+.0})",
+            fared.player, weaker.player,
+        );
+        let (mut pays, mut unsure) = (interval.low > 0.0 && more >= self.wins, more >= self.wins);
+        if range > 0.0 {
+            let gains: Vec<f64> = plays
+                .iter()
+                .zip(&climbed.plays[weak])
+                .map(|(strong, weak)| strong.episode.score - weak.episode.score)
+                .collect();
+            let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
+            let sure = statistics::bootstrap(&gains, mean, RESAMPLES, 0.95, [0; 32]);
+            if let (Some(Interval { low, high }), false) = (sure, gains.is_empty()) {
+                let gain = mean(&gains);
+                text.push_str(&format!(", and scores {gain:+.2} (95 %: {low:+.2} to {high:+.2})"));
+                pays |= low > 0.0 && gain >= self.scores * range;
+                unsure |= gain >= self.scores * range;
+            }
+        }
+        Edge { text, pays, unsure: unsure && !pays }
+    }
+
+    /// Who searches wins every time; how much more is that than the weaker player?
+    fn against_search(&self, weaker: &Fared) -> Edge {
+        let (wins, plays) = (weaker.rate.wins, weaker.rate.plays);
+        let text = format!("who searches wins every time, {} {wins} of {plays}", weaker.player);
+        let high = weaker.rate.interval[1];
+        let pays = 1.0 - wins as f64 / plays.max(1) as f64 >= self.wins && high < 1.0;
+        Edge { text, pays, unsure: false }
+    }
+}
+
+/// Which of two rungs wins more; scores more, if they win alike.
+fn better(ladder: &Ladder, a: usize, b: usize) -> std::cmp::Ordering {
+    let (a, b) = (&ladder.rungs[a].rate, &ladder.rungs[b].rate);
+    a.wins.cmp(&b.wins).then(a.mean_score.total_cmp(&b.mean_score))
+}
+
+/// The greatest score of all plays minus the least.
+fn range(climbed: &Climbed) -> f64 {
+    let scores = || climbed.plays.iter().flatten().map(|play| play.episode.score);
+    scores().fold(f64::NEG_INFINITY, f64::max) - scores().fold(f64::INFINITY, f64::min)
+}
