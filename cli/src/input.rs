@@ -48,6 +48,11 @@ impl GameInput {
             .map_err(|problems| Failure::malformed(crate::render::problems(&self.source, &problems.0)))
     }
 
+    /// How many levels come with the game.
+    pub(crate) fn count(&self) -> usize {
+        self.levels.len()
+    }
+
     /// The levels that come with the game.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
         self.levels.iter().map(LevelInput::read).collect()

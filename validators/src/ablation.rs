@@ -6,7 +6,8 @@ use crate::recording::{Recorded, Use};
 use crate::rule_use::more;
 use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
-use engine::{Action, Chance, Episode, Game, Outcome, Seed, SpriteRecord, State};
+use engine::analysis::Role;
+use engine::{Action, Analysis, Chance, Episode, Game, Outcome, Seed, SpriteRecord, SpriteType, State};
 use rayon::prelude::*;
 
 /// Every interaction that is executed matters: with its consequences disabled but its draws kept
@@ -14,9 +15,10 @@ use rayon::prelude::*;
 ///
 /// Three questions, the cheapest first. Do recorded episodes that execute it end otherwise, when their keys are pressed
 /// without it? Do random futures, from just before it is executed, with the same dice? Does what a searching player does
-/// without it lead elsewhere with it? One change is enough. Where not even the state differs after any execution that was
-/// looked at, the rule is idle: a failure. Where the state differs, but nothing that was tried ends otherwise, the answer is
-/// unknown.
+/// without it lead elsewhere with it? One change is enough. Where every level was won, and not even the looks of any
+/// episode that executes it differ, the rule is idle: a failure. Where they do, but nothing that was tried ends otherwise,
+/// the answer is unknown. Rules on walls and the edge of the screen are told but not asked for: they are guards, and what
+/// they end far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub struct RulesMatter {
     /// Forward-model calls for each interaction.
@@ -24,7 +26,7 @@ pub struct RulesMatter {
 }
 
 /// Futures from each execution.
-const FUTURES: u64 = 12;
+const FUTURES: u64 = 8;
 /// Ticks of a future.
 const DEPTH: usize = 60;
 /// Calls of a decision of the searching player, and how far it looks.
@@ -54,11 +56,16 @@ impl GameValidator for RulesMatter {
         let found: Vec<(Found, u64)> =
             lines.par_iter().map(|(line, uses)| self.try_without(case, *line, uses)).collect();
         let spent = found.iter().map(|(_, spent)| spent).sum();
-        let (mut idle, mut unshown) = (Vec::new(), Vec::new());
+        let (mut idle, mut unshown, mut guards) = (Vec::new(), Vec::new(), Vec::new());
         for ((line, uses), (found, _)) in lines.iter().zip(&found) {
             let rule = Line::interaction(case.game, *line);
             let (text, list) = match found {
                 Found::Matters => continue,
+                _ if is_guard(case.analysis, *line) => {
+                    let text = format!("nothing shows that `{}` matters; a guard, perhaps", rule.text);
+                    guards.push(Evidence::new(text).of_rule(rule));
+                    continue;
+                }
                 Found::Idle => (format!("`{}` runs, and nothing follows from it", rule.text), &mut idle),
                 Found::Unshown => {
                     let text = format!("without `{}` nothing that was tried ends otherwise", rule.text);
@@ -74,7 +81,7 @@ impl GameValidator for RulesMatter {
             (None, false) => Verdict::Unknown { spent },
             (None, true) => Verdict::pass(),
         };
-        Finding::from(verdict).seen(idle).seen(unshown)
+        Finding::from(verdict).seen(idle).seen(unshown).seen(guards)
     }
 }
 
@@ -101,7 +108,8 @@ impl RulesMatter {
             if matters {
                 return (Found::Matters, calls);
             }
-            if calls >= self.calls {
+            // Half is kept for the searching player.
+            if calls >= self.calls / 2 {
                 break;
             }
         }
@@ -123,8 +131,20 @@ impl RulesMatter {
                 return (Found::Matters, calls);
             }
         }
-        (if differs { Found::Unshown } else { Found::Idle }, calls)
+        // A rule that waits for something is idle as long as nobody gets that far.
+        (if differs || !case.usage.won { Found::Unshown } else { Found::Idle }, calls)
     }
+}
+
+/// Whether a rule only keeps sprites on the board: its partners are walls and the edge of the screen.
+fn is_guard(analysis: &Analysis, line: usize) -> bool {
+    let game = analysis.game();
+    let is_wall = |written: SpriteType| {
+        let mut family = game.sprite_types().filter(|&stype| analysis.applies(written, stype));
+        family.all(|stype| !analysis.facts(stype).possible || analysis.role(stype) == Role::Wall)
+    };
+    let mut of_line = analysis.encounters().iter().filter(|encounter| encounter.line == line).peekable();
+    of_line.peek().is_some() && of_line.all(|encounter| encounter.second.is_none_or(is_wall))
 }
 
 /// How an episode with these keys ends.

@@ -83,7 +83,7 @@ impl Default for Criteria {
             patience: 3,
             skill_wins: 0.25,
             skill_scores: 0.2,
-            ablation_calls: 60_000,
+            ablation_calls: 200_000,
         }
     }
 }

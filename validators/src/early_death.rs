@@ -2,11 +2,10 @@
 
 use crate::ending::Ending;
 use crate::evidence::Evidence;
-use crate::verdict::{Case, Finding, Rate, Reason, Validator, Verdict};
-use agents::Play;
+use crate::verdict::{Case, Finding, Reason, Validator, Verdict};
 use engine::{Action, Episode, Outcome, Seed, State};
 use rayon::prelude::*;
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 /// Some way of playing lives through the first ticks.
 ///
@@ -75,13 +74,14 @@ impl Validator for NoEarlyDeath {
         } else if let Some(note) = self.idleness(case, &looks) {
             evidence.push(note);
         }
-        let plays: Vec<Play> =
-            looks.into_iter().map(|look| Play { episode: look.longest, calls: look.calls }).collect();
-        let measured = Rate::of(&plays);
-        Finding::from(verdict)
-            .measured(measured)
-            .seen(evidence)
-            .played(plays.into_iter().map(|play| play.episode))
+        if chances > 1 && verdict.is_pass() {
+            let lived = looks.iter().filter(|look| look.lived).count();
+            evidence.push(Evidence::new(format!(
+                "some way of playing lives through the first {} ticks in {lived} of {chances} games of chance",
+                self.ticks
+            )));
+        }
+        Finding::from(verdict).seen(evidence).played(looks.into_iter().map(|look| look.longest))
     }
 }
 
@@ -165,7 +165,7 @@ impl NoEarlyDeath {
         let (mut longest, mut complete, mut calls) = (Vec::new(), true, 0);
         for _ in 0..self.ticks {
             let mut next = Vec::new();
-            let mut seen = HashSet::new();
+            let mut seen = BTreeSet::new();
             for (state, path) in &layer {
                 let actions = game.actions(state);
                 let idle = (!actions.contains(&Action::Nil)).then_some(&Action::Nil);

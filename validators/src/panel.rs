@@ -158,13 +158,13 @@ impl Panel {
         let recording: Vec<Recorded<'_>> =
             levels.iter().zip(episodes.iter().map(Vec::as_slice)).map(recorded).collect();
         let usage = Usage::of(game, &recording);
-        let judge = |validator: &Box<dyn GameValidator + Send>| {
+        let judge = |validator: &(dyn GameValidator + Send)| {
             let criterion = validator.name();
             let seed = seed.child(criterion, 0);
             let case = GameCase { game, analysis: &analysis, recording: &recording, usage: &usage, seed };
             Judgement { criterion, finding: validator.validate(case) }
         };
-        self.of_game.iter().map(judge).collect()
+        self.of_game.iter().map(|validator| judge(&**validator)).collect()
     }
 
     fn ask(&self, game: &Game, level: &Level, seed: Seed, screen: bool) -> Report {

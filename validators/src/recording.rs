@@ -1,6 +1,6 @@
 //! What the recorded episodes of a game show: which interactions were executed, and which types were there.
 
-use engine::{Episode, Game, Level, Meeting, Watch};
+use engine::{Episode, Game, Level, Meeting, Outcome, Watch};
 use rayon::prelude::*;
 
 /// A level with the episodes that its judges have played, the telling ones first.
@@ -28,13 +28,15 @@ pub(crate) struct Usage {
     pub(crate) lines: Vec<Vec<Use>>,
     /// By type: whether such a sprite was there, or was held.
     pub(crate) types: Vec<bool>,
+    /// Whether some episode of every level is won.
+    pub(crate) won: bool,
     /// How many episodes were looked at, and their ticks.
     pub(crate) episodes: usize,
     pub(crate) ticks: u64,
 }
 
 /// Episodes of an interaction that are kept.
-const USES: usize = 8;
+const USES: usize = 24;
 /// Ticks of a level's episodes that are looked at; the telling episodes come first.
 const TICKS: u64 = 100_000;
 
@@ -66,7 +68,7 @@ impl Watch for Ear<'_> {
 impl Usage {
     fn new(game: &Game) -> Usage {
         let lines = vec![Vec::new(); game.description().interactions.len()];
-        Usage { lines, types: vec![false; game.sprite_types().count()], episodes: 0, ticks: 0 }
+        Usage { lines, types: vec![false; game.sprite_types().count()], won: true, episodes: 0, ticks: 0 }
     }
 
     /// Plays the recording again. Cost: that of the episodes, at most 100,000 ticks a level.
@@ -82,6 +84,7 @@ impl Usage {
             for (all, there) in usage.types.iter_mut().zip(of_level.types) {
                 *all |= there;
             }
+            usage.won &= of_level.won;
             usage.episodes += of_level.episodes;
             usage.ticks += of_level.ticks;
         }
@@ -90,6 +93,7 @@ impl Usage {
 
     fn of_level(game: &Game, number: usize, recorded: Recorded<'_>) -> Usage {
         let mut usage = Usage::new(game);
+        usage.won = recorded.episodes.iter().any(|episode| episode.outcome == Outcome::Won);
         for (episode, played) in recorded.episodes.iter().enumerate() {
             if usage.ticks >= TICKS {
                 break;

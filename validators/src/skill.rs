@@ -80,8 +80,8 @@ impl Validator for SkillPays {
         } else if unsure || (shown && !accepted) {
             Verdict::Unknown { spent }
         } else {
-            let best = edges.iter().chain(&held).map(|edge| edge.text.as_str()).next_back();
-            let reason = format!("playing well does not pay: {}", best.unwrap_or("nobody looks ahead"));
+            let strongest = edges.last().or(held.last()).map(|edge| edge.text.as_str());
+            let reason = format!("playing well does not pay: {}", strongest.unwrap_or("nobody looks ahead"));
             Verdict::Fail { reason: Reason(reason), witness: None }
         };
         let mut evidence: Vec<Evidence> =
@@ -117,7 +117,9 @@ impl SkillPays {
             fared.player, weaker.player,
         );
         let (mut pays, mut unsure) = (interval.low > 0.0 && more >= self.wins, more >= self.wins);
-        if range > 0.0 {
+        if range <= 0.0 {
+            text.push_str(", and all score alike");
+        } else {
             let gains: Vec<f64> = plays
                 .iter()
                 .zip(&climbed.plays[weak])

@@ -16,7 +16,8 @@ use validators::{Criteria, Panel, Report};
 /// Judges a game and its levels: all problems of the files first, then each criterion of a release.
 ///
 /// The verdict comes first, a line for each level and one for the game; then the reasons, each with what was seen and what
-/// to try. docs/validate.md says what each criterion asks.
+/// to try. Whether every rule is used is asked of the game over all its levels, if no level is left out. docs/validate.md
+/// says what each criterion asks.
 ///
 /// Exit status 0: every level and the game meet every criterion. 1: one does not, or could not be shown to. 2: a file is
 /// malformed.
@@ -97,7 +98,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         .collect();
     let sound: Vec<Level> = judged.iter().filter_map(|judged| judged.level.clone().ok()).collect();
     let reports: Vec<Report> = judged.iter().filter_map(|judged| judged.report.clone()).collect();
-    let mut of_game = panel.judge_together(&game, &sound, &reports, seed);
+    // What concerns the game over all its levels cannot be asked of some of them.
+    let all = sound.len() == judged.len() && judged.len() >= input.count();
+    let mut of_game = if all { panel.judge_together(&game, &sound, &reports, seed) } else { Vec::new() };
     bar.finish_and_clear();
     let findings = judged.iter_mut().filter_map(|judged| judged.report.as_mut());
     let findings = findings.flat_map(|report| &mut report.judgements).chain(&mut of_game);

@@ -1,0 +1,221 @@
+//! `tests/suite/levels/`: games with a level, bad and good, and what the judges have to say of each.
+//!
+//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad one names the criterion that it fails, and words
+//! that reason and evidence have to contain; it may pass none but through that. A good one meets every criterion.
+
+use engine::{Game, Level, Seed};
+use serde::Deserialize;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::slice::from_ref;
+use validators::{Criteria, Finding, LEVEL_CRITERIA, Panel, Report, Verdict};
+
+/// `expect.toml`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Expect {
+    /// What is good or bad about it, for readers.
+    about: String,
+    /// The criterion that a bad level fails.
+    criterion: Option<String>,
+    /// `pass`, `fail` or `unknown`.
+    verdict: String,
+    /// What reason and evidence contain.
+    #[serde(default)]
+    words: Vec<String>,
+    /// The criteria that are asked; all if none is named.
+    #[serde(default)]
+    ask: Vec<String>,
+    /// What has to be built before the answer can be right: until then it may be `unknown`, and nothing else.
+    waits_for: Option<String>,
+    /// Criteria that differ from those of these tests.
+    #[serde(default)]
+    criteria: toml::Table,
+}
+
+struct Case {
+    name: String,
+    game: Game,
+    level: Level,
+    expect: Expect,
+}
+
+fn cases(kind: &str) -> Vec<Case> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("suite/levels").join(kind);
+    let mut folders: Vec<PathBuf> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    folders.sort();
+    let case = |folder: &PathBuf| {
+        let read = |file: &str| fs::read_to_string(folder.join(file)).unwrap();
+        let name = folder.file_name().unwrap().to_string_lossy().into_owned();
+        let game =
+            Game::from_source(&read("game.vgdl")).unwrap_or_else(|problems| panic!("{name}: {problems}"));
+        let level = game.level(&read("lvl0.txt")).unwrap_or_else(|problems| panic!("{name}: {problems}"));
+        let expect = toml::from_str(&read("expect.toml")).unwrap_or_else(|error| panic!("{name}: {error}"));
+        Case { name, game, level, expect }
+    };
+    folders.iter().map(case).collect()
+}
+
+/// All criteria, with budgets that small levels get along with.
+fn criteria(expect: &Expect) -> Criteria {
+    let base = Criteria { budget: 1_500_000, ladder_calls: 1_000_000, ..Criteria::full() };
+    let mut table = toml::Table::try_from(&base).unwrap();
+    table.extend(expect.criteria.clone());
+    let mut criteria: Criteria = table.try_into().unwrap();
+    if !expect.ask.is_empty() {
+        criteria.ask.clone_from(&expect.ask);
+    }
+    criteria.check().unwrap();
+    criteria
+}
+
+fn word(finding: &Finding) -> &'static str {
+    match finding.verdict {
+        Verdict::Pass { .. } => "pass",
+        Verdict::Fail { .. } => "fail",
+        Verdict::Unknown { .. } => "unknown",
+    }
+}
+
+/// Everything that a finding says in words.
+fn told(finding: &Finding) -> String {
+    let mut text = match &finding.verdict {
+        Verdict::Fail { reason, .. } => reason.0.clone(),
+        _ => String::new(),
+    };
+    for seen in &finding.evidence {
+        text.push_str(&format!("\n{}", seen.text));
+        let cell = seen.cell.map(|(column, row)| format!("\ncolumn {column}, row {row}"));
+        let rule = seen.rule.as_ref().map(|rule| rule.text.clone());
+        for part in [cell, rule, seen.advice.clone()].into_iter().flatten() {
+            text.push_str(&format!("\n{part}"));
+        }
+    }
+    text
+}
+
+/// Every witness that is shown replays.
+fn replays(case: &Case, report: &Report) {
+    for episode in report.episodes() {
+        assert!(episode.replay(&case.game, &case.level).is_ok(), "{}", case.name);
+    }
+}
+
+#[allow(clippy::print_stderr, reason = "a case that is put off says so")]
+fn tell_waiting(waiting: &[&str]) {
+    eprintln!("unknown so far: {}", waiting.join(", "));
+}
+
+#[test]
+fn bad_levels_fail_for_the_reason_that_is_theirs() {
+    let cases = cases("bad");
+    assert!(cases.len() >= 20, "{} cases", cases.len());
+    let mut waiting = Vec::new();
+    for case in &cases {
+        let Case { name, game, level, expect } = case;
+        let criterion = expect.criterion.as_deref().unwrap_or_else(|| panic!("{name} names no criterion"));
+        let report =
+            Panel::new(&criteria(expect)).judge_game(game, from_ref(level), Seed::from_text("suite"));
+        replays(case, &report.levels[0]);
+        assert!(!report.passes(), "{name} passes: {}", expect.about);
+        let all = report.levels[0].judgements.iter().chain(&report.judgements);
+        let judgement = all.into_iter().find(|judgement| judgement.criterion == criterion);
+        let finding = &judgement.unwrap_or_else(|| panic!("{name}: {criterion} was not asked")).finding;
+        if expect.waits_for.is_some() && word(finding) == "unknown" {
+            waiting.push(name.as_str());
+            continue;
+        }
+        assert_eq!(word(finding), expect.verdict, "{name}: {}\n{}", expect.about, told(finding));
+        let told = told(finding);
+        for words in &expect.words {
+            assert!(told.contains(words), "{name}: `{words}` is not in\n{told}");
+        }
+    }
+    tell_waiting(&waiting);
+}
+
+#[test]
+fn good_levels_meet_every_criterion() {
+    let cases = cases("good");
+    assert!(cases.len() >= 8, "{} cases", cases.len());
+    let mut waiting = Vec::new();
+    for case in &cases {
+        let Case { name, game, level, expect } = case;
+        let report =
+            Panel::new(&criteria(expect)).judge_game(game, from_ref(level), Seed::from_text("suite"));
+        replays(case, &report.levels[0]);
+        let all = report.levels[0].judgements.iter().chain(&report.judgements);
+        let obstacle = all.into_iter().find(|judgement| !judgement.finding.verdict.is_pass());
+        let Some(obstacle) = obstacle else { continue };
+        assert!(
+            expect.waits_for.is_some() && word(&obstacle.finding) == "unknown",
+            "{name}: {}\n{}: {} {}",
+            expect.about,
+            obstacle.criterion,
+            word(&obstacle.finding),
+            told(&obstacle.finding)
+        );
+        waiting.push(name.as_str());
+    }
+    tell_waiting(&waiting);
+}
+
+/// Levels of the corpus that meet every criterion of levels.
+const CORPUS: &[(&str, usize)] = &[
+    ("bog-lantern", 0),
+    ("bog-lantern", 2),
+    ("diving-bell", 0),
+    ("diving-bell", 1),
+    ("foxglove-round", 0),
+    ("foxglove-round", 1),
+    ("garden-post", 0),
+    ("garden-post", 1),
+    ("hailglass", 3),
+    ("hailglass", 4),
+    ("kiln-gecko", 0),
+    ("quiet-jars", 0),
+    ("tinkers-attic", 0),
+    ("tinkers-attic", 1),
+];
+
+#[test]
+fn levels_of_the_corpus_meet_the_criteria_of_levels() {
+    let panel = Panel::new(&Criteria {
+        ask: LEVEL_CRITERIA.iter().map(|&name| name.to_owned()).collect(),
+        ..Criteria::default()
+    });
+    for (name, number) in CORPUS {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);
+        let game = Game::from_source(&fs::read_to_string(folder.join("game.vgdl")).unwrap()).unwrap();
+        let level =
+            game.level(&fs::read_to_string(folder.join(format!("lvl{number}.txt"))).unwrap()).unwrap();
+        let report = panel.judge(&game, &level, Seed::from_text("suite"));
+        let obstacle = report.first_obstacle();
+        assert!(
+            obstacle.is_none(),
+            "{name} {number}: {:?}",
+            obstacle.map(|judgement| (judgement.criterion, told(&judgement.finding)))
+        );
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_answer_on_any_number_of_threads() {
+    for case in cases("good").iter().take(3).chain(cases("bad").iter().take(4)) {
+        let criteria = Criteria { budget: 100_000, ladder_calls: 300_000, ..Criteria::full() };
+        let panel = Panel::new(&criteria);
+        let judge = || panel.judge_game(&case.game, from_ref(&case.level), Seed::from_text("threads"));
+        let [one, two] = [1, 2].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(judge)
+        });
+        assert_eq!(
+            serde_json::to_string(&one).unwrap(),
+            serde_json::to_string(&two).unwrap(),
+            "{}",
+            case.name
+        );
+        assert_eq!(one, two, "{}", case.name);
+    }
+}
