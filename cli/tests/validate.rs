@@ -70,16 +70,72 @@ fn a_good_level_passes_and_its_witness_replays() {
     assert_eq!(document["passes"], true);
 }
 
+/// The judgement of the first level on a criterion.
+fn judgement(document: &Value, criterion: &str) -> Value {
+    let judgements = document["levels"][0]["judgements"].as_array().unwrap();
+    judgements.iter().find(|judgement| judgement["criterion"] == criterion).unwrap().clone()
+}
+
 #[test]
-fn a_goal_walled_in_never_passes() {
+fn a_goal_walled_in_fails_with_its_line_and_cell() {
     let walled = "wwwwwwwwww\nwA.t...t.w\nw.....twww\nw.t....wnw\nwn...t.www\nwwwwwwwwww\n";
     let folder = folder(GAME, walled);
     let output = run(folder.path(), &["--json", "validate", ".", "--budget", "200000"], 1);
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let judgements = document["levels"][0]["judgements"].as_array().unwrap();
-    let winnable = judgements.iter().find(|judgement| judgement["criterion"] == "winnable").unwrap();
-    assert_eq!(winnable["verdict"], "unknown");
+    let winnable = judgement(&document, "winnable");
+    assert_eq!(winnable["verdict"], "fail");
+    let seen = &winnable["evidence"][0];
+    assert_eq!(seen["cell"], serde_json::json!([9, 4]));
+    assert_eq!(seen["rule"]["line"], 19);
+    let output = run(folder.path(), &["validate", "."], 1);
+    let said = text(&output.stdout);
+    let first = said.lines().next().unwrap();
+    assert!(first.contains("lvl0.txt") && first.contains("FAILS winnable: no way to win"), "{said}");
+    assert!(said.contains("column 9, row 4; ./game.vgdl:19 `SpriteCounter stype=nectar"), "{said}");
+}
+
+#[test]
+fn a_win_that_is_not_found_is_unknown_with_the_budget() {
+    // Thorns all around the nectar, and a bee that makes it a game of chance.
+    let game = GAME
+        .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
+        .replace("        A > floor", "        b > floor bee\n        A > floor")
+        .replace("        avatar thorn", "        bee wall > stepBack\n        avatar thorn");
+    let folder = folder(&game, "wwwwwwwwww\nwA......bw\nw....ttttw\nw....tn..w\nw....ttttw\nwwwwwwwwww\n");
+    let output = run(folder.path(), &["--json", "validate", ".", "--budget", "200000"], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let winnable = judgement(&document, "winnable");
+    assert_eq!(winnable["verdict"], "unknown", "{winnable}");
     assert!(winnable["spent"].as_u64().unwrap() >= 200_000, "{winnable}");
+}
+
+#[test]
+fn what_concerns_the_whole_game_is_asked_of_all_its_levels() {
+    // Each level alone lacks something; together they have everything.
+    let folder = folder(GAME, "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n");
+    fs::write(folder.path().join("lvl1.txt"), "wwwwwwwww\nwA..n...w\nw.n...n.w\nwwwwwwwww\n").unwrap();
+    let judgements = |args: &[&str], status| {
+        let output = run(folder.path(), args, status);
+        let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+        document["judgements"].as_array().unwrap().iter().map(|judged| judged["verdict"].clone()).collect()
+    };
+    let together: Vec<Value> = judgements(&["--json", "validate", "."], 1);
+    assert_eq!(together, ["pass", "pass"]);
+    // The second level alone is won by random keys, and says nothing of the game.
+    let alone: Vec<Value> = judgements(&["--json", "validate", ".", "1"], 1);
+    assert!(alone.is_empty());
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte_of_a_verdict() {
+    let folder = folder(GAME, LEVEL);
+    let args = ["--json", "validate", ".", "--budget", "100000"];
+    let [one, two] = ["1", "2"].map(|threads| {
+        let mut command = arcade::arcade(folder.path());
+        command.env("RAYON_NUM_THREADS", threads).args(args).output().unwrap().stdout
+    });
+    assert!(!one.is_empty());
+    assert_eq!(text(&one), text(&two));
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::{
     Case, Criteria, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom, Reachable, Readable,
     RuleUse, SkillPays, Validator, Verdict, WellFormed, Winnable,
 };
-use engine::{Analysis, Episode, Game, Level, Seed};
+use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -57,6 +57,23 @@ impl Report {
     /// How the players of the ladder fared, if they played.
     pub fn ladder(&self) -> Option<&Ladder> {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
+    }
+
+    /// Takes the witness of a judgement; where there is none because the search found none, a win that somebody else has
+    /// played is as good.
+    fn accept(&mut self, judgement: &mut Judgement) {
+        if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
+            judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
+        }
+        if let Verdict::Pass { witness: Some(witness) } = &judgement.finding.verdict {
+            self.witness = Some(witness.clone());
+        }
+    }
+
+    fn shortest_win(&self) -> Option<Episode> {
+        let played = self.judgements.iter().flat_map(|judgement| &judgement.finding.episodes);
+        let won = played.filter(|episode| episode.outcome == Outcome::Won);
+        won.min_by_key(|episode| episode.actions.len()).cloned()
     }
 
     /// All episodes that the judges played, the telling ones first: the witness, then those of the last judges.
@@ -170,18 +187,37 @@ impl Panel {
     fn ask(&self, game: &Game, level: &Level, seed: Seed, screen: bool) -> Report {
         let analysis = Analysis::of(game);
         let mut report = Report { judgements: Vec::new(), witness: None };
-        for validator in &self.validators {
+        let ask = |validator: &(dyn Validator + Send), witness: Option<&Episode>| {
             let criterion = validator.name();
-            let witness = report.witness.as_ref();
             let case = Case { game, level, seed: seed.child(criterion, 0), analysis: &analysis, witness };
-            let finding = validator.validate(case);
-            if let (Verdict::Pass { witness: Some(witness) }, None) = (&finding.verdict, &report.witness) {
-                report.witness = Some(witness.clone());
+            Judgement { criterion, finding: validator.validate(case) }
+        };
+        for validator in &self.validators {
+            let mut judgement = ask(&**validator, report.witness.as_ref());
+            if judgement.criterion == "winnable" {
+                report.accept(&mut judgement);
             }
-            let passed = finding.verdict.is_pass();
-            report.judgements.push(Judgement { criterion, finding });
+            let passed = judgement.finding.verdict.is_pass();
+            report.judgements.push(judgement);
             if screen && !passed {
-                break;
+                return report;
+            }
+        }
+        // Players of the ladder may win what no search for a win did.
+        if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
+            report.witness = Some(won);
+            for validator in self.validators.iter().filter(|validator| validator.name() != "skill") {
+                let at = report.judgements.iter().position(|judged| judged.criterion == validator.name());
+                let judged = &mut report.judgements[at.expect("all were asked")];
+                match (&judged.finding.verdict, judged.criterion) {
+                    (Verdict::Unknown { .. }, "winnable") => {
+                        judged.finding.verdict = Verdict::Pass { witness: report.witness.clone() };
+                    }
+                    (Verdict::Unknown { .. }, "length") => {
+                        *judged = ask(&**validator, report.witness.as_ref())
+                    }
+                    _ => {}
+                }
             }
         }
         report
@@ -191,7 +227,6 @@ impl Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::Outcome;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
 
@@ -218,21 +253,23 @@ mod tests {
 
     #[test]
     fn a_good_level_passes_with_a_witness() {
-        let criteria = ["well-formed", "not-idle", "not-random", "winnable", "length"];
+        let criteria =
+            ["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length"];
         assert!(check(GAME, GOOD, &criteria.map(|criterion| (criterion, "pass"))).passes());
     }
 
     #[test]
-    fn a_goal_walled_in_is_unknown_never_a_pass() {
-        let walled = WALLED.replace("wp w\n", "wppw\n");
+    fn a_goal_out_of_reach_is_proved_so() {
         let report = check(
             GAME,
-            &walled,
+            &WALLED.replace("wp w\n", "wpww\n"),
             &[
                 ("well-formed", "pass"),
+                ("readable", "pass"),
                 ("not-idle", "pass"),
                 ("not-random", "pass"),
-                ("winnable", "unknown"),
+                ("early-death", "pass"),
+                ("winnable", "fail"),
                 ("length", "unknown"),
             ],
         );
@@ -247,8 +284,10 @@ mod tests {
             GOOD,
             &[
                 ("well-formed", "pass"),
+                ("readable", "pass"),
                 ("not-idle", "fail"),
                 ("not-random", "pass"),
+                ("early-death", "pass"),
                 ("winnable", "pass"),
                 ("length", "pass"),
             ],
