@@ -3,7 +3,7 @@
 use crate::board::Board;
 use crate::evidence::{Evidence, Line};
 use engine::analysis::{Encounter, Side};
-use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Watch};
+use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType, Watch};
 
 /// How an episode ended.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub(crate) struct Ending {
     outcome: Outcome,
     /// The termination that holds, as an index into the description.
     termination: Option<usize>,
-    /// What ended the avatar in the last tick.
+    /// What brought it about in the last tick: the blow that ended the avatar, or the sprite that had to go.
     blow: Option<Meeting>,
     /// The board before the last tick.
     before: Option<Board>,
@@ -21,31 +21,22 @@ pub(crate) struct Ending {
     action: Option<Action>,
 }
 
-/// Listens for what happens to avatars.
-struct Ear<'a> {
-    analysis: &'a Analysis,
-    blow: Option<Meeting>,
-}
+/// Hears what happens in a tick.
+#[derive(Default)]
+struct Ear(Vec<Meeting>);
 
-impl Watch for Ear<'_> {
+/// Meetings of a tick that are heard.
+const HEARD: usize = 256;
+
+impl Watch for Ear {
     fn interaction(&mut self, _: usize) {}
 
     fn wants_meetings(&self) -> bool {
-        true
+        self.0.len() < HEARD
     }
 
     fn meeting(&mut self, meeting: Meeting) {
-        let avatars = self.analysis.avatars();
-        let is_avatar = |stype| avatars.iter().any(|avatar| avatar.stype == stype);
-        let ends = |side: Side| {
-            let of_line = |encounter: &&Encounter| encounter.line == meeting.line;
-            self.analysis.encounters().iter().filter(of_line).any(|encounter| encounter.ends(side))
-        };
-        let first = is_avatar(meeting.first) && ends(Side::First);
-        let second = meeting.second.is_some_and(|second| is_avatar(second) && ends(Side::Second));
-        if first || second {
-            self.blow = Some(meeting);
-        }
+        self.0.push(meeting);
     }
 }
 
@@ -55,7 +46,7 @@ impl Ending {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
         let mut before = None;
-        let mut ear = Ear { analysis, blow: None };
+        let mut ear = Ear::default();
         if let Some((&last, rest)) = episode.actions.split_last() {
             for &action in rest {
                 game.step(&mut state, action);
@@ -63,11 +54,22 @@ impl Ending {
             before = Some(Board::of(game, &state));
             game.step_watched(&mut state, last, &mut ear);
         }
+        let termination = game.ended_by(&state);
+        let avatars = || analysis.avatars().iter().map(|avatar| avatar.stype).collect();
+        let counted = |line| {
+            let goal = analysis.goals().iter().find(|goal| goal.line == line);
+            goal.map_or(Vec::new(), |goal| goal.condition.types().to_vec())
+        };
+        let ended: Vec<SpriteType> = match state.outcome() {
+            Outcome::Lost => avatars(),
+            Outcome::Won => termination.map_or(Vec::new(), counted),
+            _ => Vec::new(),
+        };
         Ending {
             ticks: episode.actions.len(),
             outcome: state.outcome(),
-            termination: game.ended_by(&state),
-            blow: ear.blow,
+            termination,
+            blow: ear.0.into_iter().rev().find(|meeting| ends(analysis, meeting, &ended)),
             before,
             action: episode.actions.last().copied(),
         }
@@ -76,32 +78,36 @@ impl Ending {
     /// What happened in the last tick, a sentence for each line that had a part in it.
     pub(crate) fn evidence(&self, game: &Game) -> Vec<Evidence> {
         let mut list = Vec::new();
-        let lost = self.outcome == Outcome::Lost;
-        if let (true, Some(Meeting { line, first, second, cell })) = (lost, self.blow) {
-            let partner = second.map_or("the edge of the screen", |second| game.name(second));
-            let text = format!("{} meets {partner} and is lost", game.name(first));
-            list.push(Evidence {
-                text,
-                tick: Some(self.ticks),
-                cell: placed(cell),
-                rule: Some(Line::interaction(game, line)),
-                ..Evidence::default()
-            });
+        let key = self.action.filter(|action| *action != Action::Nil);
+        let key = key.map_or(String::new(), |action| format!(" (the key was {action})"));
+        let word = if self.outcome == Outcome::Won { "won" } else { "lost" };
+        if let Some(Meeting { line, first, second, cell }) = self.blow {
+            let (first, partner) = (game.name(first), second.map(|second| game.name(second)));
+            let text = format!("{first} meets {}{key}", partner.unwrap_or("the edge of the screen"));
+            let rule = Some(Line::interaction(game, line));
+            list.push(Evidence { text, cell: placed(cell), rule, ..Evidence::default() });
         }
         if let Some(line) = self.termination {
-            let word = if lost { "lost" } else { "won" };
-            let text = format!("the game is {word} by its rule on when it ends");
+            let text = format!("with that the game is {word}");
+            let text = if list.is_empty() { format!("the game is {word} by this line{key}") } else { text };
             let rule = Some(Line::termination(game, line));
-            list.push(Evidence { text, tick: Some(self.ticks), rule, ..Evidence::default() });
+            list.push(Evidence { text, rule, ..Evidence::default() });
         }
+        list.iter_mut().for_each(|seen| seen.tick = Some(self.ticks));
         if let (Some(first), Some(board)) = (list.first_mut(), &self.before) {
             first.board = Some(board.clone());
-            if let Some(action) = self.action.filter(|action| *action != Action::Nil) {
-                first.text.push_str(&format!(" (the key was {action})"));
-            }
         }
         list
     }
+}
+
+/// Whether an interaction may have ended, on one of its sides, a sprite of one of these types.
+fn ends(analysis: &Analysis, meeting: &Meeting, types: &[SpriteType]) -> bool {
+    let of_line = |encounter: &&Encounter| encounter.line == meeting.line;
+    let ends =
+        |side: Side| analysis.encounters().iter().filter(of_line).any(|encounter| encounter.ends(side));
+    let first = types.contains(&meeting.first) && ends(Side::First);
+    first || meeting.second.is_some_and(|second| types.contains(&second)) && ends(Side::Second)
 }
 
 /// Counted from 1, as people count.

@@ -4,6 +4,7 @@ use crate::evidence::Evidence;
 use crate::ladder::{Climb, Climbed, Fared, Ladder};
 use crate::verdict::{Case, Finding, Reason, Validator, Verdict};
 use agents::Play;
+use engine::Outcome;
 use statistics::{Interval, Z95};
 
 /// Stronger players win more, or score more, than those who do not look ahead: by a margin, and surely (the 95 % interval of
@@ -75,9 +76,11 @@ impl Validator for SkillPays {
         held.extend(by_search);
         let accepted = held.iter().any(|edge| edge.pays);
         let unsure = edges.iter().chain(&held).any(|edge| edge.unsure);
+        // Where nobody wins, not even a search, it is not the level's luck that they are alike.
+        let beaten = case.witness.is_some() || climbed.plays.iter().flatten().any(is_won);
         let verdict = if shown && accepted {
             Verdict::pass()
-        } else if unsure || (shown && !accepted) {
+        } else if unsure || !beaten || (shown && !accepted) {
             Verdict::Unknown { spent }
         } else {
             let strongest = edges.last().or(held.last()).map(|edge| edge.text.as_str());
@@ -86,7 +89,7 @@ impl Validator for SkillPays {
         };
         let mut evidence: Vec<Evidence> =
             edges.iter().chain(&held).map(|edge| Evidence::new(edge.text.clone())).collect();
-        if let (false, Some(last)) = (verdict.is_pass(), evidence.last_mut()) {
+        if let (Verdict::Fail { .. }, Some(last)) = (&verdict, evidence.last_mut()) {
             last.advice = Some(
                 "let choices matter: dangers that foresight avoids, points that a plan earns, less luck"
                     .to_owned(),
@@ -157,4 +160,8 @@ fn better(ladder: &Ladder, a: usize, b: usize) -> std::cmp::Ordering {
 fn range(climbed: &Climbed) -> f64 {
     let scores = || climbed.plays.iter().flatten().map(|play| play.episode.score);
     scores().fold(f64::NEG_INFINITY, f64::max) - scores().fold(f64::INFINITY, f64::min)
+}
+
+fn is_won(play: &Play) -> bool {
+    play.episode.outcome == Outcome::Won
 }

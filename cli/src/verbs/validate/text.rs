@@ -97,6 +97,8 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let _ = writeln!(text, "{}", line.trim_end());
     // The reason has said what the first one says.
     let told = |seen: &&Evidence| seen.rule.is_some() || !words.contains(seen.text.as_str());
+    // A ladder says in a table what its evidence says in words.
+    let told = |seen: &&Evidence| told(seen) && !(finding.ladder.is_some() && mark == "pass");
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(told).collect();
     for seen in shown.iter().take(MOST_SEEN) {
         evidence(text, seen, &words, source);
@@ -129,7 +131,7 @@ fn answer(criterion: &str, finding: &validators::Finding) -> String {
             "early-death" => {
                 format!("no way to live through the start found with {spent} forward-model calls")
             }
-            "skill" => format!("too few plays to tell, {spent} forward-model calls"),
+            "skill" => "not enough wins to tell".to_owned(),
             _ => {
                 let first = finding.evidence.first().map_or("not shown", |seen| seen.text.as_str());
                 let others = finding.evidence.iter().filter(|seen| seen.advice.is_some()).count();
