@@ -8,8 +8,9 @@ use engine::{Game, Level, SpriteType};
 
 /// Every visible type has a character of its own, and nothing that decides is hidden.
 ///
-/// A type fails if it is `hidden` and counts towards a win or a loss or does something to the avatar, or if the level places
-/// it only under sprites that cover it. What is hidden and only makes others (a spawner) is told, not held against the level.
+/// A type that counts towards a win or a loss, or does something to the avatar, fails if it is `hidden`, or if the level places
+/// it only under sprites that cover it. What is hidden and only makes others (a spawner) is told, not held against the level;
+/// what lies under others and decides nothing is scenery.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Readable;
 
@@ -73,7 +74,8 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     let mut symbols: Vec<u8> = level.cells().to_vec();
     symbols.sort_unstable();
     symbols.dedup();
-    for stype in game.sprite_types().filter(|&stype| !ground(stype) && !analysis.facts(stype).hidden) {
+    let shown = |stype: &SpriteType| !ground(*stype) && !analysis.facts(*stype).hidden;
+    for stype in game.sprite_types().filter(|stype| shown(stype) && decides(analysis, *stype)) {
         let with = |symbol: &&u8| game.places(**symbol).contains(&stype);
         let mut placing = symbols.iter().filter(with).peekable();
         let Some(&&first) = placing.peek() else { continue };

@@ -69,18 +69,18 @@ impl Validator for SkillPays {
             .enumerate()
             .map(|(at, fared)| self.edge(fared, &climbed.plays[first + at], (&ladder, &climbed), weak, range))
             .collect();
-        let sure = case.game.is_deterministic().then_some(case.witness).flatten();
-        let by_search = sure.map(|_| self.against_search(&ladder.rungs[weak]));
+        // In a deterministic game any win is a plan that wins every time.
+        let won = case.witness.is_some() || climbed.plays.iter().flatten().any(is_won);
+        let planned = won && case.game.is_deterministic();
+        let by_search = planned.then(|| self.against_search(&ladder.rungs[weak]));
         let searched = by_search.as_ref().is_some_and(|edge| edge.pays);
         let shown = edges.iter().any(|edge| edge.pays) || searched;
         held.extend(by_search);
         let accepted = held.iter().any(|edge| edge.pays);
         let unsure = edges.iter().chain(&held).any(|edge| edge.unsure);
-        // Where nobody wins, not even a search, it is not the level's luck that they are alike.
-        let beaten = case.witness.is_some() || climbed.plays.iter().flatten().any(is_won);
         let verdict = if shown && accepted {
             Verdict::pass()
-        } else if unsure || !beaten || (shown && !accepted) {
+        } else if unsure || !won || (shown && !accepted) {
             Verdict::Unknown { spent }
         } else {
             let strongest = edges.last().or(held.last()).map(|edge| edge.text.as_str());
@@ -140,10 +140,10 @@ impl SkillPays {
         Edge { text, pays, unsure: unsure && !pays }
     }
 
-    /// Who searches wins every time; how much more is that than the weaker player?
+    /// Who knows the way wins every time; how much more is that than the weaker player?
     fn against_search(&self, weaker: &Fared) -> Edge {
         let (wins, plays) = (weaker.rate.wins, weaker.rate.plays);
-        let text = format!("who searches wins every time, {} {wins} of {plays}", weaker.player);
+        let text = format!("who knows the way wins every time, {} {wins} of {plays}", weaker.player);
         let high = weaker.rate.interval[1];
         let pays = 1.0 - wins as f64 / plays.max(1) as f64 >= self.wins && high < 1.0;
         Edge { text, pays, unsure: false }
