@@ -224,3 +224,57 @@ impl Futures<'_> {
 fn told(state: &State) -> (Outcome, f64) {
     (state.outcome(), state.score())
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{Criteria, Finding, Panel, Verdict};
+    use engine::{Game, Seed};
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    fern > Immovable\n    mud > Immovable\n    dew > Resource limit=2\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    f > fern\n    m > mud\n  InteractionSet\n    avatar wall > stepBack\n    plum avatar > killSprite scoreChange=1\n    avatar fern > killIfHasMore resource=dew limit=2\n    mud avatar > transformTo stype=fern\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=40 win=False\n";
+
+    fn findings(source: &str) -> [Finding; 2] {
+        let game = Game::from_source(source).unwrap();
+        let level = game.level("wwwwww\nwAfmpw\nwwwwww\n").unwrap();
+        let criteria = Criteria {
+            ask: ["not-random", "winnable", "rule-use", "ablation"].map(str::to_owned).to_vec(),
+            budget: 20_000,
+            ..Criteria::full()
+        };
+        let report = Panel::new(&criteria).judge_game(&game, &[level], Seed::from_text("ablation"));
+        report
+            .judgements
+            .into_iter()
+            .map(|judgement| judgement.finding)
+            .collect::<Vec<_>>()
+            .try_into()
+            .unwrap()
+    }
+
+    #[test]
+    fn a_rule_without_consequence_is_idle_and_one_that_only_looks_different_is_unknown() {
+        let [used, matter] = findings(GAME);
+        // The dew that would make a difference is nowhere.
+        let Verdict::Fail { reason, .. } = &used.verdict else { panic!("{used:?}") };
+        assert_eq!(reason.0, "no `dew` is ever there");
+        let Verdict::Fail { reason, .. } = &matter.verdict else { panic!("{matter:?}") };
+        assert_eq!(
+            reason.0,
+            "`avatar fern > killIfHasMore resource=dew limit=2` runs, and nothing follows from it"
+        );
+        let texts: Vec<&str> = matter.evidence.iter().map(|seen| seen.text.as_str()).collect();
+        assert!(texts[1].starts_with("without `mud avatar > transformTo"), "{texts:?}");
+    }
+
+    #[test]
+    fn rules_that_end_or_score_matter() {
+        let deadly = GAME
+            .replace("avatar fern > killIfHasMore resource=dew limit=2", "avatar fern > killSprite")
+            .replace("    Timeout", "    SpriteCounter stype=avatar win=False\n    Timeout");
+        let game = Game::from_source(&deadly).unwrap();
+        let level = game.level("wwwwwww\nwA m pw\nw  f  w\nwwwwwww\n").unwrap();
+        let criteria = Criteria { budget: 20_000, ladder_calls: 20_000, ..Criteria::full() };
+        let report = Panel::new(&criteria).judge_game(&game, &[level], Seed::from_text("ablation"));
+        let matter = &report.judgements[1].finding;
+        assert!(matter.verdict.is_pass(), "{matter:?}");
+    }
+}

@@ -199,3 +199,61 @@ impl NoEarlyDeath {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::{Analysis, Game};
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    den > Door\n    rock > Missile orientation=LEFT speed=1\n    wolf > RandomNPC speed=1\n    avatar > MovingAvatar\n  LevelMapping\n    d > den\n    r > rock\n    o > wolf\n  InteractionSet\n    avatar wall > stepBack\n    wolf wall > stepBack\n    avatar rock wolf > killSprite\n    den avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=den win=True\n    SpriteCounter stype=avatar win=False\n";
+
+    #[track_caller]
+    fn check(game: &str, level: &str, calls: u64) -> Finding {
+        let game = Game::from_source(game).unwrap();
+        let level = game.level(level).unwrap();
+        let (analysis, seed) = (Analysis::of(&game), Seed::from_text("early"));
+        let case = Case { game: &game, level: &level, seed, analysis: &analysis, witness: None };
+        let finding = NoEarlyDeath { ticks: 12, calls, chances: 10, share: 0.05 }.validate(case);
+        if let Verdict::Fail { witness: Some(witness), .. } = &finding.verdict {
+            assert_eq!(witness.replay(&game, &level).unwrap().outcome(), Outcome::Lost);
+        }
+        finding
+    }
+
+    /// Without wolves the game is deterministic.
+    fn calm() -> String {
+        GAME.replace("    wolf > RandomNPC speed=1\n", "")
+            .replace("    o > wolf\n", "")
+            .replace("    wolf wall > stepBack\n", "")
+            .replace("rock wolf", "rock")
+    }
+
+    #[test]
+    fn death_that_nothing_avoids_is_told_from_the_death_of_who_does_nothing() {
+        let doomed = check(&calm(), "wwwwwwww\nwA  rr d\nwwwwwwww\n", 10_000);
+        let Verdict::Fail { reason, .. } = &doomed.verdict else { panic!("{doomed:?}") };
+        assert!(reason.0.contains("within 4 ticks: all ways were searched"), "{reason:?}");
+        assert_eq!(doomed.evidence[0].rule.as_ref().unwrap().text, "avatar rock > killSprite");
+        let alive = check(&calm(), "wwwwwwww\nwA  rr d\nw      w\nwwwwwwww\n", 10_000);
+        assert!(alive.verdict.is_pass());
+        assert!(
+            alive.evidence[0].text.starts_with("who does nothing is lost in tick 4"),
+            "{:?}",
+            alive.evidence
+        );
+    }
+
+    #[test]
+    fn a_search_that_is_cut_short_proves_nothing() {
+        let found = check(&calm(), "wwwwwwww\nwA  rr d\nwwwwwwww\n", 2);
+        assert!(matches!(found.verdict, Verdict::Unknown { spent: 2.. }), "{found:?}");
+    }
+
+    #[test]
+    fn games_of_chance_are_counted() {
+        let doomed = check(GAME, "wwwwwd\nwAooow\nwwwwww\n", 10_000);
+        let Verdict::Fail { reason, .. } = &doomed.verdict else { panic!("{doomed:?}") };
+        assert!(reason.0.contains("of 10 games of chance"), "{reason:?}");
+        assert!(check(GAME, "A       d\n         \n        o\n", 10_000).verdict.is_pass());
+    }
+}

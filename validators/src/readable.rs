@@ -111,3 +111,40 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
 fn shown_elsewhere(game: &Game, stype: SpriteType, over: impl Fn(u8) -> Option<SpriteType>) -> bool {
     (b'!'..=b'~').any(|symbol| game.places(symbol).contains(&stype) && over(symbol).is_none())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Seed;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    nest > SpawnPoint stype=bug hidden=True\n    bug > RandomNPC\n    gem > Immovable\n    rock > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    n > nest\n    g > floor gem\n    r > floor rock\n    x > gem rock\n    A > floor avatar\n  InteractionSet\n    gem avatar > killSprite\n    rock avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=gem win=True\n";
+
+    #[track_caller]
+    fn check(source: &str, level: &str, fault: Option<&str>, told: usize) {
+        let game = Game::from_source(source).unwrap();
+        let level = game.level(level).unwrap();
+        let (analysis, seed) = (Analysis::of(&game), Seed::from_text("readable"));
+        let case = Case { game: &game, level: &level, seed, analysis: &analysis, witness: None };
+        let finding = Readable.validate(case);
+        match (&finding.verdict, fault) {
+            (Verdict::Pass { .. }, None) => {}
+            (Verdict::Fail { reason, .. }, Some(fault)) => assert_eq!(reason.0, fault),
+            other => panic!("{other:?}"),
+        }
+        assert_eq!(finding.evidence.len(), told, "{:?}", finding.evidence);
+    }
+
+    #[test]
+    fn what_decides_is_to_be_seen() {
+        check(GAME, "A.gr", None, 0);
+        // Hidden, but it only makes others.
+        check(GAME, "Ang.", None, 1);
+        // Some character shows gems, so that one can know them.
+        check(GAME, "A.xg", None, 0);
+        let hidden = GAME.replace("gem > Immovable", "gem > Immovable hidden=True");
+        check(&hidden, "A.gr", Some("`gem` decides how the game goes, but is hidden"), 1);
+        let covered = GAME.replace("    g > floor gem\n", "");
+        let fault = "`gem` has no symbol of its own: `x` shows the `rock` above it";
+        check(&covered, "A.xr", Some(fault), 1);
+    }
+}
