@@ -59,7 +59,7 @@ fn cases(kind: &str) -> Vec<Case> {
 
 /// All criteria, with budgets that small levels get along with.
 fn criteria(expect: &Expect) -> Criteria {
-    let base = Criteria { budget: 600_000, ladder_calls: 600_000, ..Criteria::full() };
+    let base = Criteria { budget: 600_000, ..Criteria::full() };
     let mut table = toml::Table::try_from(&base).unwrap();
     table.extend(expect.criteria.clone());
     let mut criteria: Criteria = table.try_into().unwrap();

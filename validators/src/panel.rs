@@ -2,7 +2,7 @@
 
 use crate::ablation::RulesMatter;
 use crate::game_report::{GameCase, GameReport, GameValidator};
-use crate::recording::{Recorded, Usage};
+use crate::recording::{Recorded, Usage, explore};
 use crate::{
     Case, Criteria, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom, Reachable, Readable,
     RuleUse, SkillPays, Validator, Verdict, WellFormed, Winnable,
@@ -170,10 +170,18 @@ impl Panel {
             return Vec::new();
         }
         let analysis = Analysis::of(game);
-        let episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
-        let recorded = |(level, episodes)| Recorded { level, episodes };
-        let recording: Vec<Recorded<'_>> =
-            levels.iter().zip(episodes.iter().map(Vec::as_slice)).map(recorded).collect();
+        let mut episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
+        let new = {
+            let recording = recorded(levels, &episodes);
+            let usage = Usage::of(game, &recording);
+            explore(game, &recording, &usage, seed.child("explore", 0))
+        };
+        for (episodes, new) in episodes.iter_mut().zip(new) {
+            // After the witness, before what may be too much to look at.
+            let at = usize::from(!episodes.is_empty());
+            episodes.splice(at..at, new);
+        }
+        let recording = recorded(levels, &episodes);
         let usage = Usage::of(game, &recording);
         let judge = |validator: &(dyn GameValidator + Send)| {
             let criterion = validator.name();
@@ -222,6 +230,10 @@ impl Panel {
         }
         report
     }
+}
+
+fn recorded<'a>(levels: &'a [Level], episodes: &'a [Vec<Episode>]) -> Vec<Recorded<'a>> {
+    levels.iter().zip(episodes).map(|(level, episodes)| Recorded { level, episodes }).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What the recorded episodes of a game show: which interactions were executed, and which types were there.
 
-use engine::{Episode, Game, Level, Meeting, Outcome, Watch};
+use engine::{Action, Episode, Game, Level, Meeting, Outcome, Seed, Watch};
 use rayon::prelude::*;
 
 /// A level with the episodes that its judges have played, the telling ones first.
@@ -119,4 +119,75 @@ impl Usage {
             self.types[stype.index()] = true;
         }
     }
+}
+
+/// Ways to try on each level, when some rule was never seen.
+const TRIES: u64 = 400;
+/// Random keys of a way.
+const KEYS: usize = 40;
+
+/// Looks for executions of interactions that a recording does not show: from some moment of some episode of a level,
+/// random keys are pressed. Returns, by level, the episodes that show something new; they are episodes like all others.
+pub(crate) fn explore(
+    game: &Game,
+    recording: &[Recorded<'_>],
+    usage: &Usage,
+    seed: Seed,
+) -> Vec<Vec<Episode>> {
+    let unseen: Vec<bool> = usage.lines.iter().map(Vec::is_empty).collect();
+    if !unseen.contains(&true) {
+        return vec![Vec::new(); recording.len()];
+    }
+    let numbered: Vec<(u64, &Recorded<'_>)> = (0..).zip(recording).collect();
+    let of_level = |&(number, recorded): &(u64, &Recorded<'_>)| {
+        let mut unseen = unseen.clone();
+        let tries = (0..TRIES).map(|number| seed.child("way", number));
+        let tries = tries.map(|way| way.child("level", number));
+        tries.filter_map(|way| try_way(game, *recorded, &mut unseen, way)).collect()
+    };
+    numbered.par_iter().map(of_level).collect()
+}
+
+/// Marks what a way shows that was not seen; the episode up to the last of it.
+fn try_way(game: &Game, recorded: Recorded<'_>, unseen: &mut [bool], seed: Seed) -> Option<Episode> {
+    struct News<'a>(&'a mut [bool], bool);
+    impl Watch for News<'_> {
+        fn interaction(&mut self, line: usize) {
+            self.1 |= std::mem::replace(&mut self.0[line], false);
+        }
+    }
+    if !unseen.contains(&true) || recorded.episodes.is_empty() {
+        return None;
+    }
+    let mut sampler = seed.sampler();
+    // The telling ones come first: every other way starts from the very first.
+    let among = if sampler.ratio(1, 2) { 1 } else { recorded.episodes.len() };
+    let from = &recorded.episodes[sampler.below(among)];
+    let start = sampler.below(from.actions.len().max(1));
+    let mut state = game.start(recorded.level, from.seed);
+    let mut actions: Vec<Action> = Vec::new();
+    let mut telling = 0;
+    for tick in 0..start + KEYS {
+        if state.is_over() {
+            break;
+        }
+        let action = match from.actions.get(tick).filter(|_| tick < start) {
+            Some(&action) => action,
+            None => *sampler.choose(game.actions(&state)),
+        };
+        let mut news = News(unseen, false);
+        game.step_watched(&mut state, action, &mut news);
+        actions.push(action);
+        if news.1 {
+            telling = actions.len();
+        }
+    }
+    if telling == 0 {
+        return None;
+    }
+    let (mut episode, mut state) = Episode::begin(game, recorded.level, from.seed);
+    for action in actions.into_iter().take(telling) {
+        episode.play(game, &mut state, action);
+    }
+    Some(episode)
 }

@@ -454,6 +454,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
 }
 
 /// The draws of an effect without what follows from them, so that chance goes on as it would.
+#[cold]
 fn draw_only(step: &mut Step<'_>, effect: &Effect, one: Slot, two: Option<Slot>) {
     match (effect, two) {
         (Effect::FlipDirection, _) => {
