@@ -83,7 +83,10 @@ impl Step<'_> {
             while slot != NONE {
                 if !self.state.sprite(slot).is(flag::KILLED | flag::DISABLED) {
                     let tail = self.state.group(stype).tail;
-                    self.tell(watch, timed.line, slot, None);
+                    watch.interaction(timed.line);
+                    if watch.wants_meetings() {
+                        self.tell(watch, timed.line, slot, None);
+                    }
                     self.work_of_effect();
                     effects::execute(self, timed.effect, &info.effect, slot, None);
                     self.credit(info, info.initial_memory(), 1);
@@ -318,7 +321,10 @@ impl Step<'_> {
 
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
-        self.tell(watch, info.line, one, two);
+        watch.interaction(info.line);
+        if watch.wants_meetings() {
+            self.tell(watch, info.line, one, two);
+        }
         self.work_of_effect();
         if self.flies {
             self.prepare(&info.effect, one);
@@ -330,23 +336,21 @@ impl Step<'_> {
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
-    /// Tells of an execution that is about to happen.
-    #[inline]
+    /// Tells which sprites an execution is about to happen to.
+    #[cold]
     fn tell(&self, watch: &mut impl Watch, line: usize, one: Slot, two: Option<Slot>) {
-        watch.interaction(line);
-        if watch.wants_meetings() {
-            let first = self.state.present(one);
-            let cell = (first.rect.x.div_euclid(self.state.block), first.rect.y.div_euclid(self.state.block));
-            let second = two.map(|two| self.state.sprite(two).stype);
-            watch.meeting(Meeting { line, first: first.stype, second, cell });
-        }
+        let first = self.state.present(one);
+        let cell = (first.rect.x.div_euclid(self.state.block), first.rect.y.div_euclid(self.state.block));
+        let second = two.map(|two| self.state.sprite(two).stype);
+        watch.meeting(Meeting { line, first: first.stype, second, cell });
     }
 
     /// All partners at once; the score counts as often as the effect says.
     fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Partners, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
-        for &partner in partners.iter() {
-            self.tell(watch, info.line, one, Some(partner));
+        watch.interaction(info.line);
+        if watch.wants_meetings() {
+            partners.iter().for_each(|&partner| self.tell(watch, info.line, one, Some(partner)));
         }
         self.work(EFFECT_WORK * partners.len());
         if self.flies {
