@@ -76,13 +76,13 @@ impl Default for Criteria {
             early_calls: 20_000,
             early_chances: 20,
             early_deaths: 0.05,
-            ladder: names(&["do-nothing", "random", "mcts:30", "mcts:100", "mcts:300"]),
-            held_out: names(&["mcts:200"]),
+            ladder: names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
+            held_out: names(&["mcts:300", "olets:200"]),
             ladder_plays: 12,
             ladder_calls: 5_000_000,
             patience: 3,
             skill_wins: 0.25,
-            skill_scores: 0.2,
+            skill_scores: 0.1,
             ablation_calls: 200_000,
         }
     }

@@ -89,7 +89,7 @@ pub enum Difficulty {
     Hard,
     /// Less.
     VeryHard,
-    /// No player of the ladder has won.
+    /// No player has won.
     Unbeaten,
 }
 
@@ -169,8 +169,7 @@ impl Climb {
 
     /// What the plays of the players say of the level.
     pub(crate) fn measure(&self, climbed: &Climbed) -> Ladder {
-        let (rungs, held_out) = climbed.plays.split_at(self.rungs.len());
-        let all = || rungs.iter().flatten().map(|play| &play.episode);
+        let all = || climbed.plays.iter().flatten().map(|play| &play.episode);
         let scores = || all().map(|episode| episode.score);
         let (least, greatest) =
             (scores().fold(f64::INFINITY, f64::min), scores().fold(f64::NEG_INFINITY, f64::max));
@@ -187,13 +186,13 @@ impl Climb {
                 rate,
             }
         };
-        let held_out: Vec<Fared> = self.held_out.iter().zip(held_out).map(fared).collect();
-        let rungs: Vec<Fared> = self.rungs.iter().zip(rungs).map(fared).collect();
+        let mut rungs: Vec<Fared> = self.players().zip(&climbed.plays).map(fared).collect();
         let eases: Vec<f64> =
             rungs.iter().filter(|fared| fared.looks_ahead).map(|fared| ease(fared, longest)).collect();
         let ease = statistics::Summary::of(&eases).map(|summary| summary.mean);
         let beaten = rungs.iter().any(|fared| fared.rate.wins > 0);
         let difficulty = if beaten { Difficulty::of(ease.unwrap_or_default()) } else { Difficulty::Unbeaten };
+        let held_out = rungs.split_off(self.rungs.len());
         Ladder { rungs, held_out, ease, difficulty }
     }
 }
