@@ -6,7 +6,7 @@ use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, play};
 use crate::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use crate::width::{Width, WidthConfig};
-use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -71,6 +71,8 @@ pub enum Solution {
     Impossible {
         /// Different states.
         states: u64,
+        /// The actions that lead nearest to a win: see [`Searched::nearest`].
+        nearest: Vec<Action>,
     },
     /// Not known within the budget.
     Unknown,
@@ -101,7 +103,10 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
                     }
                     solved.solution = Solution::Won { episode: Box::new(episode), shortest };
                 }
-                Answer::Impossible => solved.solution = Solution::Impossible { states: searched.states },
+                Answer::Impossible => {
+                    let Searched { states, nearest, .. } = searched;
+                    solved.solution = Solution::Impossible { states, nearest };
+                }
                 Answer::OutOfCalls | Answer::OutOfMemory => return false,
             }
             true

@@ -11,4 +11,4 @@ pub use error::GenerateError;
 pub use generator::Generator;
 
 /// Bumped when any minted byte moves for an unchanged recipe.
-pub const GENERATION: u32 = 2;
+pub const GENERATION: u32 = 3;

@@ -178,7 +178,7 @@ fn check(name: &str, analysis: &Analysis, level: &Level, winnable: bool) {
         (a_star(analysis, &Pushes::default(), &start, limits), true),
         (best_first(analysis, &pushes, &start, limits), false),
     ] {
-        let Searched { answer, calls, states } = searched;
+        let Searched { answer, calls, states, .. } = searched;
         assert!(calls <= limits.calls && states <= by_key.len() as u64 + 1, "{name}");
         match (answer, fewest) {
             (Answer::Won { actions, shortest }, Some(fewest)) => {

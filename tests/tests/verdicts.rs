@@ -8,7 +8,7 @@ use serde::Deserialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::slice::from_ref;
-use validators::{Criteria, Finding, LEVEL_CRITERIA, Panel, Report, Verdict};
+use validators::{Criteria, Finding, Judgement, LEVEL_CRITERIA, Panel, Report, Verdict};
 
 /// `expect.toml`.
 #[derive(Deserialize)]
@@ -26,8 +26,6 @@ struct Expect {
     /// The criteria that are asked; all if none is named.
     #[serde(default)]
     ask: Vec<String>,
-    /// What has to be built before the answer can be right: until then it may be `unknown`, and nothing else.
-    waits_for: Option<String>,
     /// Criteria that differ from those of these tests.
     #[serde(default)]
     criteria: toml::Table,
@@ -103,15 +101,10 @@ fn replays(case: &Case, report: &Report) {
 }
 
 #[allow(clippy::print_stderr, reason = "a case that is put off says so")]
-fn tell_waiting(waiting: &[&str]) {
-    eprintln!("unknown so far: {}", waiting.join(", "));
-}
-
 #[test]
 fn bad_levels_fail_for_the_reason_that_is_theirs() {
     let cases = cases("bad");
     assert!(cases.len() >= 20, "{} cases", cases.len());
-    let mut waiting = Vec::new();
     for case in &cases {
         let Case { name, game, level, expect } = case;
         let criterion = expect.criterion.as_deref().unwrap_or_else(|| panic!("{name} names no criterion"));
@@ -122,24 +115,18 @@ fn bad_levels_fail_for_the_reason_that_is_theirs() {
         let all = report.levels[0].judgements.iter().chain(&report.judgements);
         let judgement = all.into_iter().find(|judgement| judgement.criterion == criterion);
         let finding = &judgement.unwrap_or_else(|| panic!("{name}: {criterion} was not asked")).finding;
-        if expect.waits_for.is_some() && word(finding) == "unknown" {
-            waiting.push(name.as_str());
-            continue;
-        }
         assert_eq!(word(finding), expect.verdict, "{name}: {}\n{}", expect.about, told(finding));
         let told = told(finding);
         for words in &expect.words {
             assert!(told.contains(words), "{name}: `{words}` is not in\n{told}");
         }
     }
-    tell_waiting(&waiting);
 }
 
 #[test]
 fn good_levels_meet_every_criterion() {
     let cases = cases("good");
     assert!(cases.len() >= 8, "{} cases", cases.len());
-    let mut waiting = Vec::new();
     for case in &cases {
         let Case { name, game, level, expect } = case;
         let report =
@@ -147,18 +134,10 @@ fn good_levels_meet_every_criterion() {
         replays(case, &report.levels[0]);
         let all = report.levels[0].judgements.iter().chain(&report.judgements);
         let obstacle = all.into_iter().find(|judgement| !judgement.finding.verdict.is_pass());
-        let Some(obstacle) = obstacle else { continue };
-        assert!(
-            expect.waits_for.is_some() && word(&obstacle.finding) == "unknown",
-            "{name}: {}\n{}: {} {}",
-            expect.about,
-            obstacle.criterion,
-            word(&obstacle.finding),
-            told(&obstacle.finding)
-        );
-        waiting.push(name.as_str());
+        if let Some(Judgement { criterion, finding }) = obstacle {
+            panic!("{name}: {}\n{criterion}: {} {}", expect.about, word(finding), told(finding));
+        }
     }
-    tell_waiting(&waiting);
 }
 
 /// Levels of the corpus that meet every criterion of levels.

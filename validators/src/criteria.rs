@@ -13,7 +13,9 @@ pub struct Criteria {
     pub decision: u64,
     /// Forward-model calls to find a win, all plays together.
     pub budget: u64,
-    /// Look-ahead in ticks of each searching play.
+    /// The share of them that may go into proving how many ticks the shortest win takes, where chance decides nothing.
+    pub shortest: f64,
+    /// Look-ahead in ticks of the bold tree searches among the players that look for a win.
     pub depths: Vec<u32>,
     /// Episodes of doing nothing.
     pub idle_plays: u32,
@@ -66,7 +68,8 @@ impl Default for Criteria {
             ask: names(&LEVEL_CRITERIA[..7]),
             decision: 500,
             budget: 3_000_000,
-            depths: vec![10, 20, 40],
+            shortest: 0.1,
+            depths: vec![10, 40],
             idle_plays: 8,
             random_plays: 40,
             random_wins: 0.2,
@@ -131,6 +134,7 @@ impl Criteria {
             return wrong("depths", "takes 1 to 20 numbers of ticks, each from 1 to 1000".to_owned());
         }
         for (key, share) in [
+            ("shortest", self.shortest),
             ("random_wins", self.random_wins),
             ("early_deaths", self.early_deaths),
             ("skill_wins", self.skill_wins),

@@ -7,6 +7,7 @@ use crate::{
     Case, Criteria, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom, Reachable, Readable,
     RuleUse, SkillPays, Validator, Verdict, WellFormed, Winnable,
 };
+use agents::PortfolioConfig;
 use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -112,11 +113,13 @@ impl Panel {
             ),
             (
                 "winnable",
-                Box::new(Reachable(Winnable {
-                    decision: c.decision,
+                Box::new(Reachable(Winnable(PortfolioConfig {
                     budget: c.budget,
+                    shortest: c.shortest,
+                    decision: c.decision,
                     depths: c.depths.clone(),
-                })),
+                    ..PortfolioConfig::default()
+                }))),
             ),
             ("length", Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
             (

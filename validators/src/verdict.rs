@@ -38,6 +38,9 @@ pub struct Finding {
     /// How often players won, where players played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Rate>,
+    /// Ticks of the shortest win, where it is proved that no fewer win.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub optimal: Option<usize>,
     /// What was seen, in the order of telling.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<Evidence>,
@@ -51,7 +54,14 @@ pub struct Finding {
 
 impl From<Verdict> for Finding {
     fn from(verdict: Verdict) -> Finding {
-        Finding { verdict, measured: None, evidence: Vec::new(), ladder: None, episodes: Vec::new() }
+        Finding {
+            verdict,
+            measured: None,
+            optimal: None,
+            evidence: Vec::new(),
+            ladder: None,
+            episodes: Vec::new(),
+        }
     }
 }
 

@@ -1,51 +1,18 @@
 //! Can it be won?
 
+use crate::board::Board;
+use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
-use agents::{Budget, Limits, Mcts, MctsConfig, Play, play};
-use engine::Outcome;
-use rayon::prelude::*;
+use agents::{PortfolioConfig, Solution, solve};
+use engine::Action;
+use engine::analysis::Condition;
 
-/// Monte-Carlo tree search ([`MctsConfig::bold`]) wins at least one play; the shortest win is the witness.
+/// The portfolio ([`agents::solve`]) looks for a win, which is the witness. Where chance decides nothing it may also prove
+/// that there is none, and that the win found is the shortest.
 ///
-/// Plays come in rounds, one of each depth; rounds go on until one has a win or the budget is spent. No win is `Unknown`,
-/// never `Fail`: a search that samples proves nothing by failing.
+/// No win within the budget is `Unknown`, never `Fail`: a search that was broken off proves nothing.
 #[derive(Clone, Debug)]
-pub struct Winnable {
-    /// Forward-model calls of a decision.
-    pub decision: u64,
-    /// Forward-model calls of all plays together. What is left is shared out evenly among the plays of a round; a play
-    /// stops at the first decision beyond its share.
-    pub budget: u64,
-    /// Look-ahead in ticks of each play of a round. Short ones react, long ones plan.
-    pub depths: Vec<u32>,
-}
-
-/// Rounds at most: plays of games that end at once cost next to nothing.
-const MAX_ROUNDS: u64 = 20;
-
-impl Winnable {
-    fn round(&self, case: Case<'_>, round: u64, budget: u64) -> Vec<Play> {
-        let share = budget / self.depths.len().max(1) as u64;
-        let limits = Limits { calls: share, ..Limits::default() };
-        let seed = case.seed.child("round", round);
-        self.depths
-            .par_iter()
-            .enumerate()
-            .map(|(run, &depth)| {
-                let seed = seed.child("play", run as u64);
-                let mut planner = Mcts::new(MctsConfig::bold(depth), seed.child("planner", 0));
-                play(
-                    case.game,
-                    case.level,
-                    &mut planner,
-                    Budget(self.decision),
-                    seed.child("chance", 0),
-                    limits,
-                )
-            })
-            .collect()
-    }
-}
+pub struct Winnable(pub PortfolioConfig);
 
 impl Validator for Winnable {
     fn name(&self) -> &'static str {
@@ -53,22 +20,55 @@ impl Validator for Winnable {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        let mut played: Vec<Play> = Vec::new();
-        let mut left = self.budget;
-        let is_win = |play: &&Play| play.episode.outcome == Outcome::Won;
-        for round in 0..MAX_ROUNDS {
-            if left == 0 || played.iter().any(|play| is_win(&play)) {
-                break;
+        let solved = solve(case.analysis, case.level, &self.0, case.seed);
+        let mut finding = match solved.solution {
+            Solution::Won { episode, shortest } => {
+                let optimal = shortest.then_some(episode.actions.len());
+                Finding { optimal, ..Finding::from(Verdict::Pass { witness: Some(*episode) }) }
             }
-            let plays = self.round(case, round, left);
-            left = left.saturating_sub(plays.iter().map(|play| play.calls).sum());
-            played.extend(plays);
-        }
-        let measured = Rate::of(&played);
-        let verdict = match played.iter().filter(is_win).min_by_key(|play| play.episode.actions.len()) {
-            Some(play) => Verdict::Pass { witness: Some(play.episode.clone()) },
-            None => Verdict::Unknown { spent: measured.calls },
+            Solution::Impossible { states, nearest } => {
+                let reason = format!("no way to win: all {states} states that can be reached were looked at");
+                Finding::from(Verdict::fail(reason)).seen(nearest_to_a_win(case, &nearest))
+            }
+            Solution::Unknown => Verdict::Unknown { spent: solved.calls }.into(),
         };
-        Finding::from(verdict).measured(measured).played(played.into_iter().map(|play| play.episode))
+        if !solved.plays.is_empty() {
+            finding.measured = Some(Rate::of(&solved.plays));
+        }
+        finding.played(solved.plays.into_iter().map(|play| play.episode))
     }
+}
+
+/// Names of types that are told at most.
+const MAX_NAMED: usize = 3;
+
+/// How near to a win any play can come.
+fn nearest_to_a_win(
+    Case { game, level, analysis, seed, .. }: Case<'_>,
+    actions: &[Action],
+) -> Option<Evidence> {
+    let mut state = game.start(level, seed);
+    for &action in actions {
+        game.step(&mut state, action);
+    }
+    let winning = analysis.goals().iter().filter(|goal| goal.win);
+    let goal = winning.min_by_key(|goal| analysis.missing(goal, &state))?;
+    let missing = analysis.missing(goal, &state);
+    let types = goal.condition.types().iter().filter(|stype| analysis.facts(**stype).possible);
+    let names: Vec<String> = types.map(|&stype| format!("`{}`", game.name(stype))).take(MAX_NAMED).collect();
+    let names = names.join(" or ");
+    let text = match goal.condition {
+        Condition::AtMost(..) => format!("{missing} too many of {names} are left"),
+        Condition::AtLeast(..) => format!("{missing} of {names} are still to come"),
+        Condition::Exactly(..) => format!("the number of {names} is off by {missing}"),
+        Condition::Tick(_) => format!("{missing} ticks are still to pass"),
+    };
+    let tick = Some(actions.len()).filter(|&tick| tick > 0);
+    let rule = Some(Line::termination(game, goal.line));
+    let board = Some(Board::of(game, &state));
+    let text = format!("as near to a win as any play comes, {text}");
+    Some(
+        Evidence { text, tick, rule, board, ..Evidence::default() }
+            .advise("make it possible from here, or give the player more of what it takes"),
+    )
 }

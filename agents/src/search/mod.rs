@@ -42,6 +42,8 @@ pub struct Searched {
     pub calls: u64,
     /// Different states that were met.
     pub states: u64,
+    /// The actions that lead to the first of the states from which the fewest sprites must still go or come for a win.
+    pub nearest: Vec<Action>,
 }
 
 /// The answer of a search.

@@ -1,6 +1,7 @@
 //! What systematic searches share: the states met so far, how each was come to, and how successors are made.
 
 use super::{Answer, Pushes, SearchLimits, Searched};
+use crate::progress::Progress;
 use arrayvec::ArrayVec;
 use engine::analysis::{Analysis, Keying};
 use engine::{Action, Outcome, Packed, SearchKey, State};
@@ -59,6 +60,9 @@ pub(super) struct Tree<'a> {
     analysis: &'a Analysis,
     keying: Keying,
     pushes: &'a Pushes,
+    progress: Progress<'a>,
+    /// The node that is nearest to a win, and how near.
+    nearest: (u32, NodeId),
     /// What states are packed against.
     base: State,
     nodes: Vec<Node>,
@@ -104,6 +108,8 @@ impl<'a> Tree<'a> {
         Tree {
             analysis,
             pushes,
+            progress: Progress::of(analysis),
+            nearest: (u32::MAX, ROOT),
             keying,
             base: start.clone(),
             nodes: vec![Node { parent: ROOT, depth: 0, action: Action::Nil, expanded: false }],
@@ -190,6 +196,7 @@ impl<'a> Tree<'a> {
             let id = *self.met.entry(self.keying.key(self.analysis, child)).or_insert(next);
             if id == next {
                 self.add(node, action);
+                self.nearest = self.nearest.min((self.progress.missing(child), id));
             } else if !self.shorten(id, node, action) {
                 continue;
             }
@@ -253,6 +260,7 @@ impl<'a> Tree<'a> {
     }
 
     pub(super) fn answer(&self, answer: Answer) -> Searched {
-        Searched { answer, calls: self.calls, states: self.met.len() as u64 }
+        let states = self.met.len() as u64;
+        Searched { answer, calls: self.calls, states, nearest: self.way(self.nearest.1) }
     }
 }

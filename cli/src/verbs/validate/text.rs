@@ -93,7 +93,8 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let words = answer(criterion, finding);
     let measured = finding.measured.as_ref().filter(|rate| rate.plays > 0).map_or(String::new(), rate);
     let comma = if words.is_empty() || measured.is_empty() { "" } else { "; " };
-    let line = format!("  {mark:<5}{criterion:<13}{words}{comma}{measured}");
+    let optimal = finding.optimal.map_or(String::new(), |_| "; no fewer ticks win: proved".to_owned());
+    let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
     // The reason has said what the first one says.
     let told = |seen: &&Evidence| seen.rule.is_some() || !words.contains(seen.text.as_str());
