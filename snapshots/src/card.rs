@@ -46,7 +46,13 @@ pub struct LevelCard {
     pub witness_ticks: usize,
     /// Score of the witness.
     pub witness_score: f64,
-    /// How the searching players fared.
+    /// Ticks of the shortest win, where it is proved that no fewer win.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub optimal_ticks: Option<usize>,
+    /// Forward-model calls that it took to find the witness.
+    #[serde(default)]
+    pub search_calls: u64,
+    /// How often plain Monte-Carlo tree search won.
     pub mcts: Rate,
     /// How random players fared.
     pub random: Rate,

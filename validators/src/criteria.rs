@@ -17,6 +17,8 @@ pub struct Criteria {
     pub shortest: f64,
     /// Look-ahead in ticks of the bold tree searches among the players that look for a win.
     pub depths: Vec<u32>,
+    /// Episodes of plain tree search that the card of a level tells of.
+    pub mcts_plays: u32,
     /// Episodes of doing nothing.
     pub idle_plays: u32,
     /// Episodes of random play.
@@ -70,6 +72,7 @@ impl Default for Criteria {
             budget: 3_000_000,
             shortest: 0.1,
             depths: vec![10, 40],
+            mcts_plays: 4,
             idle_plays: 8,
             random_plays: 40,
             random_wins: 0.2,
@@ -150,6 +153,7 @@ impl Criteria {
         for (key, count, most) in [
             ("early_ticks", self.early_ticks as u64, 100),
             ("early_chances", u64::from(self.early_chances), 1000),
+            ("mcts_plays", u64::from(self.mcts_plays), 1000),
             ("ladder_plays", self.ladder_plays, 1000),
             ("patience", self.patience as u64, 1000),
         ] {

@@ -38,6 +38,9 @@ pub struct Finding {
     /// How often players won, where players played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Rate>,
+    /// Forward-model calls of a search, besides those of the plays that were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub searched: Option<u64>,
     /// Ticks of the shortest win, where it is proved that no fewer win.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimal: Option<usize>,
@@ -57,6 +60,7 @@ impl From<Verdict> for Finding {
         Finding {
             verdict,
             measured: None,
+            searched: None,
             optimal: None,
             evidence: Vec::new(),
             ladder: None,

@@ -32,6 +32,8 @@ impl Validator for Winnable {
             }
             Solution::Unknown => Verdict::Unknown { spent: solved.calls }.into(),
         };
+        let played: u64 = solved.plays.iter().map(|play| play.calls).sum();
+        finding.searched = Some(solved.calls - played).filter(|&calls| calls > 0);
         if !solved.plays.is_empty() {
             finding.measured = Some(Rate::of(&solved.plays));
         }

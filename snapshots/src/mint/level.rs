@@ -6,7 +6,7 @@ use crate::recipe::{Part, Recipe};
 use engine::{Digest, Episode, Game, Level, Seed};
 use generators::Generator;
 use generators::levels::{ConstructiveLevels, LevelConfig};
-use validators::{Panel, Rate, Report};
+use validators::{Finding, Panel, Rate, Report, mcts_rate};
 
 /// A level that passed, with the episode that proves it winnable.
 pub(super) struct MintedLevel {
@@ -75,10 +75,13 @@ impl Levels<'_> {
             };
             let report = self.panel.screen(game, &level, seed.child("judges", 0));
             let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
-            tally.level(calls(&report), obstacle);
-            if obstacle.is_none() {
+            tally.level(report.judgements.iter().map(|judgement| calls(&judgement.finding)).sum(), obstacle);
+            if let (None, Some(witness)) = (obstacle, &report.witness) {
+                let mcts =
+                    mcts_rate(game, &level, witness, &self.recipe.criteria, seed.child("mcts verdict", 0));
+                tally.calls(mcts.calls);
                 let file = format!("lvl{number}.txt");
-                return Some(Found { level, report, file, difficulty, candidate });
+                return Some(Found { level, report, mcts, file, difficulty, candidate });
             }
         }
         None
@@ -89,22 +92,19 @@ impl Levels<'_> {
 struct Found {
     level: Level,
     report: Report,
+    mcts: Rate,
     file: String,
     difficulty: f64,
     candidate: u32,
 }
 
-fn calls(report: &Report) -> u64 {
-    report
-        .judgements
-        .iter()
-        .filter_map(|judgement| judgement.finding.measured.as_ref())
-        .map(|rate| rate.calls)
-        .sum()
+/// The forward-model calls of a judge.
+fn calls(finding: &Finding) -> u64 {
+    finding.searched.unwrap_or(0) + finding.measured.as_ref().map_or(0, |rate| rate.calls)
 }
 
 fn minted(found: Found) -> Option<MintedLevel> {
-    let Found { level, report, file, difficulty, candidate } = found;
+    let Found { level, report, mcts, file, difficulty, candidate } = found;
     let rate = |criterion: &str| -> Option<Rate> { report.finding(criterion)?.measured.clone() };
     let witness = report.witness.clone()?;
     let card = LevelCard {
@@ -117,7 +117,9 @@ fn minted(found: Found) -> Option<MintedLevel> {
         candidate,
         witness_ticks: witness.actions.len(),
         witness_score: witness.score,
-        mcts: rate("winnable")?,
+        optimal_ticks: report.finding("winnable").and_then(|finding| finding.optimal),
+        search_calls: report.finding("winnable").map_or(0, calls),
+        mcts,
         random: rate("not-random")?,
         idle: rate("not-idle")?,
         ladder: report.ladder().cloned(),

@@ -42,6 +42,10 @@ impl Tally {
         }
     }
 
+    pub(super) fn calls(&mut self, calls: u64) {
+        self.calls += calls;
+    }
+
     pub(super) fn twin(&mut self) {
         self.games_accepted -= 1;
         *self.rejections.entry("same rules as another game".to_owned()).or_default() += 1;
