@@ -2,11 +2,12 @@
 
 use crate::mcts::{Mcts, MctsConfig};
 use crate::mcts_guided::{GuidedMcts, GuidedMctsConfig};
+use crate::olets::{Olets, OletsConfig};
 use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, play};
 use crate::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use crate::width::{Width, WidthConfig};
-use engine::{Action, Analysis, Episode, Game, Level, Outcome, Seed};
+use engine::{Action, Analysis, Episode, Level, Outcome, Seed};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -14,8 +15,8 @@ use serde::{Deserialize, Serialize};
 ///
 /// Where chance decides nothing, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. Then, and
 /// in games of chance from the start, planners play episodes in rounds, a short one each at first, then ever longer ones:
-/// [`Width`] sees far, [`GuidedMcts`] knows where to go, [`MctsConfig::bold`] searches of short horizon react and those of
-/// long horizon plan.
+/// [`Width`] sees far, [`GuidedMcts`] knows where to go, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
+/// risks.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PortfolioConfig {
@@ -27,7 +28,8 @@ pub struct PortfolioConfig {
     pub systematic: f64,
     /// Bytes that a systematic search may use.
     pub bytes: usize,
-    /// Calls of a decision of the planners that play.
+    /// Calls of a decision of the planners that play, at most: fewer where a play of [`USUAL_TICKS`], or one until the tick
+    /// that wins, would cost more than its share.
     pub decision: u64,
     /// Look-ahead in ticks of the bold Monte-Carlo tree searches, one player each.
     pub depths: Vec<u32>,
@@ -41,7 +43,7 @@ impl Default for PortfolioConfig {
             systematic: 0.4,
             bytes: 1 << 30,
             decision: 500,
-            depths: vec![10, 40],
+            depths: vec![20],
         }
     }
 }
@@ -123,7 +125,7 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
         if left == 0 || round == MAX_ROUNDS {
             break;
         }
-        let plays = play_round(game, level, config, share.min(left), seed.child("round", round));
+        let plays = play_round(analysis, level, config, share.min(left), seed.child("round", round));
         solved.calls += plays.iter().map(|play| play.calls).sum::<u64>();
         let won = plays.iter().filter(|play| play.episode.outcome == Outcome::Won);
         let shortest = won.min_by_key(|play| play.episode.actions.len());
@@ -142,10 +144,27 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
 /// Rounds at most: plays of games that end at once cost next to nothing.
 const MAX_ROUNDS: u64 = 20;
 
+/// Ticks of a play that its share of the budget should last for.
+const USUAL_TICKS: u64 = 700;
+/// Calls of a decision at least.
+const LEAST_DECISION: u64 = 30;
+
 /// One play of each planner, with an equal share of the budget: a play stops at the first decision beyond it.
-fn play_round(game: &Game, level: &Level, config: &PortfolioConfig, budget: u64, seed: Seed) -> Vec<Play> {
-    let players = config.depths.len() + 2;
+fn play_round(
+    analysis: &Analysis,
+    level: &Level,
+    config: &PortfolioConfig,
+    budget: u64,
+    seed: Seed,
+) -> Vec<Play> {
+    let game = analysis.game();
+    let players = config.depths.len() + 3;
     let limits = Limits { calls: budget / players as u64, ..Limits::default() };
+    let survive = analysis.aims().survive.and_then(|tick| u64::try_from(tick).ok());
+    // Searches overshoot their budget a little.
+    let affordable = |ticks: u64| {
+        (limits.calls / ticks.max(1) * 4 / 5).clamp(LEAST_DECISION, config.decision.max(LEAST_DECISION))
+    };
     (0..players)
         .into_par_iter()
         .map(|number| {
@@ -154,9 +173,16 @@ fn play_round(game: &Game, level: &Level, config: &PortfolioConfig, budget: u64,
             let mut planner: Box<dyn Planner> = match number {
                 0 => Box::new(Width::new(WidthConfig::default(), own)),
                 1 => Box::new(GuidedMcts::new(GuidedMctsConfig::default(), own)),
-                _ => Box::new(Mcts::new(MctsConfig::bold(config.depths[number - 2]), own)),
+                2 => Box::new(Olets::new(OletsConfig::default(), own)),
+                _ => Box::new(Mcts::new(MctsConfig::bold(config.depths[number - 3]), own)),
             };
-            play(game, level, planner.as_mut(), Budget(config.decision), seed.child("chance", 0), limits)
+            let decision = match (survive, number) {
+                (Some(ticks), _) => affordable(ticks + 1),
+                // Looking far takes calls; it is for short wins.
+                (None, 0) => config.decision,
+                (None, _) => affordable(USUAL_TICKS),
+            };
+            play(game, level, planner.as_mut(), Budget(decision), seed.child("chance", 0), limits)
         })
         .collect()
 }

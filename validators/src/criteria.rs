@@ -71,7 +71,7 @@ impl Default for Criteria {
             decision: 500,
             budget: 3_000_000,
             shortest: 0.1,
-            depths: vec![10, 40],
+            depths: vec![20],
             mcts_plays: 4,
             idle_plays: 8,
             random_plays: 40,
