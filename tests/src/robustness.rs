@@ -11,8 +11,8 @@ use crate::{read, workspace_root};
 use engine::analysis::{Analysis, Keying};
 use engine::syntax::{self, Description, InteractionLine, Param, Section, SpriteLine, Word};
 use engine::{
-    Action, Description as Tree, Diagnostic, Diagnostics, EFFECTS, Episode, Game, Level, MAX_TICKS, Outcome,
-    Sampler, SearchKey, Seed, Severity, Span, SpriteClass, State, Watch,
+    Action, Description as Tree, Diagnostic, Diagnostics, EFFECTS, Episode, Game, Level, Limit, MAX_TICKS,
+    Outcome, Sampler, SearchKey, Seed, Severity, Span, SpriteClass, State, Watch,
 };
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -309,6 +309,10 @@ impl<'g> Walk<'g> {
         }
         let mut copy = before;
         self.game.step_plainly(&mut copy, action, &mut ());
+        if copy.outcome() == Outcome::Stopped(Limit::Work) {
+            // What foresight leaves out is no work, so it comes farther before the limit is met.
+            return;
+        }
         assert_eq!(copy.state_hash(), state.state_hash(), "a copy that foresees nothing goes the same way");
         assert_eq!((copy.outcome(), copy.score()), (state.outcome(), state.score()));
     }
