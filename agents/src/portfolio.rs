@@ -162,9 +162,8 @@ fn play_round(
     let limits = Limits { calls: budget / players as u64, ..Limits::default() };
     let survive = analysis.aims().survive.and_then(|tick| u64::try_from(tick).ok());
     // Searches overshoot their budget a little.
-    let affordable = |ticks: u64| {
-        (limits.calls / ticks.max(1) * 4 / 5).clamp(LEAST_DECISION, config.decision.max(LEAST_DECISION))
-    };
+    let least = LEAST_DECISION.min(config.decision);
+    let affordable = |ticks: u64| (limits.calls / ticks.max(1) * 4 / 5).clamp(least, config.decision);
     (0..players)
         .into_par_iter()
         .map(|number| {
