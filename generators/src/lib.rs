@@ -6,9 +6,11 @@ mod error;
 pub mod games;
 mod generator;
 pub mod levels;
+mod search;
 
 pub use error::GenerateError;
 pub use generator::Generator;
+pub use search::{Evaluation, Search, Variation};
 
 /// Bumped when any minted byte moves for an unchanged recipe.
 pub const GENERATION: u32 = 3;
