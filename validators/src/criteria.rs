@@ -177,13 +177,14 @@ impl Criteria {
     ///
     /// # Errors
     /// A name that no planner has.
-    pub(crate) fn climb(&self) -> Result<Climb, agents::UnknownPlanner> {
+    pub fn climb(&self) -> Result<Climb, agents::UnknownPlanner> {
         Ok(Climb {
             rungs: self.rungs(&self.ladder)?,
             held_out: self.rungs(&self.held_out)?,
             plays: self.ladder_plays,
             calls: self.ladder_calls,
             ticks: self.most_ticks,
+            patience: self.patience,
         })
     }
 

@@ -94,10 +94,23 @@ pub enum Difficulty {
 }
 
 impl Difficulty {
+    /// The labels that can be asked for, with the eases that bear them, from and below.
+    pub const LABELS: [(Difficulty, [f64; 2]); 5] = [
+        (Difficulty::VeryEasy, [0.8, 1.0]),
+        (Difficulty::Easy, [0.6, 0.8]),
+        (Difficulty::Medium, [0.4, 0.6]),
+        (Difficulty::Hard, [0.2, 0.4]),
+        (Difficulty::VeryHard, [0.0, 0.2]),
+    ];
+
+    /// The eases that bear this label, from and below; none of what nobody wins.
+    pub fn eases(self) -> Option<[f64; 2]> {
+        Difficulty::LABELS.into_iter().find(|(label, _)| *label == self).map(|(_, eases)| eases)
+    }
+
     fn of(ease: f64) -> Difficulty {
-        use Difficulty as D;
-        let labels = [(0.8, D::VeryEasy), (0.6, D::Easy), (0.4, D::Medium), (0.2, D::Hard)];
-        labels.into_iter().find(|(least, _)| ease >= *least).map_or(D::VeryHard, |(_, label)| label)
+        let found = Difficulty::LABELS.into_iter().find(|(_, [least, _])| ease >= *least);
+        found.map_or(Difficulty::VeryHard, |(label, _)| label)
     }
 }
 
@@ -127,7 +140,12 @@ pub struct Climb {
     pub calls: u64,
     /// Ticks of a play.
     pub ticks: usize,
+    /// A play is broken off after so many times the ticks of the witness, and 50 more, if there is a witness.
+    pub patience: usize,
 }
+
+/// Ticks that every play has beyond a multiple of the witness's.
+const GRACE: usize = 50;
 
 /// Plays of each player in a round.
 const ROUND: u64 = 2;
@@ -142,9 +160,16 @@ impl Climb {
         self.rungs.iter().chain(&self.held_out)
     }
 
+    /// How the players fare on a level, and how hard that makes it.
+    pub fn ladder(&self, case: Case<'_>) -> Ladder {
+        self.measure(&self.climb(case))
+    }
+
     /// Lets all play equally often. Rounds go on until the plays, or the calls, are spent.
     pub(crate) fn climb(&self, case: Case<'_>) -> Climbed {
-        let limits = Limits { ticks: self.ticks, ..Limits::default() };
+        let patient = |witness: &Episode| self.patience.saturating_mul(witness.actions.len()) + GRACE;
+        let ticks = self.ticks.min(case.witness.map_or(usize::MAX, patient));
+        let limits = Limits { ticks, ..Limits::default() };
         let players: Vec<&Rung> = self.players().collect();
         let mut plays: Vec<Vec<Play>> = vec![Vec::new(); players.len()];
         let mut spent = 0;

@@ -128,7 +128,6 @@ impl Panel {
                     climb: c.climb().expect("the criteria name planners that exist"),
                     wins: c.skill_wins,
                     scores: c.skill_scores,
-                    patience: c.patience,
                 }),
             ),
         ];

@@ -21,12 +21,8 @@ pub struct SkillPays {
     pub wins: f64,
     /// Or by how much the mean scores must, as a share of the range of all scores.
     pub scores: f64,
-    /// A play is broken off after so many times the ticks of the witness, and some more.
-    pub patience: usize,
 }
 
-/// Ticks that every play has beyond a multiple of the witness's.
-const GRACE: usize = 50;
 /// Resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
 
@@ -45,12 +41,8 @@ impl Validator for SkillPays {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        let mut climb = self.climb.clone();
-        if let Some(witness) = case.witness {
-            climb.ticks = climb.ticks.min(self.patience * witness.actions.len() + GRACE);
-        }
-        let climbed = climb.climb(case);
-        let ladder = climb.measure(&climbed);
+        let climbed = self.climb.climb(case);
+        let ladder = self.climb.measure(&climbed);
         let spent = climbed.plays.iter().flatten().map(|play| play.calls).sum();
         let range = range(&climbed);
         // Of those who do not look ahead, the best one counts.
