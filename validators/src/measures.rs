@@ -1,0 +1,324 @@
+//! What a level is like to play, in numbers: the axes of archives and of expressive range.
+
+use crate::ladder::{Fared, Ladder};
+use crate::panel::Report;
+use engine::analysis::Deed;
+use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteType, State, Watch};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// What a won level is like to play. The first six come from its witness, so they are of one way to win it, the shortest
+/// that was found; `shortest` and `skill` are of all ways.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measures {
+    /// Ticks of the witness.
+    pub ticks: usize,
+    /// Times that something was pushed and moved by it, or went away: in Sokoban, the pushes of the solution.
+    pub pushes: usize,
+    /// How much a choice changes, from 0 to 1: of the actions at a tick of the witness, the share that lead to states of
+    /// their own ([`State::search_key`]), in the mean over its ticks. 1: every action matters; 1 / actions: none does.
+    pub branching: f64,
+    /// Mechanics used, from 0 to 1: the share of the game's interactions that the witness executes. Interactions with the
+    /// edge of the screen do not count: they are guards, which walls make idle.
+    pub mechanics: f64,
+    /// The interactions that it executes, as [`used_rules`] has them.
+    pub rules: Vec<usize>,
+    /// How near to losing the witness leads, from 0 to 1: from a tick of it, the probability that a random action and
+    /// [`FORESIGHT`] − 1 random ones after it lose the game, in the mean over its ticks.
+    pub pressure: f64,
+    /// Ticks of the shortest win, where it is proved that no fewer win.
+    pub shortest: Option<usize>,
+    /// What looking ahead gains, if a ladder played.
+    pub skill: Option<SkillGap>,
+}
+
+/// By how much players that look ahead do better than those who do not (`random`, `do-nothing`), in the mean over the players
+/// of each kind, those held out included.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SkillGap {
+    /// Difference of the win rates, from −1 to 1.
+    pub wins: f64,
+    /// Difference of the rewards ([`Fared::reward`]), from −1 to 1; none if all plays scored alike.
+    pub reward: Option<f64>,
+}
+
+/// Ticks that pressure looks ahead.
+pub const FORESIGHT: usize = 8;
+/// Random futures of each action.
+const FUTURES: u64 = 3;
+/// Ticks of a witness that are looked at: all, or so many evenly spread.
+const MOMENTS: usize = 60;
+
+impl Measures {
+    /// Measures a level that was judged; none if the report has no witness. The same arguments give the same numbers on every
+    /// machine. Cost: the witness is played again; at 60 of its ticks at most, every action is tried once for branching, and
+    /// three times for up to [`FORESIGHT`] ticks for pressure: with five actions at most 7,500 forward-model calls.
+    pub fn of(analysis: &Analysis, level: &Level, report: &Report, seed: Seed) -> Option<Measures> {
+        let witness = report.witness.as_ref()?;
+        let shortest = report.finding("winnable").and_then(|finding| finding.optimal);
+        Some(Measures {
+            shortest,
+            skill: report.ladder().and_then(SkillGap::of),
+            ..Measures::of_episode(analysis, level, witness, seed)
+        })
+    }
+
+    /// Measures one way to play a level; without `shortest` and `skill`. Cost: as [`Measures::of`].
+    pub fn of_episode(analysis: &Analysis, level: &Level, episode: &Episode, seed: Seed) -> Measures {
+        let game = analysis.game();
+        let mut state = game.start(level, episode.seed);
+        let mut ear = Ear::new(game);
+        let (mut pushes, mut branching, mut pressure) = (0, Mean::default(), Mean::default());
+        let stride = episode.actions.len().div_ceil(MOMENTS).max(1);
+        for (tick, &action) in episode.actions.iter().enumerate() {
+            if tick % stride == 0 {
+                branching.add(different(game, &state));
+                pressure.add(danger(game, &state, seed.child("tick", tick as u64)));
+            }
+            let before = state.clone();
+            ear.meetings.clear();
+            game.step_watched(&mut state, action, &mut ear);
+            pushes += pushed(analysis, &ear.meetings, &before, &state);
+        }
+        let rules: Vec<usize> = (0..ear.lines.len()).filter(|&line| ear.lines[line]).collect();
+        let inner = |line: &usize| !is_guard(game, *line);
+        let (of, used) =
+            ((0..ear.lines.len()).filter(inner).count(), rules.iter().copied().filter(inner).count());
+        Measures {
+            ticks: episode.actions.len(),
+            pushes,
+            branching: branching.value(),
+            mechanics: used as f64 / of.max(1) as f64,
+            rules,
+            pressure: pressure.value(),
+            shortest: None,
+            skill: None,
+        }
+    }
+}
+
+impl SkillGap {
+    /// Of the players of a ladder; none unless some look ahead and some do not.
+    pub fn of(ladder: &Ladder) -> Option<SkillGap> {
+        let players = || ladder.rungs.iter().chain(&ladder.held_out);
+        let gap = |value: &dyn Fn(&Fared) -> Option<f64>| {
+            let mean = |looks_ahead: bool| {
+                let kind = players().filter(|fared| fared.looks_ahead == looks_ahead);
+                let values: Option<Vec<f64>> = kind.map(value).collect();
+                statistics::Summary::of(&values?).map(|summary| summary.mean)
+            };
+            Some(mean(true)? - mean(false)?)
+        };
+        let wins = gap(&|fared| Some(fared.rate.wins as f64 / fared.rate.plays.max(1) as f64))?;
+        Some(SkillGap { wins, reward: gap(&|fared| fared.reward) })
+    }
+}
+
+/// The interactions that an episode executes: indices into [`Description::interactions`](engine::Description), ascending.
+/// Cost: that of the episode.
+pub fn used_rules(game: &Game, level: &Level, episode: &Episode) -> Vec<usize> {
+    struct Lines(Vec<bool>);
+    impl Watch for Lines {
+        fn interaction(&mut self, line: usize) {
+            self.0[line] = true;
+        }
+    }
+    let mut lines = Lines(vec![false; game.description().interactions.len()]);
+    let mut state = game.start(level, episode.seed);
+    for &action in &episode.actions {
+        game.step_watched(&mut state, action, &mut lines);
+    }
+    (0..lines.0.len()).filter(|&line| lines.0[line]).collect()
+}
+
+/// The name of the edge of the screen in interactions.
+const EDGE: &str = "EOS";
+
+/// Whether an interaction is with the edge of the screen.
+pub fn is_guard(game: &Game, line: usize) -> bool {
+    let written = &game.description().interactions[line];
+    written.first.text == EDGE || written.second.iter().any(|word| word.text == EDGE)
+}
+
+/// The actions of a state, doing nothing included.
+fn actions(game: &Game, state: &State) -> Vec<Action> {
+    let known = game.actions(state);
+    let idle = (!known.contains(&Action::Nil)).then_some(Action::Nil);
+    known.iter().copied().chain(idle).collect()
+}
+
+/// The share of the actions that lead to states of their own, all with the same dice.
+fn different(game: &Game, state: &State) -> f64 {
+    let actions = actions(game, state);
+    let after = |&action: &Action| {
+        let mut after = state.clone();
+        game.step(&mut after, action);
+        after.search_key(game)
+    };
+    let keys: BTreeSet<_> = actions.iter().map(after).collect();
+    keys.len() as f64 / actions.len() as f64
+}
+
+/// The share of random futures that lose. All actions meet the same dice and the same keys after them.
+fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
+    let (mut lost, mut all) = (0u64, 0u64);
+    for action in actions(game, state) {
+        for future in (0..FUTURES).map(|number| seed.child("future", number)) {
+            let mut after = state.fork(future.child("chance", 0));
+            let mut keys = future.child("keys", 0).sampler();
+            game.step(&mut after, action);
+            for _ in 1..FORESIGHT {
+                if after.is_over() {
+                    break;
+                }
+                let key = *keys.choose(game.actions(&after));
+                game.step(&mut after, key);
+            }
+            lost += u64::from(after.outcome() == Outcome::Lost);
+            all += 1;
+        }
+    }
+    lost as f64 / all.max(1) as f64
+}
+
+/// How many sprites were pushed in a tick and moved by it, or went away. A push against something that holds is undone in the
+/// same tick, and does not count.
+fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &State) -> usize {
+    let pushes = |meeting: &&Meeting| {
+        let of_line = analysis.encounters().iter().filter(|encounter| encounter.line == meeting.line);
+        of_line.into_iter().any(|encounter| encounter.does(|deed| *deed == Deed::Push))
+    };
+    let types: Vec<SpriteType> = meetings.iter().filter(pushes).map(|meeting| meeting.first).collect();
+    if types.is_empty() {
+        return 0;
+    }
+    let game = analysis.game();
+    let was = game.records(before);
+    let of_types = was.iter().filter(|record| types.contains(&SpriteType(record.stype)));
+    let is = game.records(after);
+    let stays = |id: u32, rect: engine::Rect| is.iter().any(|record| record.id == id && record.rect == rect);
+    let moved = of_types.filter(|record| !stays(record.id, record.rect)).count();
+    moved.min(types.len())
+}
+
+/// Hears which interactions are executed, and on whom in this tick.
+struct Ear {
+    lines: Vec<bool>,
+    meetings: Vec<Meeting>,
+}
+
+/// Meetings of a tick that are heard.
+const HEARD: usize = 256;
+
+impl Ear {
+    fn new(game: &Game) -> Ear {
+        Ear { lines: vec![false; game.description().interactions.len()], meetings: Vec::new() }
+    }
+}
+
+impl Watch for Ear {
+    fn interaction(&mut self, line: usize) {
+        self.lines[line] = true;
+    }
+
+    fn wants_meetings(&self) -> bool {
+        self.meetings.len() < HEARD
+    }
+
+    fn meeting(&mut self, meeting: Meeting) {
+        self.meetings.push(meeting);
+    }
+}
+
+/// A mean that grows; 0 of nothing.
+#[derive(Default)]
+struct Mean {
+    sum: f64,
+    count: u64,
+}
+
+impl Mean {
+    fn add(&mut self, value: f64) {
+        self.sum += value;
+        self.count += 1;
+    }
+
+    fn value(&self) -> f64 {
+        self.sum / self.count.max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Difficulty, Rate};
+
+    /// Crates are pushed into pits; the wasp flies along its row.
+    const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    crate > Passive\n    wasp > Missile orientation=LEFT speed=1\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    s > wasp\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    crate pit > killSprite scoreChange=1\n    avatar wasp > killSprite\n    wasp wall > reverseDirection\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    SpriteCounter stype=avatar win=False\n";
+
+    fn play(level: &str, actions: &[Action]) -> (Analysis, Level, Episode) {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level(level).unwrap();
+        let (mut episode, mut state) = Episode::begin(&game, &level, Seed::from_text("measures"));
+        for &action in actions {
+            episode.play(&game, &mut state, action);
+        }
+        (Analysis::of(&game), level, episode)
+    }
+
+    fn check(level: &str, actions: &[Action]) -> Measures {
+        let (analysis, level, episode) = play(level, actions);
+        let measures = Measures::of_episode(&analysis, &level, &episode, Seed::from_text("futures"));
+        assert_eq!(measures.rules, used_rules(analysis.game(), &level, &episode));
+        assert_eq!(measures, Measures::of_episode(&analysis, &level, &episode, Seed::from_text("futures")));
+        measures
+    }
+
+    use Action::{Left, Right, Up};
+
+    #[test]
+    fn pushes_that_move_something_are_counted() {
+        let solved = check("wwwwww\nwAc ow\nw    w\nwwwwww\n", &[Right; 2]);
+        assert_eq!((solved.ticks, solved.pushes, solved.rules.as_slice()), (2, 2, &[1, 3][..]));
+        assert!((solved.mechanics - 2.0 / 6.0).abs() < 1e-12, "{solved:?}");
+        assert_eq!(solved.pressure, 0.0);
+        // Against a wall nothing moves; past the crate nothing is pushed.
+        let stuck = check("wwwwww\nwAcw w\nw   ow\nwwwwww\n", &[Right, Right, Left]);
+        assert_eq!(stuck.pushes, 0, "{stuck:?}");
+    }
+
+    #[test]
+    fn branching_tells_room_from_a_dead_end() {
+        // In a hole in the wall only staying is left; in the open five ways lead to five states.
+        let caged = check("wwwwww\nwAw ow\nwww cw\nwwwwww\n", &[Up]);
+        let free = check("wwwwww\nw    w\nw A  w\nw   ow\nw   cw\nwwwwww\n", &[Action::Nil]);
+        assert!(caged.branching < free.branching && free.branching == 1.0, "{caged:?} {free:?}");
+    }
+
+    #[test]
+    fn pressure_is_high_where_most_futures_lose() {
+        let near = check("wwwwww\nwA  sw\nwwwwww\nwo c w\nwwwwww\n", &[Right]);
+        let far = check("wwwwww\nwA  ww\nww www\nwo csw\nwwwwww\n", &[Right]);
+        assert!(near.pressure > 0.5 && far.pressure < 0.2, "{near:?} {far:?}");
+    }
+
+    #[test]
+    fn the_skill_gap_is_between_kinds_of_players() {
+        let fared = |looks_ahead, wins, reward| Fared {
+            player: String::new(),
+            looks_ahead,
+            rate: Rate { wins, plays: 10, interval: [0.0, 1.0], calls: 0, mean_score: 0.0 },
+            win_ticks: None,
+            reward,
+        };
+        let ladder = |rungs| Ladder { rungs, held_out: Vec::new(), ease: None, difficulty: Difficulty::Easy };
+        let rungs = vec![fared(false, 1, Some(0.2)), fared(true, 5, Some(0.5)), fared(true, 9, Some(0.9))];
+        let gap = SkillGap::of(&ladder(rungs)).unwrap();
+        assert!((gap.wins - 0.6).abs() < 1e-12 && (gap.reward.unwrap() - 0.5).abs() < 1e-12, "{gap:?}");
+        assert_eq!(SkillGap::of(&ladder(vec![fared(true, 5, None)])), None);
+        let flat = SkillGap::of(&ladder(vec![fared(false, 0, None), fared(true, 5, None)])).unwrap();
+        assert_eq!(flat, SkillGap { wins: 0.5, reward: None });
+    }
+}

@@ -1,0 +1,261 @@
+//! A rule of a game as a person names it: `box hole`, `box hole killSprite`, or the number of its line.
+
+use crate::evidence::Line;
+use engine::{Analysis, EFFECTS, Episode, Level, Meeting, SpriteType, Watch, nearest};
+
+/// Interactions of one game that somebody means: all that fit what was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RuleRef {
+    text: String,
+    /// Indices into the description, with who has to meet whom; none: any of the line's partners.
+    meant: Vec<(usize, Option<Pair>)>,
+}
+
+/// Who is acted upon, and by whom; none: the edge of the screen.
+type Pair = (SpriteType, Option<SpriteType>);
+
+/// What is wrong with the name of a rule.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{text}` names no interaction of the game: {reason}")]
+pub struct RuleRefError {
+    /// What was written.
+    pub text: String,
+    /// What is wrong with it, and what was perhaps meant.
+    pub reason: String,
+}
+
+/// The name of the edge of the screen in interactions.
+const EDGE: &str = "EOS";
+/// Interactions that a message lists at most.
+const LISTED: usize = 4;
+
+impl RuleRef {
+    /// Reads the name of a rule: the number of its line in the InteractionSet, from 1; or the two sprites, as the line writes
+    /// them or of types below those; with the effect, if the two meet in more than one way. `box hole > killSprite` is as
+    /// good. Two sprites that only an interaction in the other order has mean that one.
+    ///
+    /// # Errors
+    /// The number is too large, or no such interaction, sprite or effect is in the game: with what may have been meant.
+    pub fn parse(analysis: &Analysis, text: &str) -> Result<RuleRef, RuleRefError> {
+        let game = analysis.game();
+        let wrong = |reason: String| Err(RuleRefError { text: text.to_owned(), reason });
+        let lines = &game.description().interactions;
+        let named = |meant: Vec<(usize, Option<Pair>)>| RuleRef { text: text.trim().to_owned(), meant };
+        if let Ok(number) = text.trim().parse::<usize>() {
+            return match number {
+                1.. if number <= lines.len() => Ok(named(vec![(number - 1, None)])),
+                _ => wrong(format!("its InteractionSet has lines 1 to {}", lines.len())),
+            };
+        }
+        let (sprites, effect) = words(analysis, text);
+        let [first, second] = sprites[..] else {
+            return wrong("name two sprites (`box hole`), or the number of the line".to_owned());
+        };
+        for name in [first, second] {
+            if name != EDGE && game.sprite_type(name).is_none() {
+                let names: Vec<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
+                let help = suggestion(name, names);
+                return wrong(format!("there is no sprite `{name}`{help}"));
+            }
+        }
+        let between = |first: &str, second: &str| -> Vec<(usize, Option<Pair>)> {
+            let Some(pair) = game.sprite_type(first).map(|stype| (stype, game.sprite_type(second))) else {
+                return Vec::new();
+            };
+            let meets = |line: &usize| {
+                let of_line = |word: &str, name: &str| {
+                    let types = game.sprite_type(word).zip(game.sprite_type(name));
+                    word == name || types.is_some_and(|(written, stype)| analysis.applies(written, stype))
+                };
+                let written = &lines[*line];
+                of_line(&written.first.text, first)
+                    && written.second.iter().any(|word| of_line(&word.text, second))
+            };
+            (0..lines.len()).filter(meets).map(|line| (line, Some(pair))).collect()
+        };
+        let met = Some(between(first, second)).filter(|met| !met.is_empty());
+        let met = met.unwrap_or_else(|| between(second, first));
+        if met.is_empty() {
+            return wrong(format!("`{first}` and `{second}` do not meet{}", meetings_of(analysis, first)));
+        }
+        let Some(effect) = effect else { return Ok(named(met)) };
+        let of_effect =
+            |(line, _): &(usize, Option<Pair>)| lines[*line].effect.text.eq_ignore_ascii_case(effect);
+        let meant: Vec<(usize, Option<Pair>)> = met.iter().filter(|met| of_effect(met)).copied().collect();
+        if meant.is_empty() {
+            let effects: Vec<&str> = met.iter().map(|(line, _)| lines[*line].effect.text.as_str()).collect();
+            let help = suggestion(effect, effects.iter().copied());
+            return wrong(format!("what happens there is {}, not `{effect}`{help}", quoted(&effects)));
+        }
+        Ok(named(meant))
+    }
+
+    /// What was written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The lines that are meant: indices into [`Description::interactions`](engine::Description), ascending.
+    pub fn lines(&self) -> impl Iterator<Item = usize> + '_ {
+        self.meant.iter().map(|(line, _)| *line)
+    }
+
+    /// Whether an episode executes one of them, on sprites of the named types. Cost: that of the episode.
+    pub fn is_used(&self, analysis: &Analysis, level: &Level, episode: &Episode) -> bool {
+        let game = analysis.game();
+        let mut ear = Ear { rule: self, analysis, heard: false };
+        let mut state = game.start(level, episode.seed);
+        episode.actions.iter().any(|&action| {
+            game.step_watched(&mut state, action, &mut ear);
+            ear.heard
+        })
+    }
+}
+
+/// Listens for a rule.
+struct Ear<'a> {
+    rule: &'a RuleRef,
+    analysis: &'a Analysis,
+    heard: bool,
+}
+
+impl Watch for Ear<'_> {
+    fn interaction(&mut self, line: usize) {
+        self.heard |= self.rule.meant.contains(&(line, None));
+    }
+
+    fn wants_meetings(&self) -> bool {
+        !self.heard
+    }
+
+    fn meeting(&mut self, meeting: Meeting) {
+        let is = |named: SpriteType, stype: SpriteType| self.analysis.applies(named, stype);
+        let fits = |&(line, pair): &(usize, Option<Pair>)| {
+            let Some((first, second)) = pair else { return false };
+            line == meeting.line
+                && is(first, meeting.first)
+                && match (second, meeting.second) {
+                    (Some(named), Some(met)) => is(named, met),
+                    (None, None) => true,
+                    _ => false,
+                }
+        };
+        self.heard |= self.rule.meant.iter().any(fits);
+    }
+}
+
+/// The sprites and the effect of a written rule. Without `>`, a third word is the effect.
+fn words<'a>(analysis: &Analysis, text: &'a str) -> (Vec<&'a str>, Option<&'a str>) {
+    if let Some((sprites, effect)) = text.split_once('>') {
+        return (sprites.split_whitespace().collect(), effect.split_whitespace().next());
+    }
+    let mut words: Vec<&str> = text.split_whitespace().collect();
+    let is_sprite = |word: &str| analysis.game().sprite_type(word).is_some();
+    let is_effect = |word: &&str| EFFECTS.iter().any(|effect| effect.eq_ignore_ascii_case(word));
+    let effect =
+        words.last().copied().filter(|word| words.len() > 2 && (is_effect(word) || !is_sprite(word)));
+    if effect.is_some() {
+        words.pop();
+    }
+    (words, effect)
+}
+
+fn suggestion<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(wrong, candidates).map_or(String::new(), |near| format!("; did you mean `{near}`?"))
+}
+
+fn quoted(words: &[&str]) -> String {
+    words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(" and ")
+}
+
+/// The interactions that a sprite does have.
+fn meetings_of(analysis: &Analysis, name: &str) -> String {
+    let game = analysis.game();
+    let lines = &game.description().interactions;
+    let has = |line: &usize| {
+        lines[*line].first.text == name || lines[*line].second.iter().any(|word| word.text == name)
+    };
+    let known: Vec<String> =
+        (0..lines.len()).filter(has).map(|line| Line::interaction(game, line).text).collect();
+    match known.len() {
+        0 => String::new(),
+        many => {
+            let listed: Vec<&str> = known.iter().take(LISTED).map(String::as_str).collect();
+            let more = if many > LISTED { format!(", and {} more", many - LISTED) } else { String::new() };
+            format!("; `{name}` has `{}`{more}", listed.join("`, `"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::{Action, Game, Seed};
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    load > Passive\n      crate >\n      barrel >\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    b > barrel\n  InteractionSet\n    avatar wall pit > stepBack\n    load avatar > bounceForward\n    load wall > undoAll\n    crate pit > killSprite scoreChange=1\n    crate pit > addHealthPoints value=1\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n";
+
+    fn analysis() -> Analysis {
+        Analysis::of(&Game::from_source(GAME).unwrap())
+    }
+
+    #[track_caller]
+    fn check(text: &str, lines: &[usize]) -> RuleRef {
+        let rule = RuleRef::parse(&analysis(), text).unwrap();
+        assert_eq!(rule.lines().collect::<Vec<_>>(), lines, "{text}");
+        rule
+    }
+
+    #[test]
+    fn rules_are_named_by_sprites_effect_or_number() {
+        check("1", &[0]);
+        check(" 4 ", &[3]);
+        check("crate pit", &[3, 4]);
+        check("crate pit killSprite", &[3]);
+        check("crate pit > killsprite", &[3]);
+        // In the other order, of a type below the one that is written, and at the edge.
+        check("pit crate", &[3, 4]);
+        check("barrel avatar", &[1]);
+        check("avatar EOS", &[5]);
+    }
+
+    #[track_caller]
+    fn refuse(text: &str, expect: &str) {
+        let error = RuleRef::parse(&analysis(), text).unwrap_err().to_string();
+        assert!(error.contains(expect), "{error}");
+    }
+
+    #[test]
+    fn what_names_no_rule_is_told_with_what_may_be_meant() {
+        refuse("7", "lines 1 to 6");
+        refuse("0", "lines 1 to 6");
+        refuse("crate", "name two sprites");
+        refuse("crate pti", "no sprite `pti`; did you mean `pit`?");
+        refuse("barrel pit", "`barrel` and `pit` do not meet");
+        refuse("crate avatar killSprite", "what happens there is `bounceForward`, not `killSprite`");
+        refuse("crate pit kilSprite", "did you mean `killSprite`?");
+        refuse("pit pit", "`pit` has `avatar wall pit > stepBack`, `crate pit > killSprite scoreChange=1`");
+    }
+
+    #[test]
+    fn an_episode_uses_a_rule_if_it_is_executed_on_the_named_sprites() {
+        let analysis = analysis();
+        let game = analysis.game();
+        let played = |level: &str| {
+            let level = game.level(level).unwrap();
+            let (mut episode, mut state) = Episode::begin(game, &level, Seed::from_text("used"));
+            for action in [Action::Right, Action::Up] {
+                episode.play(game, &mut state, action);
+            }
+            (level, episode)
+        };
+        let (walled, open) = (played("wwwwww\nwAc bw\nw  c w\nwo   w\nwwwwww\n"), played("A c b\n    o\n"));
+        let uses = |text: &str, (level, episode): &(Level, Episode)| {
+            RuleRef::parse(&analysis, text).unwrap().is_used(&analysis, level, episode)
+        };
+        let used = ["crate avatar", "load avatar", "2"];
+        assert!(used.iter().all(|text| uses(text, &walled)));
+        assert!(!uses("barrel avatar", &walled), "only the crate was pushed");
+        assert!(["crate pit", "avatar pit", "avatar EOS", "6"].iter().all(|text| !uses(text, &walled)));
+        assert!(uses("avatar EOS", &open) && uses("6", &open) && !uses("2", &open));
+    }
+}
