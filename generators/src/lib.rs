@@ -2,12 +2,14 @@
 //!
 //! Generators never judge what they make: `snapshots::mint` is where a candidate meets its judges.
 
+mod annealing;
 mod error;
 pub mod games;
 mod generator;
 pub mod levels;
 mod search;
 
+pub use annealing::{Annealing, AnnealingConfig};
 pub use error::GenerateError;
 pub use generator::Generator;
 pub use search::{Evaluation, Search, Variation};

@@ -1,0 +1,304 @@
+//! Simulated annealing: a few walkers that mostly climb, and the less they slip the longer they walk.
+
+use crate::{Evaluation, Search, Variation};
+use engine::{Sampler, Seed};
+use std::cmp::Ordering;
+use std::collections::VecDeque;
+
+/// Seeds tried for a start of a chain before its turn is given up.
+const STARTS: usize = 16;
+
+/// How a search by annealing goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnnealingConfig {
+    /// Candidates to be judged in all; the schedule is laid out over them.
+    pub evaluations: usize,
+    /// Independent chains.
+    pub chains: usize,
+    /// How much worse than the present candidate, in units of the objective, one may be that is accepted once in e times:
+    /// at the start.
+    pub warmest: f64,
+    /// The same at the end; greater than 0.
+    pub coldest: f64,
+    /// A chain starts anew after so many candidates without one that is better than all since its start.
+    pub patience: usize,
+}
+
+impl AnnealingConfig {
+    /// Sensible settings for so many evaluations.
+    pub fn of(evaluations: usize) -> AnnealingConfig {
+        let chains = (evaluations / 60).clamp(1, 4);
+        let patience = (evaluations / chains / 3).max(20);
+        AnnealingConfig { evaluations, chains, warmest: 0.08, coldest: 0.004, patience }
+    }
+}
+
+/// Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983, "Optimization by simulated annealing"), asked and told in
+/// batches.
+///
+/// Each of a few chains holds a present candidate and is asked for neighbours of it. Among infeasible candidates only
+/// feasibility counts, among feasible ones only the objective, and a feasible one is never given up for an infeasible
+/// one. The temperature falls geometrically with the evaluations told; no clock is read. Neighbours of one batch are
+/// taken in their order, each compared with the candidate that is present then. A chain that has stagnated starts anew.
+///
+/// Memory: two candidates for each chain, and the best. [`Search::ask`] gives nothing once all evaluations are asked for.
+#[derive(Debug)]
+pub struct Annealing<V: Variation> {
+    variation: V,
+    config: AnnealingConfig,
+    seed: Seed,
+    chains: Vec<Chain<V::Candidate>>,
+    /// The chain whose turn is next.
+    turn: usize,
+    /// The chains that the candidates belong to that have been asked for and not been told, in order.
+    pending: VecDeque<usize>,
+    asked: usize,
+    told: usize,
+    /// Seeds used up for starts.
+    started: u64,
+    best: Option<(V::Candidate, Evaluation)>,
+}
+
+#[derive(Debug)]
+struct Chain<C> {
+    /// For neighbours, and for what is accepted.
+    sampler: Sampler,
+    present: Option<(C, Evaluation)>,
+    /// The best since the chain started.
+    peak: Option<Evaluation>,
+    /// Candidates since then.
+    stale: usize,
+}
+
+impl<V: Variation> Annealing<V> {
+    /// A search that has not begun.
+    pub fn new(variation: V, config: AnnealingConfig, seed: Seed) -> Annealing<V> {
+        let chain = |at: u64| Chain {
+            sampler: seed.child("chain", at).sampler(),
+            present: None,
+            peak: None,
+            stale: 0,
+        };
+        let chains = (0..config.chains.max(1) as u64).map(chain).collect();
+        Annealing {
+            variation,
+            config,
+            seed,
+            chains,
+            turn: 0,
+            pending: VecDeque::new(),
+            asked: 0,
+            told: 0,
+            started: 0,
+            best: None,
+        }
+    }
+
+    /// The best candidate told so far, with what was told of it.
+    pub fn best(&self) -> Option<(&V::Candidate, &Evaluation)> {
+        self.best.as_ref().map(|(candidate, evaluation)| (candidate, evaluation))
+    }
+
+    /// Whether all evaluations have been told.
+    pub fn is_over(&self) -> bool {
+        self.told >= self.config.evaluations
+    }
+
+    /// What varies the candidates.
+    pub fn variation(&self) -> &V {
+        &self.variation
+    }
+
+    /// A candidate to start from.
+    fn start(&mut self) -> Option<V::Candidate> {
+        (0..STARTS).find_map(|_| {
+            self.started += 1;
+            self.variation.create(self.seed.child("start", self.started))
+        })
+    }
+
+    fn temperature(&self) -> f64 {
+        let share = self.told as f64 / self.config.evaluations.max(1) as f64;
+        let ratio = self.config.coldest / self.config.warmest;
+        self.config.warmest * libm::pow(ratio, share.min(1.0))
+    }
+}
+
+impl<V: Variation> Search for Annealing<V> {
+    type Candidate = V::Candidate;
+
+    fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
+        let count = count.min(self.config.evaluations.saturating_sub(self.asked));
+        let mut candidates = Vec::with_capacity(count);
+        for _ in 0..count {
+            let at = self.turn;
+            let chain = &mut self.chains[at];
+            let candidate = match &chain.present {
+                Some((present, _)) => Some(self.variation.mutate(present, &mut chain.sampler)),
+                None => self.start(),
+            };
+            let Some(candidate) = candidate else { continue };
+            self.pending.push_back(at);
+            self.turn = (at + 1) % self.chains.len();
+            candidates.push(candidate);
+        }
+        self.asked += candidates.len();
+        candidates
+    }
+
+    fn tell(&mut self, evaluated: Vec<(V::Candidate, Evaluation)>) {
+        for (candidate, evaluation) in evaluated {
+            let Some(at) = self.pending.pop_front() else { return };
+            let temperature = self.temperature();
+            self.told += 1;
+            if self.best.as_ref().is_none_or(|(_, best)| compare(&evaluation, best) == Ordering::Greater) {
+                self.best = Some((candidate.clone(), evaluation.clone()));
+            }
+            self.chains[at].take(candidate, evaluation, temperature, self.config.patience);
+        }
+    }
+}
+
+impl<C> Chain<C> {
+    /// Goes to the candidate, or stays.
+    fn take(&mut self, candidate: C, evaluation: Evaluation, temperature: f64, patience: usize) {
+        if self.peak.as_ref().is_none_or(|peak| compare(&evaluation, peak) == Ordering::Greater) {
+            self.peak = Some(evaluation.clone());
+            self.stale = 0;
+        } else {
+            self.stale += 1;
+        }
+        // Drawn whatever comes, so that what follows does not depend on it.
+        let luck = self.sampler.unit();
+        let goes = self.present.as_ref().is_none_or(|(_, present)| {
+            compare(&evaluation, present) != Ordering::Less
+                || loss(&evaluation, present).is_some_and(|loss| luck < libm::exp(-loss / temperature))
+        });
+        if goes {
+            self.present = Some((candidate, evaluation));
+        }
+        if self.stale >= patience {
+            (self.present, self.peak, self.stale) = (None, None, 0);
+        }
+    }
+}
+
+/// Feasible ones by their objective, above all others, which go by their feasibility.
+fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
+    let key = |evaluation: &Evaluation| {
+        let feasible = evaluation.is_feasible();
+        (feasible, if feasible { evaluation.objective } else { evaluation.feasibility })
+    };
+    let (one, two) = (key(one), key(two));
+    one.0.cmp(&two.0).then(one.1.total_cmp(&two.1))
+}
+
+/// How much worse the first is; none if no luck makes up for it.
+fn loss(one: &Evaluation, two: &Evaluation) -> Option<f64> {
+    match (one.is_feasible(), two.is_feasible()) {
+        (true, true) => Some(two.objective - one.objective),
+        (false, false) => Some(two.feasibility - one.feasibility),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BITS: usize = 48;
+
+    /// Strings of bits; a neighbour differs in one or two.
+    struct Bits;
+
+    impl Variation for Bits {
+        type Candidate = u64;
+
+        fn create(&self, seed: Seed) -> Option<u64> {
+            Some(seed.sampler().bits() & ((1 << BITS) - 1))
+        }
+
+        fn mutate(&self, parent: &u64, sampler: &mut Sampler) -> u64 {
+            let other = if sampler.ratio(1, 2) { 1 << sampler.below(BITS) } else { 0 };
+            parent ^ (1 << sampler.below(BITS)) ^ other
+        }
+
+        fn cross(&self, one: &u64, two: &u64, sampler: &mut Sampler) -> u64 {
+            let mask = sampler.bits();
+            one & mask | two & !mask
+        }
+    }
+
+    /// Feasible with no more than 12 ones in the lower half; good are ones in runs of four. The optimum is
+    /// 12 + 24 ones in nine whole runs.
+    fn judge(bits: &u64) -> Evaluation {
+        let lower = (bits & 0xFF_FFFF).count_ones() as f64;
+        let runs = (0..BITS / 4).filter(|at| bits >> (4 * at) & 0xF == 0xF).count() as f64;
+        let ones = bits.count_ones() as f64;
+        let feasibility = 1.0 - (lower - 12.0).max(0.0) / 12.0;
+        Evaluation { feasibility, objective: (runs / 9.0 + ones / 36.0) / 2.0, measures: Vec::new() }
+    }
+
+    fn run(seed: &str, evaluations: usize, batch: usize) -> (Vec<u64>, Annealing<Bits>) {
+        let config = AnnealingConfig::of(evaluations);
+        let mut search = Annealing::new(Bits, config, Seed::from_text(seed));
+        let mut asked = Vec::new();
+        loop {
+            let candidates = search.ask(batch);
+            if candidates.is_empty() {
+                return (asked, search);
+            }
+            asked.extend(&candidates);
+            search.tell(candidates.into_iter().map(|candidate| (candidate, judge(&candidate))).collect());
+        }
+    }
+
+    #[test]
+    fn the_optimum_is_found() {
+        for seed in ["one", "two", "three"] {
+            let (asked, search) = run(seed, 24_000, 16);
+            assert_eq!(asked.len(), 24_000);
+            assert!(search.is_over());
+            let (best, evaluation) = search.best().unwrap();
+            assert_eq!(evaluation, &judge(best));
+            assert!(evaluation.is_feasible() && evaluation.objective >= 1.0, "{best:b} {evaluation:?}");
+        }
+    }
+
+    #[test]
+    fn it_beats_random_sampling() {
+        for seed in ["four", "five", "six"] {
+            let (_, search) = run(seed, 600, 8);
+            let found = search.best().unwrap().1.clone();
+            let seed = Seed::from_text(seed);
+            let random = (0..600).map(|at| judge(&Bits.create(seed.child("random", at)).unwrap()));
+            let random = random.max_by(compare).unwrap();
+            assert!(found.is_feasible() && found.objective > random.objective + 0.1, "{found:?} {random:?}");
+        }
+    }
+
+    #[test]
+    fn the_same_seed_asks_the_same() {
+        assert_eq!(run("seven", 500, 8).0, run("seven", 500, 8).0);
+        assert_ne!(run("seven", 500, 8).0, run("eight", 500, 8).0);
+    }
+
+    #[test]
+    fn feasible_ones_are_never_given_up() {
+        let of = |feasibility: f64, objective: f64| Evaluation { feasibility, objective, measures: vec![] };
+        let mut chain =
+            Chain { sampler: Seed::from_text("chain").sampler(), present: None, peak: None, stale: 0 };
+        chain.take(1, of(0.2, 0.9), 1e9, 100);
+        chain.take(2, of(0.1, 0.9), 1e9, 100);
+        assert_eq!(chain.present.as_ref().unwrap().0, 2, "anything goes when it is hot");
+        chain.take(3, of(1.0, 0.0), 1e-9, 100);
+        chain.take(4, of(0.99, 1.0), 1e9, 100);
+        assert_eq!(chain.present.as_ref().unwrap().0, 3);
+        chain.take(5, of(1.0, 0.5), 1e-9, 3);
+        chain.take(6, of(1.0, 0.4), 1e-9, 3);
+        assert_eq!(chain.present.as_ref().unwrap().0, 5);
+        chain.take(7, of(1.0, 0.4), 1e-9, 3);
+        chain.take(8, of(1.0, 0.4), 1e-9, 3);
+        assert!(chain.present.is_none(), "a chain that stagnates starts anew");
+    }
+}
