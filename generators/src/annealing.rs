@@ -257,8 +257,8 @@ mod tests {
     #[test]
     fn the_optimum_is_found() {
         for seed in ["one", "two", "three"] {
-            let (asked, search) = run(seed, 12_000, 16);
-            assert_eq!(asked.len(), 12_000);
+            let (asked, search) = run(seed, 40_000, 16);
+            assert_eq!(asked.len(), 40_000);
             assert!(search.is_over());
             let (best, evaluation) = search.best().unwrap();
             assert_eq!(evaluation, &judge(best));
