@@ -3,15 +3,24 @@
 //! Generators never judge what they make: `snapshots::mint` is where a candidate meets its judges.
 
 mod annealing;
+mod archive;
+mod breeding;
 mod error;
+mod feasible_infeasible;
 pub mod games;
 mod generator;
 pub mod levels;
+mod map_elites;
 mod search;
+#[cfg(test)]
+mod toys;
 
 pub use annealing::{Annealing, AnnealingConfig};
+pub use archive::{AddStatus, Archive, Axis, Judged};
 pub use error::GenerateError;
+pub use feasible_infeasible::{FeasibleInfeasible, FeasibleInfeasibleConfig};
 pub use generator::Generator;
+pub use map_elites::{MapElites, MapElitesConfig};
 pub use search::{Evaluation, Search, Variation};
 
 /// Bumped when any minted byte moves for an unchanged recipe.

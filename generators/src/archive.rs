@@ -1,0 +1,256 @@
+//! A grid of elites: the best candidate of every kind, where measures say what kind a candidate is.
+
+use crate::Evaluation;
+use std::collections::BTreeMap;
+
+/// A candidate with what the judges said of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged<C> {
+    /// The candidate.
+    pub candidate: C,
+    /// What was said of it.
+    pub evaluation: Evaluation,
+}
+
+/// One measure as a side of the grid: a range cut into bins of equal width.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// What is measured, for people to read.
+    pub name: String,
+    /// The range that is told apart, from and to. What lies outside counts as the first or the last bin.
+    pub range: (f64, f64),
+    /// How many bins.
+    pub bins: usize,
+}
+
+impl Axis {
+    /// An axis.
+    ///
+    /// # Panics
+    /// If the range is empty or not finite, or if there is no bin.
+    pub fn new(name: &str, range: (f64, f64), bins: usize) -> Axis {
+        let width = range.1 - range.0;
+        assert!(width > 0.0 && width.is_finite() && bins > 0, "axis `{name}` has a range and bins");
+        Axis { name: name.to_owned(), range, bins }
+    }
+
+    /// The bin of a value. What is not a number counts as the lowest.
+    pub fn bin(&self, value: f64) -> usize {
+        let share = (value - self.range.0) / (self.range.1 - self.range.0);
+        // The cast saturates at 0 and takes NaN to 0.
+        ((share * self.bins as f64) as usize).min(self.bins - 1)
+    }
+}
+
+/// What became of a candidate that was shown to an archive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AddStatus {
+    /// It is the first of its cell.
+    New,
+    /// It took the place of a worse one.
+    Improved,
+    /// The archive does without it.
+    Rejected,
+}
+
+/// The best feasible candidate of every cell of a grid of measures (the archive of Mouret and Clune, "Illuminating search
+/// spaces by mapping elites", 2015), and beside it in every cell a pocket of infeasible ones that come close (Khalifa et al.,
+/// "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
+///
+/// Cells are numbered row-major, the last axis fastest; whatever iterates does so in that order.
+#[derive(Clone, Debug)]
+pub struct Archive<C> {
+    axes: Vec<Axis>,
+    /// How many infeasible candidates a cell keeps.
+    pocket_size: usize,
+    elites: BTreeMap<usize, Judged<C>>,
+    /// By cell, the least infeasible first; of equals the youngest first. None is empty.
+    pockets: BTreeMap<usize, Vec<Judged<C>>>,
+}
+
+impl<C> Archive<C> {
+    /// An empty archive that keeps up to `pocket_size` infeasible candidates in each cell. Its axes are the measures of the
+    /// evaluations, in their order.
+    pub fn new(axes: Vec<Axis>, pocket_size: usize) -> Archive<C> {
+        Archive { axes, pocket_size, elites: BTreeMap::new(), pockets: BTreeMap::new() }
+    }
+
+    /// Shows it a candidate. A feasible one becomes the elite of its cell if its objective is higher than the elite's. An
+    /// infeasible one goes to the pocket, and pushes out the worst one if that is full: of equals the oldest, so that
+    /// what cannot be told apart yet can still drift. Cost: O(log cells + pocket).
+    ///
+    /// # Panics
+    /// If there are not as many measures as axes.
+    pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
+        let cell = self.cell(&evaluation.measures);
+        let judged = Judged { candidate, evaluation };
+        if !judged.evaluation.is_feasible() {
+            return self.pocket_in(cell, judged);
+        }
+        match self.elites.get(&cell) {
+            Some(elite) if judged.evaluation.objective <= elite.evaluation.objective => AddStatus::Rejected,
+            known => {
+                let status = if known.is_some() { AddStatus::Improved } else { AddStatus::New };
+                self.elites.insert(cell, judged);
+                status
+            }
+        }
+    }
+
+    fn pocket_in(&mut self, cell: usize, judged: Judged<C>) -> AddStatus {
+        if self.pocket_size == 0 {
+            return AddStatus::Rejected;
+        }
+        let pocket = self.pockets.entry(cell).or_default();
+        let better = |kept: &Judged<C>| kept.evaluation.feasibility > judged.evaluation.feasibility;
+        let place = pocket.partition_point(better);
+        if place == self.pocket_size {
+            return AddStatus::Rejected;
+        }
+        let status = if pocket.is_empty() { AddStatus::New } else { AddStatus::Improved };
+        pocket.insert(place, judged);
+        pocket.truncate(self.pocket_size);
+        status
+    }
+
+    /// The axes.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// How many cells there are, empty ones included.
+    pub fn cells(&self) -> usize {
+        self.axes.iter().map(|axis| axis.bins).product()
+    }
+
+    /// The cell of these measures.
+    ///
+    /// # Panics
+    /// If there are not as many measures as axes.
+    pub fn cell(&self, measures: &[f64]) -> usize {
+        assert_eq!(measures.len(), self.axes.len(), "one measure for each axis");
+        let bins = self.axes.iter().zip(measures);
+        bins.fold(0, |cell, (axis, &measure)| cell * axis.bins + axis.bin(measure))
+    }
+
+    /// The bins of a cell, by axis.
+    pub fn bins(&self, cell: usize) -> Vec<usize> {
+        let mut rest = cell;
+        let mut bins: Vec<usize> = Vec::with_capacity(self.axes.len());
+        for axis in self.axes.iter().rev() {
+            bins.push(rest % axis.bins);
+            rest /= axis.bins;
+        }
+        bins.reverse();
+        bins
+    }
+
+    /// The cells that differ from a cell by one bin of one axis, in the order of the axes.
+    pub fn neighbours(&self, cell: usize) -> Vec<usize> {
+        let mut stride = self.cells();
+        let mut cells = Vec::with_capacity(2 * self.axes.len());
+        for (axis, bin) in self.axes.iter().zip(self.bins(cell)) {
+            stride /= axis.bins;
+            cells.extend((bin > 0).then(|| cell - stride));
+            cells.extend((bin + 1 < axis.bins).then(|| cell + stride));
+        }
+        cells
+    }
+
+    /// The elite of a cell.
+    pub fn elite(&self, cell: usize) -> Option<&Judged<C>> {
+        self.elites.get(&cell)
+    }
+
+    /// All elites with their cells, in the order of the cells.
+    pub fn elites(&self) -> impl ExactSizeIterator<Item = (usize, &Judged<C>)> {
+        self.elites.iter().map(|(&cell, elite)| (cell, elite))
+    }
+
+    /// The infeasible candidates of a cell, the least infeasible first.
+    pub fn pocket(&self, cell: usize) -> &[Judged<C>] {
+        self.pockets.get(&cell).map_or(&[], Vec::as_slice)
+    }
+
+    /// All cells that hold infeasible candidates, with these, in the order of the cells.
+    pub fn pockets(&self) -> impl ExactSizeIterator<Item = (usize, &[Judged<C>])> {
+        self.pockets.iter().map(|(&cell, pocket)| (cell, pocket.as_slice()))
+    }
+
+    /// The share of cells that have an elite.
+    pub fn coverage(&self) -> f64 {
+        self.elites.len() as f64 / self.cells() as f64
+    }
+
+    /// The sum of the objectives of all elites: an empty cell counts as the worst objective, 0.
+    pub fn qd_score(&self) -> f64 {
+        self.elites.values().map(|elite| elite.evaluation.objective).sum()
+    }
+
+    /// The elite with the highest objective; of equals that of the first cell.
+    pub fn best(&self) -> Option<&Judged<C>> {
+        self.elites.values().reduce(|best, elite| {
+            if elite.evaluation.objective > best.evaluation.objective { elite } else { best }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn archive() -> Archive<&'static str> {
+        Archive::new(vec![Axis::new("length", (0.0, 30.0), 3), Axis::new("share", (0.0, 1.0), 4)], 2)
+    }
+
+    fn judged(feasibility: f64, objective: f64, measures: [f64; 2]) -> Evaluation {
+        Evaluation { feasibility, objective, measures: measures.to_vec() }
+    }
+
+    #[test]
+    fn values_beyond_the_range_count_as_its_ends() {
+        let axis = Axis::new("length", (10.0, 30.0), 4);
+        let bins =
+            [-1e300, 10.0, 14.9, 15.0, 29.9, 30.0, f64::INFINITY, f64::NAN].map(|value| axis.bin(value));
+        assert_eq!(bins, [0, 0, 0, 1, 3, 3, 3, 0]);
+    }
+
+    #[test]
+    fn a_cell_keeps_its_best() {
+        let mut archive = archive();
+        assert_eq!(archive.add("first", judged(1.0, 0.4, [5.0, 0.1])), AddStatus::New);
+        assert_eq!(archive.add("equal", judged(1.0, 0.4, [6.0, 0.2])), AddStatus::Rejected);
+        assert_eq!(archive.add("better", judged(1.0, 0.5, [6.0, 0.2])), AddStatus::Improved);
+        assert_eq!(archive.add("elsewhere", judged(1.0, 0.1, [25.0, 0.9])), AddStatus::New);
+        let elites: Vec<(usize, &str)> =
+            archive.elites().map(|(cell, elite)| (cell, elite.candidate)).collect();
+        assert_eq!(elites, [(0, "better"), (11, "elsewhere")]);
+        assert_eq!((archive.coverage(), archive.qd_score()), (2.0 / 12.0, 0.6));
+        assert_eq!(archive.best().map(|elite| elite.candidate), Some("better"));
+    }
+
+    #[test]
+    fn a_pocket_keeps_the_least_infeasible_and_of_equals_the_youngest() {
+        let mut archive = archive();
+        let mut add = |name, feasibility| archive.add(name, judged(feasibility, 1.0, [15.0, 0.6]));
+        assert_eq!(add("half", 0.5), AddStatus::New);
+        assert_eq!(add("third", 0.3), AddStatus::Improved);
+        assert_eq!(add("fifth", 0.2), AddStatus::Rejected);
+        assert_eq!(add("other third", 0.3), AddStatus::Improved);
+        let names: Vec<&str> = archive.pocket(6).iter().map(|judged| judged.candidate).collect();
+        assert_eq!(names, ["half", "other third"]);
+        assert_eq!((archive.elites().len(), archive.best()), (0, None));
+    }
+
+    #[test]
+    fn neighbours_differ_by_one_bin_of_one_axis() {
+        let archive = archive();
+        assert_eq!(archive.neighbours(0), [4, 1]);
+        assert_eq!(archive.neighbours(5), [1, 9, 4, 6]);
+        assert_eq!(archive.neighbours(11), [7, 10]);
+        for cell in 0..archive.cells() {
+            let bins = archive.bins(cell);
+            assert_eq!(archive.cell(&[bins[0] as f64 * 10.0 + 5.0, bins[1] as f64 * 0.25 + 0.1]), cell);
+        }
+    }
+}

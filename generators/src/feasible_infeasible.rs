@@ -1,0 +1,246 @@
+//! Two populations: one evolves towards better, the other towards feasible.
+
+use crate::breeding::Breeding;
+use crate::{Evaluation, Judged, Search, Variation};
+use engine::{Digest, Sampler, Seed};
+
+/// How [`FeasibleInfeasible`] searches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeasibleInfeasibleConfig {
+    /// How many members each of the two populations keeps.
+    pub size: usize,
+    /// How many candidates are created before the first one is bred.
+    pub initial: usize,
+    /// How many members a parent is the best of: 1 chooses blindly, more presses harder.
+    pub tournament: usize,
+    /// The probability that a child has two parents.
+    pub crossing: f64,
+    /// The share of candidates that are created from nothing later on.
+    pub fresh: f64,
+}
+
+impl Default for FeasibleInfeasibleConfig {
+    fn default() -> FeasibleInfeasibleConfig {
+        FeasibleInfeasibleConfig { size: 32, initial: 64, tournament: 3, crossing: 0.5, fresh: 0.05 }
+    }
+}
+
+/// A genetic algorithm with two populations (Kimbrough et al., "On a Feasible-Infeasible Two-Population (FI-2Pop) Genetic
+/// Algorithm for Constrained Optimization", 2008).
+///
+/// Feasible candidates compete by their objective, infeasible ones by their feasibility. Parents and mates come from one
+/// population; children go where they belong, so that each population feeds the other from its side of the border.
+/// The feasible one breeds at least half of every batch, however small it is (the offspring boost of Liapis et al., "Enhancements
+/// to Constrained Novelty Search", 2013). Members stay until better ones come, and no candidate is asked for twice.
+///
+/// ```
+/// use engine::{Digest, Sampler, Seed};
+/// use generators::{Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, Search, Variation};
+///
+/// /// Numbers below 1000, one decimal digit changed at a time.
+/// struct Digits;
+///
+/// impl Variation for Digits {
+///     type Candidate = u32;
+///     fn create(&self, seed: Seed) -> Option<u32> {
+///         Some(seed.sampler().below(1000) as u32)
+///     }
+///     fn mutate(&self, parent: &u32, sampler: &mut Sampler) -> u32 {
+///         let place = *sampler.choose(&[1, 10, 100]);
+///         parent - parent / place % 10 * place + sampler.below(10) as u32 * place
+///     }
+///     fn cross(&self, one: &u32, two: &u32, _: &mut Sampler) -> u32 {
+///         one / 100 * 100 + two % 100
+///     }
+/// }
+///
+/// // The highest number without an odd digit.
+/// let config = FeasibleInfeasibleConfig::default();
+/// let key = |number: &u32| Digest::of(&number.to_le_bytes());
+/// let mut search = FeasibleInfeasible::new(&Digits, key, config, Seed::from_text("digits"));
+/// for _ in 0..20 {
+///     let judge = |number: u32| {
+///         let even = [1, 10, 100].iter().filter(|&place| number / place % 2 == 0).count();
+///         let (feasibility, objective) = (even as f64 / 3.0, f64::from(number) / 1000.0);
+///         (number, Evaluation { feasibility, objective, measures: Vec::new() })
+///     };
+///     let judged = search.ask(16).into_iter().map(judge).collect();
+///     search.tell(judged);
+/// }
+/// assert_eq!(search.feasible()[0].candidate, 888);
+/// ```
+pub struct FeasibleInfeasible<'a, V: Variation> {
+    config: FeasibleInfeasibleConfig,
+    breeding: Breeding<'a, V>,
+    /// Candidates that are still to be created before breeding starts.
+    initial: usize,
+    /// By objective, the best first; of equals the youngest first.
+    feasible: Vec<Judged<V::Candidate>>,
+    /// By feasibility, the best first; of equals the youngest first.
+    infeasible: Vec<Judged<V::Candidate>>,
+}
+
+impl<'a, V: Variation> FeasibleInfeasible<'a, V> {
+    /// A search that has not begun. Candidates with equal keys are the same.
+    ///
+    /// # Panics
+    /// If the configuration has no members, or parents that are the best of none.
+    pub fn new(
+        variation: &'a V,
+        key: impl Fn(&V::Candidate) -> Digest + Send + 'a,
+        config: FeasibleInfeasibleConfig,
+        seed: Seed,
+    ) -> Self {
+        assert!(
+            config.size > 0 && config.tournament > 0,
+            "populations have members, and parents are of them"
+        );
+        let breeding = Breeding::new(variation, Box::new(key), config.crossing, seed);
+        let initial = config.initial.max(1);
+        FeasibleInfeasible { config, breeding, initial, feasible: Vec::new(), infeasible: Vec::new() }
+    }
+
+    /// The feasible population, the best first.
+    pub fn feasible(&self) -> &[Judged<V::Candidate>] {
+        &self.feasible
+    }
+
+    /// The infeasible population, the nearest to feasible first.
+    pub fn infeasible(&self) -> &[Judged<V::Candidate>] {
+        &self.infeasible
+    }
+
+    fn propose(&mut self) -> Option<V::Candidate> {
+        let mut sampler = self.breeding.next_sampler();
+        let is_fresh = sampler.unit() < self.config.fresh;
+        let (feasible, infeasible) = (self.feasible.len(), self.infeasible.len());
+        if self.initial > 0 || is_fresh || feasible + infeasible == 0 {
+            self.initial = self.initial.saturating_sub(1);
+            return self.breeding.create();
+        }
+        // Without the boost, each would breed in proportion to its size.
+        let boosted = if feasible == 0 { 0 } else { feasible.max(infeasible) };
+        let population =
+            if sampler.ratio(boosted, boosted + infeasible) { &self.feasible } else { &self.infeasible };
+        let parent = tournament(population.len(), self.config.tournament, &mut sampler);
+        let mate = tournament(population.len(), self.config.tournament, &mut sampler);
+        let mate = (mate != parent).then(|| &population[mate].candidate);
+        let child = self.breeding.breed(&population[parent].candidate, mate, &mut sampler);
+        child.or_else(|| self.breeding.create())
+    }
+}
+
+impl<V: Variation> Search for FeasibleInfeasible<'_, V> {
+    type Candidate = V::Candidate;
+
+    /// Fewer than `count` only if variation gives nothing new; then again, perhaps, the next time.
+    fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
+        (0..count).filter_map(|_| self.propose()).collect()
+    }
+
+    /// Candidates that were not asked for are welcome too, as a start.
+    fn tell(&mut self, evaluated: Vec<(V::Candidate, Evaluation)>) {
+        for (candidate, evaluation) in evaluated {
+            self.breeding.note(&candidate);
+            let judged = Judged { candidate, evaluation };
+            if judged.evaluation.is_feasible() {
+                settle(&mut self.feasible, judged, self.config.size, |evaluation| evaluation.objective);
+            } else {
+                settle(&mut self.infeasible, judged, self.config.size, |evaluation| evaluation.feasibility);
+            }
+        }
+    }
+}
+
+/// The index of the best of a few members of a sorted population.
+fn tournament(members: usize, size: usize, sampler: &mut Sampler) -> usize {
+    (0..size).map(|_| sampler.below(members)).min().expect("a tournament has entrants")
+}
+
+/// Puts a member in its place, before its equals, and lets the last one go if there are too many.
+fn settle<C>(
+    population: &mut Vec<Judged<C>>,
+    judged: Judged<C>,
+    size: usize,
+    merit: impl Fn(&Evaluation) -> f64,
+) {
+    let place = population.partition_point(|kept| merit(&kept.evaluation) > merit(&judged.evaluation));
+    population.insert(place, judged);
+    population.truncate(size);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::toys::{Fences, best_of_random, run};
+
+    fn search(fences: &Fences, seed: u64) -> FeasibleInfeasible<'_, Fences> {
+        let seed = Seed::from_text("fences").child("run", seed);
+        FeasibleInfeasible::new(fences, |fence| Fences::key(fence), FeasibleInfeasibleConfig::default(), seed)
+    }
+
+    /// Random sampling meets one feasible candidate in 26,000, and then a poor one.
+    #[test]
+    fn the_optimum_is_found_where_random_sampling_finds_nothing_feasible() {
+        let fences = Fences { posts: 48 };
+        for seed in 0..3 {
+            let mut search = search(&fences, seed);
+            let judged = run(&mut search, |candidate| fences.judge(candidate), 150, 40);
+            let feasible = |part: &[(Vec<bool>, Evaluation)]| {
+                part.iter().filter(|(_, evaluation)| evaluation.is_feasible()).count()
+            };
+            assert_eq!(feasible(&judged[..100]), 0);
+            assert!(feasible(&judged[judged.len() - 1000..]) > 100);
+            assert!(search.feasible()[0].evaluation.objective >= 23.0 / 24.0);
+            let random = best_of_random(&fences, |candidate| fences.judge(candidate), seed, judged.len());
+            assert!(random.is_none_or(|best| best <= 0.8), "{random:?}");
+        }
+    }
+
+    #[test]
+    fn no_candidate_is_asked_for_twice() {
+        let fences = Fences { posts: 12 };
+        let mut search = search(&fences, 0);
+        let judged = run(&mut search, |candidate| fences.judge(candidate), 40, 25);
+        let mut keys: Vec<Digest> = judged.iter().map(|(candidate, _)| Fences::key(candidate)).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        assert_eq!(keys.len(), judged.len());
+        assert_eq!(search.feasible()[0].evaluation.objective, 1.0);
+    }
+
+    #[test]
+    fn the_same_seed_asks_the_same() {
+        let fences = Fences { posts: 30 };
+        let asked = |seed| run(&mut search(&fences, seed), |candidate| fences.judge(candidate), 12, 20);
+        assert_eq!(asked(1), asked(1));
+        assert_ne!(asked(1), asked(2));
+    }
+
+    /// Populations are sorted, bounded and apart, and the best objective never falls.
+    #[test]
+    fn populations_keep_their_best() {
+        let fences = Fences { posts: 24 };
+        let mut search = search(&fences, 3);
+        let mut best = 0.0;
+        for _ in 0..40 {
+            let asked = search.ask(20);
+            search.tell(asked.into_iter().map(|fence| (fence.clone(), fences.judge(&fence))).collect());
+            let objectives: Vec<f64> =
+                search.feasible().iter().map(|member| member.evaluation.objective).collect();
+            assert!(objectives.is_sorted_by(|one, two| one >= two) && objectives.len() <= 32);
+            assert!(search.feasible().iter().all(|member| member.evaluation.is_feasible()));
+            assert!(search.infeasible().iter().all(|member| !member.evaluation.is_feasible()));
+            let now = objectives.first().copied().unwrap_or(0.0);
+            assert!(now >= best);
+            best = now;
+        }
+    }
+
+    #[test]
+    fn a_variation_that_gives_nothing_ends_the_search() {
+        let fences = Fences { posts: 0 };
+        let mut search = search(&fences, 0);
+        assert!(search.ask(5).is_empty());
+    }
+}

@@ -1,0 +1,253 @@
+//! Illumination: the best candidate of every kind, found by varying those that are known.
+
+use crate::breeding::Breeding;
+use crate::{Archive, Axis, Evaluation, Judged, Search, Variation};
+use engine::{Digest, Sampler, Seed};
+
+/// Of how many infeasible candidates a parent is the least infeasible: pockets alone keep too much of what leads nowhere.
+const TOURNAMENT: usize = 3;
+
+/// How [`MapElites`] searches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapElitesConfig {
+    /// How many candidates are created before the first one is bred.
+    pub initial: usize,
+    /// The probability that a child has two parents.
+    pub crossing: f64,
+    /// The share of candidates that are created from nothing later on.
+    pub fresh: f64,
+    /// The share of candidates that are bred from infeasible parents, as long as there are elites too.
+    pub infeasible: f64,
+    /// How many infeasible candidates each cell keeps.
+    pub pocket: usize,
+}
+
+impl Default for MapElitesConfig {
+    fn default() -> MapElitesConfig {
+        MapElitesConfig { initial: 64, crossing: 0.4, fresh: 0.05, infeasible: 0.25, pocket: 4 }
+    }
+}
+
+/// Constrained MAP-Elites: fills an [`Archive`], which is its result (Khalifa et al., "Talakat: Bullet Hell Generation through
+/// Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with Interactive Constrained
+/// MAP-Elites", 2019).
+///
+/// Parents are elites, each filled cell as likely as any other; mates are elites too. A share of parents are infeasible, from
+/// the pockets of empty cells beside filled ones first: there the frontier can be moved. No candidate is asked for
+/// twice.
+///
+/// ```
+/// use engine::{Digest, Sampler, Seed};
+/// use generators::{Axis, Evaluation, MapElites, MapElitesConfig, Search, Variation};
+///
+/// /// Rectangles of up to 20 × 20.
+/// struct Rectangles;
+///
+/// impl Variation for Rectangles {
+///     type Candidate = [u8; 2];
+///     fn create(&self, seed: Seed) -> Option<[u8; 2]> {
+///         let mut sampler = seed.sampler();
+///         Some([0; 2].map(|_| sampler.between(1, 20) as u8))
+///     }
+///     fn mutate(&self, parent: &[u8; 2], sampler: &mut Sampler) -> [u8; 2] {
+///         parent.map(|side| (side + sampler.below(5) as u8).saturating_sub(2).clamp(1, 20))
+///     }
+///     fn cross(&self, one: &[u8; 2], two: &[u8; 2], _: &mut Sampler) -> [u8; 2] {
+///         [one[0], two[1]]
+///     }
+/// }
+///
+/// // The largest area for every perimeter.
+/// let axes = vec![Axis::new("perimeter", (4.0, 84.0), 20)];
+/// let (config, seed) = (MapElitesConfig::default(), Seed::from_text("rectangles"));
+/// let mut search = MapElites::new(&Rectangles, |sides: &[u8; 2]| Digest::of(sides), axes, config, seed);
+/// for _ in 0..20 {
+///     let judge = |sides: [u8; 2]| {
+///         let [width, height] = sides.map(f64::from);
+///         let (objective, measures) = (width * height / 400.0, vec![2.0 * (width + height)]);
+///         (sides, Evaluation { feasibility: 1.0, objective, measures })
+///     };
+///     let judged = search.ask(16).into_iter().map(judge).collect();
+///     search.tell(judged);
+/// }
+/// assert!(search.archive().coverage() > 0.9);
+/// assert_eq!(search.archive().best().map(|elite| elite.candidate), Some([20, 20]));
+/// ```
+pub struct MapElites<'a, V: Variation> {
+    config: MapElitesConfig,
+    breeding: Breeding<'a, V>,
+    /// Candidates that are still to be created before breeding starts.
+    initial: usize,
+    archive: Archive<V::Candidate>,
+}
+
+impl<'a, V: Variation> MapElites<'a, V> {
+    /// A search that has not begun. Candidates with equal keys are the same; the axes are the measures of the evaluations, in
+    /// their order.
+    pub fn new(
+        variation: &'a V,
+        key: impl Fn(&V::Candidate) -> Digest + Send + 'a,
+        axes: Vec<Axis>,
+        config: MapElitesConfig,
+        seed: Seed,
+    ) -> Self {
+        let breeding = Breeding::new(variation, Box::new(key), config.crossing, seed);
+        let (initial, archive) = (config.initial.max(1), Archive::new(axes, config.pocket));
+        MapElites { config, breeding, initial, archive }
+    }
+
+    /// What has been found so far.
+    pub fn archive(&self) -> &Archive<V::Candidate> {
+        &self.archive
+    }
+
+    /// Ends the search: what has been found.
+    pub fn into_archive(self) -> Archive<V::Candidate> {
+        self.archive
+    }
+
+    fn propose(&mut self) -> Option<V::Candidate> {
+        let mut sampler = self.breeding.next_sampler();
+        let is_fresh = sampler.unit() < self.config.fresh;
+        let is_infeasible = sampler.unit() < self.config.infeasible;
+        let (elites, pockets) = (self.archive.elites().len(), self.archive.pockets().len());
+        if self.initial > 0 || is_fresh || elites + pockets == 0 {
+            self.initial = self.initial.saturating_sub(1);
+            return self.breeding.create();
+        }
+        let parent = if elites == 0 || (is_infeasible && pockets > 0) {
+            infeasible(&self.archive, &mut sampler)
+        } else {
+            elite(&self.archive, &mut sampler)
+        };
+        let mate = if elites == 0 {
+            infeasible(&self.archive, &mut sampler)
+        } else {
+            elite(&self.archive, &mut sampler)
+        };
+        let mate = (!std::ptr::eq(parent, mate)).then_some(&mate.candidate);
+        let child = self.breeding.breed(&parent.candidate, mate, &mut sampler);
+        child.or_else(|| self.breeding.create())
+    }
+}
+
+impl<V: Variation> Search for MapElites<'_, V> {
+    type Candidate = V::Candidate;
+
+    /// Fewer than `count` only if variation gives nothing new; then again, perhaps, the next time. Cost of each candidate beside
+    /// its variation: O(pockets × axes).
+    fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
+        (0..count).filter_map(|_| self.propose()).collect()
+    }
+
+    /// Candidates that were not asked for are welcome too, as a start.
+    fn tell(&mut self, evaluated: Vec<(V::Candidate, Evaluation)>) {
+        for (candidate, evaluation) in evaluated {
+            self.breeding.note(&candidate);
+            self.archive.add(candidate, evaluation);
+        }
+    }
+}
+
+/// An elite; there is one.
+fn elite<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Judged<C> {
+    let at = sampler.below(archive.elites().len());
+    archive.elites().nth(at).expect("an index below the length").1
+}
+
+/// An infeasible candidate; there is one. From an empty cell beside a filled one if possible, else from any pocket.
+fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Judged<C> {
+    let is_filled = |cell: usize| archive.elite(cell).is_some();
+    let at_frontier = |(cell, _): &(usize, &[Judged<C>])| {
+        !is_filled(*cell) && archive.neighbours(*cell).into_iter().any(is_filled)
+    };
+    let mut pockets: Vec<(usize, &[Judged<C>])> = archive.pockets().filter(at_frontier).collect();
+    if pockets.is_empty() {
+        pockets = archive.pockets().collect();
+    }
+    let drawn: Vec<&Judged<C>> = (0..TOURNAMENT)
+        .map(|_| {
+            let (_, pocket) = *sampler.choose(&pockets);
+            sampler.choose(pocket)
+        })
+        .collect();
+    let merit = |judged: &Judged<C>| judged.evaluation.feasibility;
+    drawn
+        .into_iter()
+        .reduce(|best, other| if merit(other) > merit(best) { other } else { best })
+        .expect("several")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::toys::{Slopes, run, sample};
+
+    const BINS: usize = 20;
+
+    fn axes() -> Vec<Axis> {
+        ["first half", "second half"].map(|name| Axis::new(name, (0.0, 1.0), BINS)).to_vec()
+    }
+
+    fn search(config: MapElitesConfig, seed: u64) -> MapElites<'static, Slopes> {
+        let seed = Seed::from_text("slopes").child("run", seed);
+        MapElites::new(&Slopes, Slopes::key, axes(), config, seed)
+    }
+
+    /// The means of random numbers crowd in the middle; illumination reaches the corners, and smooths what it finds.
+    #[test]
+    fn far_more_is_illuminated_than_by_random_sampling() {
+        for seed in 0..3 {
+            let mut search = search(MapElitesConfig::default(), seed);
+            let judged = run(&mut search, Slopes::judge, 200, 50);
+            let mut random = Archive::new(axes(), 0);
+            for (candidate, evaluation) in sample(&Slopes, Slopes::judge, seed, judged.len()) {
+                random.add(candidate, evaluation);
+            }
+            let archive = search.into_archive();
+            let figures = [&archive, &random].map(|archive| (archive.coverage(), archive.qd_score()));
+            let [(coverage, score), (random_coverage, random_score)] = figures;
+            assert!(coverage > 0.9 && coverage > 1.3 * random_coverage, "{figures:?}");
+            assert!(score > 1.5 * random_score, "{figures:?}");
+        }
+    }
+
+    /// Where all that is created is infeasible, pockets are all there is to breed from.
+    #[test]
+    fn the_way_to_the_first_feasible_candidate_leads_through_pockets() {
+        let steep = |slope: &[u8; 8]| {
+            let drops = [(0, 7), (1, 6), (2, 5)].map(|(one, two)| f64::from(slope[one].abs_diff(slope[two])));
+            let met = drops.map(|drop| (drop / 90.0).min(1.0));
+            Evaluation { feasibility: met.iter().sum::<f64>() / 3.0, ..Slopes::judge(slope) }
+        };
+        let found = |pocket, seed| {
+            let mut search = search(MapElitesConfig { pocket, ..MapElitesConfig::default() }, seed);
+            run(&mut search, steep, 60, 50);
+            search.archive().elites().len()
+        };
+        let with: Vec<usize> = (0..3).map(|seed| found(4, seed)).collect();
+        let without: Vec<usize> = (0..3).map(|seed| found(0, seed)).collect();
+        assert!(with.iter().all(|&elites| elites > 5), "{with:?}");
+        assert_eq!(without, [0; 3]);
+    }
+
+    #[test]
+    fn the_same_seed_asks_the_same_and_nothing_twice() {
+        let asked = |seed| run(&mut search(MapElitesConfig::default(), seed), Slopes::judge, 12, 20);
+        assert_eq!(asked(1), asked(1));
+        assert_ne!(asked(1), asked(2));
+        let mut keys: Vec<Digest> = asked(3).iter().map(|(slope, _)| Slopes::key(slope)).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        assert_eq!(keys.len(), 240);
+    }
+
+    #[test]
+    fn candidates_that_were_not_asked_for_are_a_start() {
+        let mut search = search(MapElitesConfig { initial: 1, ..MapElitesConfig::default() }, 0);
+        let flat = [50, 50, 50, 50, 50, 50, 50, 70];
+        search.tell(vec![(flat, Slopes::judge(&flat))]);
+        assert_eq!(search.archive().best().map(|elite| elite.candidate), Some(flat));
+        assert_eq!(search.ask(10).len(), 10);
+    }
+}

@@ -1,0 +1,146 @@
+//! What the searches are tested with: variations whose best candidates are known.
+
+use crate::{Evaluation, Search, Variation};
+use engine::{Digest, Sampler, Seed};
+
+/// Rows of places with or without a post: no two posts side by side, as many as fit. The most is every other place.
+pub(crate) struct Fences {
+    /// Places; with none there are no candidates.
+    pub(crate) posts: usize,
+}
+
+impl Fences {
+    pub(crate) fn key(fence: &[bool]) -> Digest {
+        Digest::of(&fence.iter().map(|&post| u8::from(post)).collect::<Vec<u8>>())
+    }
+
+    pub(crate) fn judge(&self, fence: &[bool]) -> Evaluation {
+        let clashes = fence.windows(2).filter(|pair| pair[0] && pair[1]).count();
+        let posts = fence.iter().filter(|&&post| post).count();
+        Evaluation {
+            feasibility: 1.0 - clashes as f64 / self.posts as f64,
+            objective: (posts as f64 / (self.posts / 2) as f64).min(1.0),
+            measures: Vec::new(),
+        }
+    }
+}
+
+impl Variation for Fences {
+    type Candidate = Vec<bool>;
+
+    fn create(&self, seed: Seed) -> Option<Vec<bool>> {
+        let mut sampler = seed.sampler();
+        (self.posts > 0).then(|| (0..self.posts).map(|_| sampler.ratio(1, 2)).collect())
+    }
+
+    fn mutate(&self, parent: &Vec<bool>, sampler: &mut Sampler) -> Vec<bool> {
+        let mut child = parent.clone();
+        let place = sampler.below(child.len());
+        if place + 1 < child.len() && sampler.ratio(1, 2) {
+            child.swap(place, place + 1);
+        } else {
+            child[place] = !child[place];
+        }
+        child
+    }
+
+    fn cross(&self, one: &Vec<bool>, two: &Vec<bool>, sampler: &mut Sampler) -> Vec<bool> {
+        let cut = sampler.below(one.len());
+        one[..cut].iter().chain(&two[cut..]).copied().collect()
+    }
+}
+
+/// Rows of eight numbers of 0..=100. The measures are the means of the two halves, the objective is how alike the numbers
+/// of each half are: every cell can be filled, with an objective near 1. Feasible is what ends lower than it begins by 10 or
+/// more, or the other way round.
+pub(crate) struct Slopes;
+
+impl Slopes {
+    pub(crate) fn key(slope: &[u8; 8]) -> Digest {
+        Digest::of(slope)
+    }
+
+    pub(crate) fn judge(slope: &[u8; 8]) -> Evaluation {
+        let mean = |half: &[u8]| half.iter().map(|&number| f64::from(number)).sum::<f64>() / 400.0;
+        let spread = |half: &[u8]| {
+            let off = half.iter().map(|&number| (f64::from(number) / 100.0 - mean(half)).abs());
+            off.sum::<f64>() / 2.0
+        };
+        let (low, high) = slope.split_at(4);
+        let drop = f64::from(slope[0].abs_diff(slope[7]));
+        Evaluation {
+            feasibility: (drop / 10.0).min(1.0),
+            objective: 1.0 - (spread(low) + spread(high)) / 2.0,
+            measures: vec![mean(low), mean(high)],
+        }
+    }
+}
+
+impl Variation for Slopes {
+    type Candidate = [u8; 8];
+
+    fn create(&self, seed: Seed) -> Option<[u8; 8]> {
+        let mut sampler = seed.sampler();
+        Some([0; 8].map(|_| sampler.below(101) as u8))
+    }
+
+    fn mutate(&self, parent: &[u8; 8], sampler: &mut Sampler) -> [u8; 8] {
+        let mut child = *parent;
+        let number = sampler.choose(&[0, 1, 2, 3, 4, 5, 6, 7]).to_owned();
+        child[number] = (child[number] + sampler.below(31) as u8).saturating_sub(15).min(100);
+        child
+    }
+
+    fn cross(&self, one: &[u8; 8], two: &[u8; 8], sampler: &mut Sampler) -> [u8; 8] {
+        let cut = sampler.below(8);
+        let mut child = *two;
+        child[..cut].copy_from_slice(&one[..cut]);
+        child
+    }
+}
+
+/// Asks and tells so many batches; all that was asked, judged.
+pub(crate) fn run<S: Search>(
+    search: &mut S,
+    judge: impl Fn(&S::Candidate) -> Evaluation,
+    batches: usize,
+    size: usize,
+) -> Vec<(S::Candidate, Evaluation)>
+where
+    S::Candidate: Clone,
+{
+    let mut all = Vec::new();
+    for _ in 0..batches {
+        let asked = search.ask(size).into_iter();
+        let judged: Vec<(S::Candidate, Evaluation)> = asked.map(|c| (c.clone(), judge(&c))).collect();
+        all.extend(judged.iter().cloned());
+        search.tell(judged);
+    }
+    all
+}
+
+/// So many candidates from nothing, judged.
+pub(crate) fn sample<V: Variation>(
+    variation: &V,
+    judge: impl Fn(&V::Candidate) -> Evaluation,
+    seed: u64,
+    count: usize,
+) -> impl Iterator<Item = (V::Candidate, Evaluation)> {
+    let seed = Seed::from_text("random sampling").child("run", seed);
+    let create = move |at| variation.create(seed.child("create", at));
+    (0..count as u64).filter_map(create).map(move |candidate| {
+        let evaluation = judge(&candidate);
+        (candidate, evaluation)
+    })
+}
+
+/// The best objective of so many candidates from nothing; none if none is feasible.
+pub(crate) fn best_of_random<V: Variation>(
+    variation: &V,
+    judge: impl Fn(&V::Candidate) -> Evaluation,
+    seed: u64,
+    count: usize,
+) -> Option<f64> {
+    let feasible = sample(variation, judge, seed, count).filter(|(_, evaluation)| evaluation.is_feasible());
+    feasible.map(|(_, evaluation)| evaluation.objective).reduce(f64::max)
+}
