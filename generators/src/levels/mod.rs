@@ -12,9 +12,11 @@ mod grid;
 mod inspection;
 mod jobs;
 mod layout;
+mod measures;
 mod palette;
 mod plan;
 mod pulls;
+mod symmetry;
 mod vault;
 mod warehouse;
 
@@ -23,3 +25,5 @@ mod tests;
 
 pub use config::LevelConfig;
 pub use constructive::{ConstructiveLevels, Solved};
+pub use measures::{LevelMeasure, LevelMeasures};
+pub use symmetry::Likeness;

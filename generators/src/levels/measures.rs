@@ -1,0 +1,323 @@
+//! What a level looks like, in numbers that need no play.
+
+use super::grid::{FAR, Grid};
+use super::palette::{Palette, Walk};
+use super::symmetry::{Likeness, Mirror};
+use engine::analysis::{Harm, Motion, Role};
+use engine::{Analysis, Level};
+
+/// Goal things, or full enemies beside the avatar, at which their measures are half of what they can be.
+const HALF: f64 = 4.0;
+/// Steps at which nearness is half of what it is on the spot.
+const NEAR: f64 = 4.0;
+
+/// A static measure of a level, from 0.0 to 1.0. Where a share is of nothing, it is 0.0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum LevelMeasure {
+    /// The share of cells that are neither empty nor ground.
+    Cover,
+    /// The share of cells that the avatar, as it starts, can never enter nor clear.
+    Walls,
+    /// The mean number of open neighbours of the cells that the avatar can reach on foot, of four. Locks count as open, what is
+    /// deadly does not.
+    Openness,
+    /// Steps to the furthest cell that the avatar can reach on foot, as a share of all that it can reach: 1.0 in a single
+    /// corridor, small in a hall.
+    Linearity,
+    /// How near harm is: s / (s + 4), where each cell with something harmful adds to s the mean of 4 / (4 + d) for its distance d
+    /// to the avatar and the same to the nearest goal thing (once, if there is none), as the crow flies by rows and
+    /// columns. What stays where it is and makes nothing adds half.
+    Pressure,
+    /// How many goal things there are: n / (n + 4), where n counts cells with what must go for a win, with what must be
+    /// protected, or with an exit.
+    Goals,
+    /// How alike the left and the right half are: 1.0 less the distance ([`Likeness::distance`]) of the level, as it
+    /// stands, to its mirror image.
+    LeftRight,
+    /// How alike the upper and the lower half are, likewise.
+    UpDown,
+    /// The share of walls, the border's left out, that have no wall beside them: high where walls are sprinkled rather than
+    /// built.
+    Sprinkle,
+}
+
+impl LevelMeasure {
+    /// All of them, in the order of [`LevelMeasures::of`].
+    pub const ALL: [LevelMeasure; 9] = [
+        LevelMeasure::Cover,
+        LevelMeasure::Walls,
+        LevelMeasure::Openness,
+        LevelMeasure::Linearity,
+        LevelMeasure::Pressure,
+        LevelMeasure::Goals,
+        LevelMeasure::LeftRight,
+        LevelMeasure::UpDown,
+        LevelMeasure::Sprinkle,
+    ];
+
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            LevelMeasure::Cover => "cover",
+            LevelMeasure::Walls => "walls",
+            LevelMeasure::Openness => "openness",
+            LevelMeasure::Linearity => "linearity",
+            LevelMeasure::Pressure => "enemy pressure",
+            LevelMeasure::Goals => "goal things",
+            LevelMeasure::LeftRight => "left-right symmetry",
+            LevelMeasure::UpDown => "up-down symmetry",
+            LevelMeasure::Sprinkle => "sprinkle",
+        }
+    }
+}
+
+/// Takes the measures of the levels of one game.
+#[derive(Clone, Debug)]
+pub struct LevelMeasures {
+    likeness: Likeness,
+    /// By character.
+    marks: Vec<Mark>,
+}
+
+/// What a character means for the measures.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mark {
+    is_avatar: bool,
+    is_ground: bool,
+    is_wall: bool,
+    /// The avatar can walk there, sooner or later.
+    is_open: bool,
+    is_goal: bool,
+    /// 1.0 for what comes or shoots, 0.5 for what waits, 0.0 for what does no harm.
+    harm: f64,
+}
+
+impl LevelMeasures {
+    /// None if no character of the game places exactly one avatar. Cost: O(characters × types).
+    pub fn new(analysis: &Analysis) -> Option<LevelMeasures> {
+        let palette = Palette::of(analysis)?;
+        let marks = (0..128).map(|symbol| Mark::of(analysis, &palette, symbol)).collect();
+        Some(LevelMeasures { likeness: Likeness::of(analysis), marks })
+    }
+
+    /// All measures of a level of that game, in the order of [`LevelMeasure::ALL`]. Cost: O(cells).
+    pub fn of(&self, level: &Level) -> [f64; LevelMeasure::ALL.len()] {
+        let board = Marked {
+            grid: Grid { columns: level.columns(), rows: level.rows() },
+            marks: level.cells().iter().map(|&symbol| self.marks[usize::from(symbol)]).collect(),
+        };
+        let (openness, linearity) = board.shape();
+        LevelMeasure::ALL.map(|measure| match measure {
+            LevelMeasure::Cover => board.share(|mark| !mark.is_ground),
+            LevelMeasure::Walls => board.share(|mark| mark.is_wall),
+            LevelMeasure::Openness => openness,
+            LevelMeasure::Linearity => linearity,
+            LevelMeasure::Pressure => board.pressure(),
+            LevelMeasure::Goals => saturate(board.count(|mark| mark.is_goal) as f64),
+            LevelMeasure::LeftRight => self.likeness.mirror(level, Mirror::LeftRight),
+            LevelMeasure::UpDown => self.likeness.mirror(level, Mirror::UpDown),
+            LevelMeasure::Sprinkle => board.sprinkle(),
+        })
+    }
+}
+
+impl Mark {
+    fn of(analysis: &Analysis, palette: &Palette, symbol: u8) -> Mark {
+        let types = || analysis.game().places(symbol).iter().copied();
+        let aims = analysis.aims();
+        let harm = |stype| {
+            let facts = analysis.facts(stype);
+            let harms = analysis.harm(stype) != Harm::None || analysis.makes_harm(stype);
+            match (harms, facts.motion == Motion::Still && facts.makes.is_empty()) {
+                (false, _) => 0.0,
+                (true, true) => 0.5,
+                (true, false) => 1.0,
+            }
+        };
+        let is_goal = |stype| {
+            let wanted = aims.remove.contains(&stype) || aims.protect.contains(&stype);
+            wanted || analysis.role(stype) == Role::Exit
+        };
+        let walk = palette.walk(symbol);
+        Mark {
+            is_avatar: types().any(|stype| analysis.role(stype) == Role::Avatar),
+            is_ground: symbol == palette.base || types().all(|stype| analysis.role(stype) == Role::Floor),
+            is_wall: walk == Walk::Blocked,
+            is_open: matches!(walk, Walk::Open | Walk::Breakable | Walk::Pushed | Walk::Locked(_)),
+            is_goal: types().any(is_goal),
+            harm: types().map(harm).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// A level as its marks.
+struct Marked {
+    grid: Grid,
+    marks: Vec<Mark>,
+}
+
+impl Marked {
+    fn cells_with(&self, is: impl Fn(&Mark) -> bool) -> Vec<usize> {
+        (0..self.marks.len()).filter(|&cell| is(&self.marks[cell])).collect()
+    }
+
+    fn count(&self, is: impl Fn(&Mark) -> bool) -> usize {
+        self.marks.iter().filter(|mark| is(mark)).count()
+    }
+
+    fn share(&self, is: impl Fn(&Mark) -> bool) -> f64 {
+        share(self.count(is), self.marks.len())
+    }
+
+    /// Openness and linearity.
+    fn shape(&self) -> (f64, f64) {
+        let start = self.cells_with(|mark| mark.is_avatar);
+        let steps = self.grid.flood(&start, |cell| self.marks[cell].is_open);
+        let reached: Vec<usize> = (0..steps.len()).filter(|&cell| steps[cell] != FAR).collect();
+        let open_beside =
+            |&cell: &usize| self.grid.beside(cell).filter(|&next| self.marks[next].is_open).count();
+        let ways: usize = reached.iter().map(open_beside).sum();
+        let furthest = reached.iter().map(|&cell| steps[cell] as usize).max().unwrap_or(0);
+        (share(ways, 4 * reached.len()), share(furthest, reached.len().saturating_sub(1)))
+    }
+
+    fn pressure(&self) -> f64 {
+        let to_avatar = self.grid.flood(&self.cells_with(|mark| mark.is_avatar), |_| true);
+        let goals = self.cells_with(|mark| mark.is_goal);
+        let to_goal = if goals.is_empty() { to_avatar.clone() } else { self.grid.flood(&goals, |_| true) };
+        let near = |steps: u32| NEAR / (NEAR + f64::from(steps));
+        let harm = |cell: usize| self.marks[cell].harm * (near(to_avatar[cell]) + near(to_goal[cell])) / 2.0;
+        saturate((0..self.marks.len()).map(harm).sum())
+    }
+
+    fn sprinkle(&self) -> f64 {
+        let inner = |cell: &usize| !self.grid.on_border(*cell);
+        let walls: Vec<usize> = self.cells_with(|mark| mark.is_wall).into_iter().filter(inner).collect();
+        let alone = |cell: &&usize| self.grid.beside(**cell).all(|next| !self.marks[next].is_wall);
+        share(walls.iter().filter(alone).count(), walls.len())
+    }
+}
+
+fn share(part: usize, whole: usize) -> f64 {
+    if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
+}
+
+fn saturate(amount: f64) -> f64 {
+    amount / (amount + HALF)
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use engine::Game;
+
+    /// Gems to take, rats that hunt, thorns that wait, walls by two characters.
+    pub(crate) fn cellar() -> Game {
+        Game::from_source(
+            "
+BasicGame
+    SpriteSet
+        wall > Immovable
+        gem > Immovable
+        thorn > Immovable
+        rat > Chaser stype=avatar
+        avatar > MovingAvatar
+    LevelMapping
+        w > wall
+        v > wall
+        g > gem
+        t > thorn
+        r > rat
+        A > avatar
+    InteractionSet
+        avatar wall > stepBack
+        rat wall > stepBack
+        gem avatar > killSprite scoreChange=1
+        avatar rat > killSprite
+        avatar thorn > killSprite
+    TerminationSet
+        SpriteCounter stype=gem win=True
+        SpriteCounter stype=avatar win=False
+",
+        )
+        .expect("a game")
+    }
+
+    /// A level by its rows, `/` between them, dots for empty cells.
+    pub(crate) fn level(game: &Game, rows: &str) -> Level {
+        game.level(&rows.replace('/', "\n").replace('.', " ")).expect("a level")
+    }
+
+    #[track_caller]
+    fn check(rows: &str, expect: &[(LevelMeasure, f64)]) {
+        let game = cellar();
+        let measures = LevelMeasures::new(&Analysis::of(&game)).expect("an avatar can be placed");
+        let all = measures.of(&level(&game, rows));
+        assert!(all.iter().all(|measure| (0.0..=1.0).contains(measure)), "{all:?}");
+        for (measure, value) in expect {
+            let found = all[*measure as usize];
+            assert!((found - value).abs() < 1e-12, "{}: {found}, not {value}", measure.name());
+        }
+    }
+
+    #[test]
+    fn a_corridor_is_linear_and_narrow() {
+        use LevelMeasure::*;
+        check(
+            "wwwwww/wA..gw/wwwwww",
+            &[
+                (Cover, 16.0 / 18.0),
+                (Walls, 14.0 / 18.0),
+                (Openness, 6.0 / 16.0),
+                (Linearity, 1.0),
+                (Goals, 1.0 / 5.0),
+                (Pressure, 0.0),
+                (Sprinkle, 0.0),
+                (UpDown, 1.0),
+                (LeftRight, 0.0),
+            ],
+        );
+    }
+
+    #[test]
+    fn a_hall_is_open() {
+        use LevelMeasure::*;
+        check(
+            "A../.../..g",
+            &[(Openness, 24.0 / 36.0), (Linearity, 4.0 / 8.0), (Cover, 2.0 / 9.0), (Walls, 0.0)],
+        );
+    }
+
+    #[test]
+    fn only_what_can_be_reached_has_a_shape() {
+        use LevelMeasure::*;
+        check("A.wg./..w..", &[(Openness, 8.0 / 16.0), (Linearity, 2.0 / 3.0)]);
+        check("A.tg./..t..", &[(Openness, 8.0 / 16.0), (Linearity, 2.0 / 3.0)]);
+    }
+
+    #[test]
+    fn harm_presses_where_it_is_near() {
+        use LevelMeasure::Pressure;
+        let near = |steps: f64| 4.0 / (4.0 + steps);
+        let one = (near(1.0) + near(4.0)) / 2.0;
+        check("Ar...g", &[(Pressure, one / (one + 4.0))]);
+        check("At...g", &[(Pressure, one / (one + 8.0))]);
+        let two = one + (near(2.0) + near(3.0)) / 2.0;
+        check("Arr..g", &[(Pressure, two / (two + 4.0))]);
+        check("A..r.", &[(Pressure, near(3.0) / (near(3.0) + 4.0))]);
+    }
+
+    #[test]
+    fn walls_by_themselves_are_sprinkled() {
+        use LevelMeasure::Sprinkle;
+        check("A...../.w..w./....w./.....g", &[(Sprinkle, 1.0 / 3.0)]);
+        check("wwwwww/wA...w/w.w.ww/wwwwww", &[(Sprinkle, 0.0)]);
+    }
+
+    #[test]
+    fn the_order_of_measures_is_their_number() {
+        for (at, measure) in LevelMeasure::ALL.into_iter().enumerate() {
+            assert_eq!(measure as usize, at);
+        }
+    }
+}

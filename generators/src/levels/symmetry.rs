@@ -1,0 +1,201 @@
+//! When two levels are the same, and how far apart they are: seen from any side.
+
+use super::grid::Grid;
+use super::palette::Palette;
+use engine::analysis::Role;
+use engine::{Analysis, Digest, Level};
+
+/// The symmetries of a board: bit 0 mirrors left and right, bit 1 up and down, bit 2 columns and rows.
+const SYMMETRIES: usize = 8;
+/// No character: the cell lies outside of the smaller of two levels.
+const OUTSIDE: u8 = 0;
+
+/// How alike two levels of one game are, turned and mirrored as may be.
+///
+/// Rules may tell directions apart (things that fall, or drive from left to right), so that the image of a level need
+/// not play like the level; it is no new level all the same.
+#[derive(Clone, Debug)]
+pub struct Likeness {
+    /// By character: the first character that places the same sprites.
+    class: [u8; 128],
+    /// By character: how much the cell counts where two levels differ.
+    weight: [u32; 128],
+    /// By character: it is a wall.
+    wall: [bool; 128],
+}
+
+impl Likeness {
+    /// Of the levels of this game. Cost: O(characters²).
+    pub fn of(analysis: &Analysis) -> Likeness {
+        let palette = Palette::of(analysis);
+        let places = |symbol: u8| {
+            let mut types = analysis.game().places(symbol).to_vec();
+            types.sort_unstable();
+            types
+        };
+        let symbols: [u8; 128] = std::array::from_fn(|symbol| symbol as u8);
+        let is_ground = |symbol: u8| {
+            let known = palette.as_ref().is_some_and(|palette| palette.base == symbol);
+            known || places(symbol).iter().all(|&stype| analysis.role(stype) == Role::Floor)
+        };
+        let wall = symbols.map(|symbol| {
+            let known = palette.as_ref().is_some_and(|palette| palette.wall == Some(symbol));
+            known || places(symbol).iter().any(|&stype| analysis.role(stype) == Role::Wall)
+        });
+        // Blanks and characters that place nothing are the same; none is the same as outside.
+        let class = symbols.map(|symbol| {
+            let same = (b' '..=symbol).find(|&other| places(other) == places(symbol));
+            same.unwrap_or(symbol)
+        });
+        let weight = symbols.map(|symbol| match () {
+            () if symbol == OUTSIDE || wall[usize::from(symbol)] => 1,
+            () if is_ground(symbol) => 0,
+            () => 2,
+        });
+        Likeness { class, weight, wall }
+    }
+
+    /// The same for levels that are the same up to the eight symmetries of the board, and up to characters that place the same
+    /// sprites; different for all others. Cost: O(cells).
+    pub fn digest(&self, level: &Level) -> Digest {
+        let (grid, cells) = self.classes(level);
+        let image = |symmetry| {
+            let (grid, cells) = image(grid, &cells, symmetry);
+            let sides = [grid.columns as u32, grid.rows as u32].map(u32::to_le_bytes);
+            [sides.as_flattened(), &cells].concat()
+        };
+        let canonical = (0..SYMMETRIES).map(image).min().expect("a level has images");
+        Digest::of(&canonical)
+    }
+
+    /// How far apart two levels are, from 0.0 for the same (up to symmetry) to 1.0 for levels that agree nowhere but in their
+    /// ground: the least over the symmetries of
+    ///
+    /// ```text
+    ///   Σ weight of the cells that differ  /  Σ weight of all cells
+    /// ```
+    ///
+    /// with both levels put on each other at the top left. A cell weighs 0 if both levels have ground there, or both a wall on
+    /// their border, which is but a frame; 1 if one has a wall there and neither a thing, or if it lies outside of one;
+    /// else 2. So levels that are mostly empty are alike only if the little that they have is. Symmetric in its two arguments.
+    /// Cost: O(cells).
+    pub fn distance(&self, one: &Level, two: &Level) -> f64 {
+        let (one, two) = (self.classes(one), self.classes(two));
+        let turned = |fixed: &(Grid, Vec<u8>), (grid, cells): &(Grid, Vec<u8>)| {
+            let distances = (0..SYMMETRIES).map(|at| self.share(fixed, &image(*grid, cells, at)));
+            distances.fold(1.0, f64::min)
+        };
+        // Levels of other sides than squares do not lie on each other's images as these lie on them.
+        turned(&one, &two).min(turned(&two, &one))
+    }
+
+    /// How alike a level is to its mirror image, left and right or up and down: 1.0 less the distance as it stands. Cost:
+    /// O(cells).
+    pub(super) fn mirror(&self, level: &Level, symmetry: Mirror) -> f64 {
+        let (grid, cells) = self.classes(level);
+        1.0 - self.share(&(grid, cells.clone()), &image(grid, &cells, symmetry as usize))
+    }
+
+    fn classes(&self, level: &Level) -> (Grid, Vec<u8>) {
+        let cells = level.cells().iter().map(|&symbol| self.class[usize::from(symbol)]).collect();
+        (Grid { columns: level.columns(), rows: level.rows() }, cells)
+    }
+
+    /// The weighted share of cells that differ.
+    fn share(&self, (grid, one): &(Grid, Vec<u8>), (other_grid, two): &(Grid, Vec<u8>)) -> f64 {
+        let (columns, rows) = (grid.columns.max(other_grid.columns), grid.rows.max(other_grid.rows));
+        let at = |grid: &Grid, cells: &[u8], x: usize, y: usize| match x < grid.columns && y < grid.rows {
+            true => (cells[grid.at(x, y)], grid.on_border(grid.at(x, y))),
+            false => (OUTSIDE, false),
+        };
+        let (mut differing, mut all) = (0, 0);
+        for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
+            let ((one, one_border), (two, two_border)) = (at(grid, one, x, y), at(other_grid, two, x, y));
+            let is_wall = |symbol: u8| self.wall[usize::from(symbol)];
+            if one == two && (one == OUTSIDE || (one_border && two_border && is_wall(one))) {
+                continue;
+            }
+            let weight = self.weight[usize::from(one)].max(self.weight[usize::from(two)]);
+            all += weight;
+            differing += if one == two { 0 } else { weight };
+        }
+        if all == 0 { 0.0 } else { f64::from(differing) / f64::from(all) }
+    }
+}
+
+/// Which sides of a level are compared.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Mirror {
+    LeftRight = 1,
+    UpDown = 2,
+}
+
+/// A board under a symmetry.
+fn image(grid: Grid, cells: &[u8], symmetry: usize) -> (Grid, Vec<u8>) {
+    let swaps = symmetry & 4 != 0;
+    let image = if swaps { Grid { columns: grid.rows, rows: grid.columns } } else { grid };
+    let source = |cell: usize| {
+        let (x, y) = (image.x(cell), image.y(cell));
+        let (x, y) = if swaps { (y, x) } else { (x, y) };
+        let x = if symmetry & 1 != 0 { grid.columns - 1 - x } else { x };
+        let y = if symmetry & 2 != 0 { grid.rows - 1 - y } else { y };
+        cells[grid.at(x, y)]
+    };
+    (image, (0..image.len()).map(source).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels::measures::tests::{cellar, level};
+
+    #[track_caller]
+    fn distance(one: &str, two: &str) -> f64 {
+        let game = cellar();
+        let likeness = Likeness::of(&Analysis::of(&game));
+        let (one, two) = (level(&game, one), level(&game, two));
+        let distance = likeness.distance(&one, &two);
+        assert_eq!(distance, likeness.distance(&two, &one), "it is symmetric");
+        assert_eq!(distance == 0.0, likeness.digest(&one) == likeness.digest(&two), "distance {distance}");
+        distance
+    }
+
+    #[test]
+    fn images_are_the_same() {
+        let seen = "wwwww/wA.gw/w.w.w/wwwww";
+        for image in ["wwwww/wg.Aw/w.w.w/wwwww", "wwwww/w.w.w/wA.gw/wwwww", "wwww/w.Aw/ww.w/w.gw/wwww"] {
+            assert_eq!(distance(seen, image), 0.0);
+        }
+        // A quarter turn, by another character for the wall.
+        assert_eq!(distance(seen, "vvvv/vA.v/v.vv/vg.v/vvvv"), 0.0);
+        assert!(distance(seen, "wwwww/wAg.w/w.w.w/wwwww") > 0.0);
+    }
+
+    #[test]
+    fn images_are_images_and_all_different() {
+        let grid = Grid { columns: 3, rows: 2 };
+        let mut images: Vec<(usize, Vec<u8>)> = (0..SYMMETRIES)
+            .map(|symmetry| image(grid, b"abcdef", symmetry))
+            .map(|(grid, cells)| (grid.columns, cells))
+            .collect();
+        images.sort();
+        images.dedup();
+        assert_eq!(images.len(), SYMMETRIES);
+        assert!(images.contains(&(2, b"daebfc".to_vec())));
+    }
+
+    #[test]
+    fn only_what_stands_on_the_ground_counts() {
+        // An avatar and a gem in common of the five places with things: one gem moved is two places of weight 2.
+        assert_eq!(distance("A....g/g.....", "A....g/.g...."), 4.0 / 8.0);
+        // Walls weigh half; those of the border nothing.
+        assert_eq!(distance("wwwwww/wA..ww/wwwwww", "wwwwww/wA.www/wwwwww"), 1.0 / 4.0);
+        // Columns that one of them lacks count like walls.
+        assert_eq!(distance("A.g/...", "A.g./...."), 2.0 / 6.0);
+    }
+
+    #[test]
+    fn levels_without_anything_in_common_are_as_far_apart_as_can_be() {
+        assert_eq!(distance("A.........../......g.....", "....A......./ggg........."), 1.0);
+    }
+}
