@@ -12,13 +12,13 @@ const SEEDS: u64 = 50;
 /// The public games that every level is looked at of.
 const PUBLIC: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
 
-fn workspace() -> &'static Path {
+pub(super) fn workspace() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the crate lies in the workspace")
 }
 
 /// The folders in a folder, sorted; none, with a message, if it is missing.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
-fn folders(path: &Path) -> Vec<PathBuf> {
+pub(super) fn folders(path: &Path) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(path) else {
         eprintln!("skipped: there is no folder {}", path.display());
         return Vec::new();
@@ -29,17 +29,17 @@ fn folders(path: &Path) -> Vec<PathBuf> {
 }
 
 /// The game in a folder, if it is one that the engine plays.
-fn game_in(folder: &Path) -> Option<Game> {
+pub(super) fn game_in(folder: &Path) -> Option<Game> {
     let source =
         ["game.vgdl", "game.txt"].iter().find_map(|name| std::fs::read_to_string(folder.join(name)).ok())?;
     Game::from_source(&source).ok()
 }
 
-fn name_of(folder: &Path) -> String {
+pub(super) fn name_of(folder: &Path) -> String {
     folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-fn public_folder() -> PathBuf {
+pub(super) fn public_folder() -> PathBuf {
     workspace().join("../shared/gvgai/games")
 }
 

@@ -1,0 +1,344 @@
+//! A level that is being edited: its characters, what they are for, and whether an edit has spoilt anything.
+
+use super::constructive::ConstructiveLevels;
+use super::grid::{FAR, Grid};
+use super::palette::holds_avatar;
+use crate::Generator;
+use engine::analysis::{Harm, Reason, Role};
+use engine::{Level, Sampler, Seed, SpriteType};
+use std::collections::VecDeque;
+
+/// Levels from which the usual numbers are taken.
+const SAMPLES: u64 = 16;
+/// Closer to the avatar's start than so many cells, nothing that harms is put.
+const RESPECT: usize = 3;
+/// Open cells that hang together, hold nothing and cannot be reached become wall, if they are fewer.
+const POCKET: usize = 4;
+
+/// What a level character is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// What can lie anywhere: the empty cell, floor, soil.
+    Ground,
+    /// It blocks the avatar always.
+    Wall,
+    /// It places the avatar.
+    Avatar,
+    /// Anything else, with the first of its roles.
+    Thing(Role),
+}
+
+/// What the characters of a game are for, and how many of each levels hold.
+#[derive(Clone, Debug)]
+pub(crate) struct Vocabulary {
+    /// By character.
+    kinds: Vec<Kind>,
+    /// By character: it harms, or makes what harms.
+    harmful: Vec<bool>,
+    /// By character: at least and at most so many, where levels agree exactly so many.
+    bounds: Vec<(usize, usize)>,
+}
+
+impl Vocabulary {
+    /// Cost: that of 16 levels.
+    pub(crate) fn of(levels: &ConstructiveLevels<'_>) -> Vocabulary {
+        let (game, analysis, palette) = (levels.game, &levels.analysis, &levels.palette);
+        let kind = |symbol: u8| {
+            if holds_avatar(analysis, symbol) {
+                return Kind::Avatar;
+            }
+            let types = game.places(symbol).iter().filter(|stype| !palette.ground.contains(stype));
+            match types.map(|&stype| analysis.role(stype)).min() {
+                _ if palette.wall == Some(symbol) => Kind::Wall,
+                None | Some(Role::Soil | Role::Floor) => Kind::Ground,
+                Some(Role::Wall) => Kind::Wall,
+                Some(role) => Kind::Thing(role),
+            }
+        };
+        let harmful = |symbol: u8| {
+            let types = || game.places(symbol).iter().copied();
+            let harms = |stype: SpriteType| analysis.harm(stype) != Harm::None || analysis.makes_harm(stype);
+            matches!(kind(symbol), Kind::Thing(_)) && types().any(harms)
+        };
+        let mut bounds: Option<Vec<(usize, usize)>> = None;
+        let seed = Seed::from_text("usual numbers");
+        for level in (0..SAMPLES).filter_map(|index| levels.generate(seed.child("level", index)).ok()) {
+            let mut counts = vec![0; 128];
+            level.cells().iter().for_each(|&symbol| counts[usize::from(symbol)] += 1);
+            match &mut bounds {
+                None => bounds = Some(counts.into_iter().map(|count| (count, count)).collect()),
+                Some(bounds) => {
+                    for ((low, high), count) in bounds.iter_mut().zip(counts) {
+                        (*low, *high) = ((*low).min(count), (*high).max(count));
+                    }
+                }
+            }
+        }
+        let mut bounds = bounds.unwrap_or_else(|| vec![(0, usize::MAX); 128]);
+        for (low, high) in bounds.iter_mut().filter(|(low, high)| low < high) {
+            (*low, *high) = (low.div_ceil(2), high.saturating_add(*high / 2));
+        }
+        Vocabulary { kinds: (0..128).map(kind).collect(), harmful: (0..128).map(harmful).collect(), bounds }
+    }
+
+    pub(crate) fn kind(&self, symbol: u8) -> Kind {
+        self.kinds[usize::from(symbol)]
+    }
+
+    /// At least and at most so many of a character.
+    pub(crate) fn bounds(&self, symbol: u8) -> (usize, usize) {
+        self.bounds[usize::from(symbol)]
+    }
+
+    /// The characters of things.
+    pub(crate) fn things(&self) -> impl Iterator<Item = u8> + '_ {
+        (b' '..=b'~').filter(|&symbol| matches!(self.kind(symbol), Kind::Thing(_)))
+    }
+}
+
+/// What may be wrong with a level, each as a number; 0 is best.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Faults {
+    /// By how many sprites the requirements of the game are missed, or numbers are unusual.
+    pub(crate) amiss: usize,
+    /// Cells without wall that cannot be reached through cells without wall.
+    pub(crate) stranded: usize,
+    /// How much too close what harms is to the avatar.
+    pub(crate) crowded: usize,
+}
+
+impl Faults {
+    /// None is worse than there.
+    pub(crate) fn no_worse_than(&self, other: &Faults) -> bool {
+        self.amiss <= other.amiss && self.stranded <= other.stranded && self.crowded <= other.crowded
+    }
+
+    /// The worse of each.
+    pub(crate) fn or(&self, other: &Faults) -> Faults {
+        Faults {
+            amiss: self.amiss.max(other.amiss),
+            stranded: self.stranded.max(other.stranded),
+            crowded: self.crowded.max(other.crowded),
+        }
+    }
+}
+
+/// A level that is being edited.
+#[derive(Clone)]
+pub(crate) struct Draft<'v> {
+    pub(crate) levels: &'v ConstructiveLevels<'v>,
+    pub(crate) words: &'v Vocabulary,
+    pub(crate) grid: Grid,
+    /// Row-major characters.
+    pub(crate) cells: Vec<u8>,
+    /// The border is wall, all around, and stays so.
+    closed: bool,
+}
+
+impl<'v> Draft<'v> {
+    pub(crate) fn of(levels: &'v ConstructiveLevels<'v>, words: &'v Vocabulary, level: &Level) -> Draft<'v> {
+        let grid = Grid { columns: level.columns(), rows: level.rows() };
+        let cells = level.cells().to_vec();
+        let mut border = (0..grid.len()).filter(|&cell| grid.on_border(cell));
+        let closed = border.all(|cell| words.kind(cells[cell]) == Kind::Wall);
+        Draft { levels, words, grid, cells, closed }
+    }
+
+    pub(crate) fn kind(&self, cell: usize) -> Kind {
+        self.words.kind(self.cells[cell])
+    }
+
+    pub(crate) fn is_wall(&self, cell: usize) -> bool {
+        self.kind(cell) == Kind::Wall
+    }
+
+    pub(crate) fn is_ground(&self, cell: usize) -> bool {
+        self.kind(cell) == Kind::Ground
+    }
+
+    /// Whether edits may touch it: all but a closed border.
+    pub(crate) fn is_editable(&self, cell: usize) -> bool {
+        !(self.closed && self.grid.on_border(cell))
+    }
+
+    /// The cells that edits may touch and that are as wanted.
+    pub(crate) fn cells_where(&self, wanted: impl Fn(&Self, usize) -> bool) -> Vec<usize> {
+        (0..self.grid.len()).filter(|&cell| self.is_editable(cell) && wanted(self, cell)).collect()
+    }
+
+    pub(crate) fn things(&self) -> Vec<usize> {
+        self.cells_where(|draft, cell| matches!(draft.kind(cell), Kind::Thing(_)))
+    }
+
+    pub(crate) fn avatar(&self) -> Option<usize> {
+        (0..self.grid.len()).find(|&cell| self.kind(cell) == Kind::Avatar)
+    }
+
+    /// How many cells hold a character.
+    pub(crate) fn count(&self, symbol: u8) -> usize {
+        self.cells.iter().filter(|&&other| other == symbol).count()
+    }
+
+    /// How many sprites of a type it places.
+    fn sprites(&self, stype: SpriteType) -> usize {
+        let places = self.cells.iter().flat_map(|&symbol| self.levels.game.places(symbol));
+        places.filter(|&&placed| placed == stype).count()
+    }
+
+    /// The ground around a cell, for one that is cleared.
+    pub(crate) fn ground_at(&self, cell: usize) -> u8 {
+        let mut beside = self.grid.beside(cell).filter(|&next| self.is_ground(next));
+        beside.next().map_or(self.levels.palette.base, |next| self.cells[next])
+    }
+
+    pub(crate) fn clear(&mut self, cell: usize) {
+        self.cells[cell] = self.ground_at(cell);
+    }
+
+    /// Puts the content of a cell on another one, whose ground goes the other way.
+    pub(crate) fn exchange(&mut self, one: usize, two: usize) {
+        self.cells.swap(one, two);
+    }
+
+    /// What is wrong with it.
+    pub(crate) fn faults(&self) -> Faults {
+        Faults { amiss: self.amiss(), stranded: self.stranded().len(), crowded: self.crowded() }
+    }
+
+    fn amiss(&self) -> usize {
+        let analysis = &self.levels.analysis;
+        let mut amiss = 0;
+        for requirement in analysis.requirements() {
+            let asked = match requirement.reason {
+                Reason::Avatar => false,
+                Reason::Goal(_) | Reason::Means(_) => true,
+                Reason::Lock(stype) => {
+                    matches!(analysis.role(stype), Role::Gate | Role::Exit) && self.sprites(stype) > 0
+                }
+                Reason::Portal(stype) => self.sprites(stype) > 0,
+            };
+            if asked {
+                let count: usize = requirement.types.iter().map(|&stype| self.sprites(stype)).sum();
+                amiss += (requirement.at_least as usize).saturating_sub(count);
+                amiss += requirement.at_most.map_or(0, |most| count.saturating_sub(most as usize));
+            }
+        }
+        amiss += self.homeless();
+        let unusual = |symbol: u8| {
+            let ((low, high), count) = (self.words.bounds(symbol), self.count(symbol));
+            low.saturating_sub(count) + count.saturating_sub(high)
+        };
+        amiss + self.words.things().map(unusual).sum::<usize>()
+    }
+
+    /// Pushed things that have to go and find no place to go to.
+    fn homeless(&self) -> usize {
+        let analysis = &self.levels.analysis;
+        let wanted = |stype: &SpriteType| analysis.aims().remove.contains(stype);
+        let pushed = analysis.pushables().iter().filter(|pushable| wanted(&pushable.stype));
+        let lacking = pushed.map(|pushable| {
+            let merges = |partner: SpriteType| analysis.role(partner) == Role::Pushable;
+            let endless = |sink: &&engine::analysis::Sink| !sink.fills || merges(sink.partner);
+            if pushable.sinks.iter().filter(endless).any(|sink| self.sprites(sink.partner) > 0) {
+                return 0;
+            }
+            let places: usize = pushable.sinks.iter().map(|sink| self.sprites(sink.partner)).sum();
+            self.sprites(pushable.stype).saturating_sub(places)
+        });
+        lacking.sum()
+    }
+
+    /// Cells without wall that the avatar cannot reach through cells without wall.
+    fn stranded(&self) -> Vec<usize> {
+        let Some(avatar) = self.avatar() else { return Vec::new() };
+        let steps = self.grid.flood(&[avatar], |cell| !self.is_wall(cell));
+        (0..self.grid.len()).filter(|&cell| steps[cell] == FAR && !self.is_wall(cell)).collect()
+    }
+
+    fn crowded(&self) -> usize {
+        let Some(avatar) = self.avatar() else { return 0 };
+        let harmful = (0..self.grid.len()).filter(|&cell| self.words.harmful[usize::from(self.cells[cell])]);
+        harmful.map(|cell| RESPECT.saturating_sub(self.grid.manhattan(cell, avatar))).sum()
+    }
+
+    /// Opens walls to what cannot be reached, along the fewest walls, and fills small empty pockets.
+    pub(crate) fn open_ways(&mut self) {
+        let Some(wall) = self.levels.palette.wall else { return };
+        for _ in 0..self.grid.len() {
+            let stranded = self.stranded();
+            let Some(&first) = stranded.first() else { return };
+            let region = self.grid.flood(&[first], |cell| !self.is_wall(cell));
+            let region: Vec<usize> = stranded.into_iter().filter(|&cell| region[cell] != FAR).collect();
+            let empty = region.iter().all(|&cell| self.is_ground(cell) && self.is_editable(cell));
+            if empty && region.len() < POCKET {
+                region.into_iter().for_each(|cell| self.cells[cell] = wall);
+            } else if self.open_way(first).is_none() {
+                return;
+            }
+        }
+    }
+
+    /// Opens the fewest walls between the avatar and a cell.
+    fn open_way(&mut self, to: usize) -> Option<()> {
+        let avatar = self.avatar()?;
+        let mut opened = vec![FAR; self.grid.len()];
+        let mut before = vec![avatar; self.grid.len()];
+        let mut queue = VecDeque::from([avatar]);
+        opened[avatar] = 0;
+        while let Some(cell) = queue.pop_front() {
+            for next in self.grid.beside(cell) {
+                let cost = u32::from(self.is_wall(next));
+                let better = opened[cell] + cost < opened[next];
+                if better && (cost == 0 || self.is_editable(next)) {
+                    (opened[next], before[next]) = (opened[cell] + cost, cell);
+                    if cost == 0 { queue.push_front(next) } else { queue.push_back(next) }
+                }
+            }
+        }
+        let mut cell = to;
+        while opened[to] != FAR && cell != avatar {
+            if self.is_wall(cell) {
+                self.clear(cell);
+            }
+            cell = before[cell];
+        }
+        (opened[to] != FAR).then_some(())
+    }
+
+    /// Adds and removes things until numbers are usual, where there is room.
+    pub(crate) fn recount(&mut self, sampler: &mut Sampler) {
+        for symbol in self.words.things() {
+            let (low, high) = self.words.bounds(symbol);
+            let mut count = self.count(symbol);
+            while count < low || count > high {
+                let surplus = count > high;
+                let cells = self.cells_where(|draft, cell| {
+                    if surplus { draft.cells[cell] == symbol } else { draft.is_ground(cell) }
+                });
+                if cells.is_empty() {
+                    break;
+                }
+                let cell = *sampler.choose(&cells);
+                if surplus {
+                    self.clear(cell);
+                    count -= 1;
+                } else {
+                    self.cells[cell] = symbol;
+                    count += 1;
+                }
+            }
+        }
+    }
+
+    /// The level, if it is one and no termination holds at its start.
+    pub(crate) fn level(&self) -> Option<Level> {
+        let mut text = String::with_capacity(self.cells.len() + self.grid.rows);
+        for row in self.cells.chunks(self.grid.columns) {
+            text.extend(row.iter().map(|&symbol| char::from(symbol)));
+            text.push('\n');
+        }
+        let level = self.levels.game.level(&text).ok()?;
+        let state = self.levels.game.start(&level, Seed::from_text("draft"));
+        self.levels.analysis.goal_met(&state).is_none().then_some(level)
+    }
+}

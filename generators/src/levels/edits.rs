@@ -1,0 +1,406 @@
+//! Small changes to a level, each with a meaning: what a designer would do next.
+
+use super::draft::{Draft, Kind};
+use super::grid::{Grid, WAYS};
+use super::layout::{self, Family};
+use engine::Sampler;
+use engine::analysis::{Motion, Role, Steering};
+
+/// Cells that a thing goes when it moves a little.
+const NEAR: usize = 2;
+/// Cells of wall that are moved together at most.
+const SEGMENT: usize = 6;
+/// The smallest side of a part that is grown again.
+const PART: usize = 4;
+
+/// A kind of change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Edit {
+    /// A thing goes to a cell close by; what moves straight ahead stays in its lane.
+    Nudge,
+    /// A thing goes anywhere.
+    Carry,
+    /// One more thing of a kind; with something to push, a place to push it to.
+    Add,
+    /// One thing less; with a place to push to, something to push.
+    Remove,
+    /// Two things of different kinds change places.
+    Swap,
+    /// The avatar starts elsewhere.
+    Restart,
+    /// A line of wall grows at its end.
+    Extend,
+    /// A line of wall shrinks at its end.
+    Shorten,
+    /// A gap in a wall between two open cells.
+    Open,
+    /// A gap in a wall is closed.
+    Close,
+    /// A piece of wall moves sideways.
+    Shift,
+    /// One half gets the walls of the other.
+    Mirror,
+    /// The walls of a part are drawn anew; its things stay in it.
+    Regrow,
+}
+
+/// All kinds, with how often each is drawn.
+const EDITS: [(Edit, u32); 13] = [
+    (Edit::Nudge, 5),
+    (Edit::Carry, 4),
+    (Edit::Add, 3),
+    (Edit::Remove, 3),
+    (Edit::Swap, 2),
+    (Edit::Restart, 2),
+    (Edit::Extend, 3),
+    (Edit::Shorten, 3),
+    (Edit::Open, 2),
+    (Edit::Close, 2),
+    (Edit::Shift, 3),
+    (Edit::Mirror, 1),
+    (Edit::Regrow, 1),
+];
+
+/// How one half of the walls is like the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Symmetry {
+    LeftRight,
+    UpDown,
+    /// Turned by half a turn.
+    Turn,
+}
+
+impl Symmetry {
+    const ALL: [Symmetry; 3] = [Symmetry::LeftRight, Symmetry::UpDown, Symmetry::Turn];
+
+    fn image(self, grid: Grid, cell: usize) -> usize {
+        let (x, y) = (grid.x(cell), grid.y(cell));
+        let (across, down) = (grid.columns - 1 - x, grid.rows - 1 - y);
+        match self {
+            Symmetry::LeftRight => grid.at(across, y),
+            Symmetry::UpDown => grid.at(x, down),
+            Symmetry::Turn => grid.at(across, down),
+        }
+    }
+}
+
+impl Edit {
+    pub(crate) fn draw(sampler: &mut Sampler) -> Edit {
+        let weights = EDITS.map(|(_, weight)| weight);
+        EDITS[sampler.weighted(&weights).unwrap_or(0)].0
+    }
+}
+
+impl Draft<'_> {
+    /// Makes a change of that kind; none: there is nothing to change so, or this draw does not work. The draft is then to
+    /// be thrown away.
+    pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
+        match edit {
+            Edit::Nudge => self.nudge(sampler),
+            Edit::Carry => self.carry(sampler),
+            Edit::Add => self.add(sampler),
+            Edit::Remove => self.remove(sampler),
+            Edit::Swap => self.swap(sampler),
+            Edit::Restart => self.restart(sampler),
+            Edit::Extend => self.toggle(sampler, Draft::extends),
+            Edit::Shorten => self.toggle(sampler, Draft::is_end),
+            Edit::Open => self.toggle(sampler, |draft, cell| draft.is_wall(cell) && draft.divides(cell)),
+            Edit::Close => self.toggle(sampler, |draft, cell| draft.is_ground(cell) && draft.is_gap(cell)),
+            Edit::Shift => self.shift(sampler),
+            Edit::Mirror => self.mirror(sampler),
+            Edit::Regrow => self.regrow(sampler),
+        }
+    }
+
+    fn nudge(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let thing = pick(&self.things(), sampler)?;
+        let grid = self.grid;
+        let lane = self.lane(thing);
+        let cells = self.cells_where(|draft, cell| {
+            let in_lane = match lane {
+                Some((_, 0)) => grid.y(cell) == grid.y(thing),
+                Some(_) => grid.x(cell) == grid.x(thing),
+                None => grid.manhattan(cell, thing) <= NEAR,
+            };
+            in_lane && draft.is_ground(cell)
+        });
+        self.exchange(thing, pick(&cells, sampler)?);
+        Some(())
+    }
+
+    /// Where a thing goes or shoots straight ahead, the line on which it is at home.
+    fn lane(&self, cell: usize) -> Option<(i32, i32)> {
+        let analysis = &self.levels.analysis;
+        self.levels.game.places(self.cells[cell]).iter().find_map(|&stype| {
+            match analysis.facts(stype).motion {
+                Motion::Straight(direction) => super::builder::way(direction),
+                _ => None,
+            }
+        })
+    }
+
+    fn carry(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let thing = pick(&self.things(), sampler)?;
+        let cell = pick(&self.cells_where(Draft::is_ground), sampler)?;
+        self.exchange(thing, cell);
+        Some(())
+    }
+
+    fn add(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let words = self.words;
+        let symbols: Vec<u8> =
+            words.things().filter(|&symbol| self.count(symbol) < words.bounds(symbol).1).collect();
+        let symbol = pick(&symbols, sampler)?;
+        self.put(symbol, sampler)?;
+        if words.kind(symbol) == Kind::Thing(Role::Pushable) {
+            let partners = self.partners(symbol);
+            if let Some(partner) = pick(&partners, sampler) {
+                self.put(partner, sampler)?;
+            }
+        }
+        Some(())
+    }
+
+    /// Puts one more of a character on the ground: beside its like, or anywhere.
+    fn put(&mut self, symbol: u8, sampler: &mut Sampler) -> Option<()> {
+        let like: Vec<usize> = self.cells_where(|draft, cell| draft.cells[cell] == symbol);
+        let near = sampler.ratio(1, 2) && !like.is_empty();
+        let cells = self.cells_where(|draft, cell| {
+            let close = || like.iter().any(|&other| draft.grid.manhattan(other, cell) <= NEAR);
+            draft.is_ground(cell) && (!near || close())
+        });
+        let cell = pick(&cells, sampler)?;
+        self.cells[cell] = symbol;
+        Some(())
+    }
+
+    fn remove(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let things = self.things();
+        let spare = |&&cell: &&usize| {
+            let symbol = self.cells[cell];
+            self.count(symbol) > self.words.bounds(symbol).0
+        };
+        let things: Vec<usize> = things.iter().filter(spare).copied().collect();
+        let cell = pick(&things, sampler)?;
+        let symbol = self.cells[cell];
+        self.clear(cell);
+        // With what was pushed there, if it would have nowhere to go.
+        let pushed = self.cells_where(|draft, cell| draft.partners(draft.cells[cell]).contains(&symbol));
+        let homes = self.count(symbol);
+        if pushed.len() > homes {
+            let cell = pick(&pushed, sampler)?;
+            self.clear(cell);
+        }
+        Some(())
+    }
+
+    /// The characters of what fills up when something of that character is pushed there.
+    fn partners(&self, symbol: u8) -> Vec<u8> {
+        let (levels, mut partners) = (self.levels, Vec::new());
+        for pushable in levels.analysis.pushables() {
+            if levels.game.places(symbol).contains(&pushable.stype) {
+                let filled = pushable.sinks.iter().filter(|sink| sink.fills);
+                let merges =
+                    |sink: &&engine::analysis::Sink| levels.analysis.role(sink.partner) == Role::Pushable;
+                let filled = filled.filter(|sink| !merges(sink));
+                partners.extend(filled.filter_map(|sink| levels.palette.symbol(sink.partner)));
+            }
+        }
+        partners
+    }
+
+    fn swap(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let things = self.things();
+        let one = pick(&things, sampler)?;
+        let others: Vec<usize> =
+            things.into_iter().filter(|&cell| self.cells[cell] != self.cells[one]).collect();
+        self.exchange(one, pick(&others, sampler)?);
+        Some(())
+    }
+
+    /// An avatar that only goes along a line stays on it.
+    fn restart(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let avatar = self.avatar().filter(|&cell| self.is_editable(cell))?;
+        let steering = self.levels.analysis.start_avatar().map(|avatar| avatar.steering);
+        let grid = self.grid;
+        let cells = self.cells_where(|draft, cell| {
+            let on_line = match steering {
+                Some(Steering::Horizontal) => grid.y(cell) == grid.y(avatar),
+                Some(Steering::Vertical) => grid.x(cell) == grid.x(avatar),
+                _ => true,
+            };
+            on_line && draft.is_ground(cell)
+        });
+        self.exchange(avatar, pick(&cells, sampler)?);
+        Some(())
+    }
+
+    /// Turns a cell of the kind wanted from wall into ground, or the other way round; on boards with symmetrical walls the
+    /// cell's image as well.
+    fn toggle(&mut self, sampler: &mut Sampler, wanted: impl Fn(&Self, usize) -> bool) -> Option<()> {
+        let wall = self.levels.palette.wall?;
+        let symmetry = self.symmetry();
+        let cell = pick(&self.cells_where(wanted), sampler)?;
+        let opens = self.is_wall(cell);
+        for cell in self.images(symmetry, cell) {
+            if opens {
+                self.clear(cell);
+            } else if self.is_ground(cell) {
+                self.cells[cell] = wall;
+            } else if !self.is_wall(cell) {
+                return None;
+            }
+        }
+        Some(())
+    }
+
+    /// A cell and its image.
+    fn images(&self, symmetry: Option<Symmetry>, cell: usize) -> Vec<usize> {
+        let mut cells = vec![cell];
+        let image = symmetry.map(|symmetry| symmetry.image(self.grid, cell));
+        cells.extend(image.filter(|&image| image != cell && self.is_editable(image)));
+        cells
+    }
+
+    /// How the walls are symmetrical, if there are enough of them to tell.
+    fn symmetry(&self) -> Option<Symmetry> {
+        let inner = self.cells_where(Draft::is_wall).len();
+        let holds = |symmetry: &Symmetry| {
+            (0..self.grid.len())
+                .all(|cell| self.is_wall(cell) == self.is_wall(symmetry.image(self.grid, cell)))
+        };
+        Symmetry::ALL.into_iter().find(holds).filter(|_| inner >= 4)
+    }
+
+    /// What is wall around a cell, in the order of [`WAYS`]; so is what lies off the board.
+    fn walls_beside(&self, cell: usize) -> [bool; 4] {
+        WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_wall(next)))
+    }
+
+    /// Ground ahead of the end of a line, with nothing to its sides.
+    fn extends(&self, cell: usize) -> bool {
+        self.is_ground(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() == 1
+    }
+
+    /// The end of a line, or a block by itself.
+    fn is_end(&self, cell: usize) -> bool {
+        self.is_wall(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() <= 1
+    }
+
+    /// Wall with something open on two opposite sides and wall on the others.
+    fn divides(&self, cell: usize) -> bool {
+        matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
+    }
+
+    /// Open, between two walls.
+    fn is_gap(&self, cell: usize) -> bool {
+        self.divides(cell)
+    }
+
+    fn shift(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let wall = self.levels.palette.wall?;
+        let symmetry = self.symmetry();
+        let cell = pick(&self.cells_where(Draft::is_wall), sampler)?;
+        let (dx, dy) = *sampler.choose(&WAYS);
+        // Along the line, both ways from the cell; it goes sideways.
+        let mut line = vec![cell];
+        for along in [(dy, dx), (-dy, -dx)] {
+            let mut next = self.grid.shift(cell, along);
+            while let Some(at) = next.filter(|&at| self.is_editable(at) && self.is_wall(at)) {
+                line.push(at);
+                next = self.grid.shift(at, along);
+            }
+        }
+        if line.len() > SEGMENT {
+            return None;
+        }
+        let images: Vec<usize> = line.iter().flat_map(|&cell| self.images(symmetry, cell)).collect();
+        let mut targets = Vec::new();
+        for &cell in &line {
+            let to = self.grid.shift(cell, (dx, dy))?;
+            targets.extend(self.images(symmetry, to));
+        }
+        for &cell in &images {
+            self.clear(cell);
+        }
+        if !targets.iter().all(|&cell| self.is_editable(cell) && self.is_ground(cell)) {
+            return None;
+        }
+        targets.into_iter().for_each(|cell| self.cells[cell] = wall);
+        self.open_ways();
+        Some(())
+    }
+
+    fn mirror(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let wall = self.levels.palette.wall?;
+        let symmetry = *sampler.choose(&Symmetry::ALL);
+        let swapped = sampler.ratio(1, 2);
+        let grid = self.grid;
+        let copied = |cell: usize| {
+            let first = match symmetry {
+                Symmetry::LeftRight => 2 * grid.x(cell) + 1 < grid.columns,
+                Symmetry::UpDown | Symmetry::Turn => 2 * grid.y(cell) + 1 < grid.rows,
+            };
+            first != swapped
+        };
+        for cell in (0..grid.len()).filter(|&cell| copied(cell)) {
+            let image = symmetry.image(grid, cell);
+            if image == cell || !self.is_editable(image) || copied(image) {
+                continue;
+            }
+            match (self.is_wall(cell), self.kind(image)) {
+                (true, Kind::Ground) => self.cells[image] = wall,
+                (false, Kind::Wall) => self.clear(image),
+                _ => {}
+            }
+        }
+        self.open_ways();
+        Some(())
+    }
+
+    fn regrow(&mut self, sampler: &mut Sampler) -> Option<()> {
+        let wall = self.levels.palette.wall?;
+        let grid = self.grid;
+        let side = |length: usize, sampler: &mut Sampler| {
+            let most = (length * 2 / 3).min(length.checked_sub(2)?);
+            let size = (most >= PART).then(|| sampler.between(PART, most))?;
+            Some((sampler.between(1, length - size - 1), size))
+        };
+        let (left, columns) = side(grid.columns, sampler)?;
+        let (top, rows) = side(grid.rows, sampler)?;
+        let part = Grid { columns, rows };
+        let family = match self.levels.family(sampler) {
+            Family::Maze => Family::Rooms,
+            family => family,
+        };
+        let walls = layout::walls(family, part, false, 0.5, sampler);
+        let at = |inner: usize| grid.at(left + part.x(inner), top + part.y(inner));
+        let mut things = Vec::new();
+        for (inner, &is_wall) in walls.iter().enumerate() {
+            let cell = at(inner);
+            match self.kind(cell) {
+                Kind::Avatar => continue,
+                Kind::Thing(_) if is_wall => {
+                    things.push(self.cells[cell]);
+                    self.cells[cell] = wall;
+                }
+                Kind::Thing(_) => {}
+                _ if is_wall => self.cells[cell] = wall,
+                Kind::Wall => self.clear(cell),
+                Kind::Ground => {}
+            }
+        }
+        for thing in things {
+            let free: Vec<usize> = (0..part.len()).map(at).filter(|&cell| self.is_ground(cell)).collect();
+            let cell = pick(&free, sampler)?;
+            self.cells[cell] = thing;
+        }
+        self.open_ways();
+        Some(())
+    }
+}
+
+/// One of them, if there are any.
+pub(crate) fn pick<T: Copy>(options: &[T], sampler: &mut Sampler) -> Option<T> {
+    if options.is_empty() { None } else { Some(*sampler.choose(options)) }
+}
