@@ -51,3 +51,19 @@ pub trait Variation: Sync {
     /// A candidate with parts of two others.
     fn cross(&self, one: &Self::Candidate, two: &Self::Candidate, sampler: &mut Sampler) -> Self::Candidate;
 }
+
+impl<V: Variation> Variation for &V {
+    type Candidate = V::Candidate;
+
+    fn create(&self, seed: Seed) -> Option<V::Candidate> {
+        (**self).create(seed)
+    }
+
+    fn mutate(&self, parent: &V::Candidate, sampler: &mut Sampler) -> V::Candidate {
+        (**self).mutate(parent, sampler)
+    }
+
+    fn cross(&self, one: &V::Candidate, two: &V::Candidate, sampler: &mut Sampler) -> V::Candidate {
+        (**self).cross(one, two, sampler)
+    }
+}

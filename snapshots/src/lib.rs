@@ -49,6 +49,7 @@ mod draft;
 mod error;
 pub mod folder;
 mod integrity;
+pub mod levels;
 mod manifest;
 pub mod merkle;
 pub mod mint;

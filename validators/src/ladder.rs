@@ -6,6 +6,7 @@ use engine::{Episode, Outcome, Seed};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::str::FromStr;
 
 /// A player of a ladder: a planner of the registry with the forward-model calls of a decision, written `mcts:500`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -111,6 +112,22 @@ impl Difficulty {
     fn of(ease: f64) -> Difficulty {
         let found = Difficulty::LABELS.into_iter().find(|(_, [least, _])| ease >= *least);
         found.map_or(Difficulty::VeryHard, |(label, _)| label)
+    }
+}
+
+/// The label is none of [`Difficulty::LABELS`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no difficulty `{0}`; there are very_easy, easy, medium, hard, very_hard")]
+pub struct UnknownDifficulty(String);
+
+impl FromStr for Difficulty {
+    type Err = UnknownDifficulty;
+
+    /// Reads a label that can be asked for: `very_easy`, `very-easy` and `very easy` are one.
+    fn from_str(text: &str) -> Result<Difficulty, UnknownDifficulty> {
+        let plain = text.replace(['_', '-'], " ");
+        let mut labels = Difficulty::LABELS.into_iter().map(|(label, _)| label);
+        labels.find(|label| label.to_string() == plain).ok_or_else(|| UnknownDifficulty(text.to_owned()))
     }
 }
 

@@ -3,6 +3,7 @@
 pub(crate) mod conformance;
 pub(crate) mod describe;
 pub(crate) mod fmt;
+pub(crate) mod generate;
 pub(crate) mod play;
 pub(crate) mod regenerate;
 pub(crate) mod release;

@@ -18,6 +18,7 @@ use generators::{GenerateError, Generator};
 use level::{Levels, MintedLevel};
 use rayon::prelude::*;
 pub use tally::Tally;
+pub(crate) use tally::reasons;
 use validators::Panel;
 
 /// A release in memory: every file, in path order, the manifest apart.

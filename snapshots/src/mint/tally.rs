@@ -65,9 +65,14 @@ impl Tally {
 
     /// The rejections in words, the most frequent first.
     pub fn reasons(&self) -> String {
-        let mut reasons: Vec<(&String, &u64)> = self.rejections.iter().collect();
-        reasons.sort_by_key(|(why, count)| (std::cmp::Reverse(**count), *why));
-        let words: Vec<String> = reasons.iter().map(|(why, count)| format!("{why} {count}")).collect();
-        words.join(", ")
+        reasons(&self.rejections)
     }
+}
+
+/// Rejections in words, the most frequent first.
+pub(crate) fn reasons(rejections: &BTreeMap<String, u64>) -> String {
+    let mut reasons: Vec<(&String, &u64)> = rejections.iter().collect();
+    reasons.sort_by_key(|(why, count)| (std::cmp::Reverse(**count), *why));
+    let words: Vec<String> = reasons.iter().map(|(why, count)| format!("{why} {count}")).collect();
+    words.join(", ")
 }

@@ -1,0 +1,230 @@
+//! `arcade generate levels`.
+
+use crate::console::{Console, Stopwatch};
+use crate::failure::{Answer, Failure};
+use crate::input::{self, GameInput};
+use crate::verbs::release::in_pool;
+use crate::verbs::verify::failure;
+use engine::{Analysis, Game, Level, Seed};
+use generators::levels::LevelConfig;
+use indicatif::ProgressBar;
+use serde_json::json;
+use snapshots::Draft;
+use snapshots::levels::{LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels};
+use std::fmt::Write;
+use std::path::PathBuf;
+use validators::{Difficulty, RuleRef};
+
+/// Makes new levels for a game. The same flags give the same bytes, on any number of threads.
+///
+/// `search` and `evolutionary` levels come with an episode that wins, and are won neither by doing nothing nor, more than now
+/// and then, by random keys. `constructive` ones are instant and judged by nobody, unless something is asked that has to be
+/// measured: a difficulty, a length, a rule. The folder holds the game, its new levels, and levels.json on each of them:
+/// `arcade validate DIR` and `arcade play DIR` take it as it is. It is complete or absent.
+///
+/// Exit status 0: all levels that were asked for. 1: fewer, or none. 2: the game or a flag is malformed.
+///
+/// Example: arcade generate levels --game hailglass --method search --count 5 --difficulty hard --out new-levels
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
+    #[arg(long, value_name = "GAME")]
+    game: String,
+    /// constructive: instant; search: each level by itself, improved step by step; evolutionary: an archive of levels that differ
+    #[arg(long, value_name = "METHOD", default_value = "search")]
+    method: Method,
+    /// Levels
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    count: u32,
+    /// Text that the seeds come from
+    #[arg(long, value_name = "TEXT", default_value = "levels")]
+    seed: String,
+    /// How hard, as a ladder of players finds: very_easy, easy, medium, hard, very_hard
+    #[arg(long, value_name = "LABEL")]
+    difficulty: Option<Difficulty>,
+    /// Columns and rows, the border included: 12x9. If left out, sizes like those of the game's own levels
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<(usize, usize)>,
+    /// Ticks that the shortest win found takes at least
+    #[arg(long, value_name = "TICKS")]
+    min_solution: Option<usize>,
+    /// A rule that the win has to use: its two sprites (`box hole`), with the effect if need be, or its line in the
+    /// InteractionSet, from 1. May be given again
+    #[arg(long, value_name = "RULE")]
+    uses: Vec<String>,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+    /// Load the game as the reference engine does: overlook faults that it overlooks
+    #[arg(long)]
+    as_reference: bool,
+    /// The folder of the new levels: absent or empty
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Reads `12x9`.
+fn size(text: &str) -> Result<(usize, usize), String> {
+    let sides = text.split_once(['x', 'X']);
+    let sides = sides.and_then(|(columns, rows)| Some((columns.parse().ok()?, rows.parse().ok()?)));
+    sides.ok_or_else(|| "columns and rows with an x between them are wanted, such as 12x9".to_owned())
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let input = input::game(&args.game)?;
+    let game = input.compile(args.as_reference)?;
+    let order = order(args, &input, &game)?;
+    // Before minutes of work: is there a place to write to?
+    let draft = Draft::create(&args.out).map_err(failure)?;
+    let bar = Bar(console.progress(u64::from(args.count), "levels"));
+    let started = Stopwatch::start();
+    let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
+    let made = in_pool(args.jobs, || make_levels(&game, &order, seed, &bar))?;
+    bar.0.finish_and_clear();
+    let set = match made {
+        Ok(set) => set,
+        Err(error @ LevelsError::NoneAccepted { .. }) => {
+            console.remark(format_args!("{}: {error}", args.game));
+            return Ok(false);
+        }
+        Err(error) => return Err(Failure::malformed(format!("{}: {error}", args.game))),
+    };
+    write(&draft, &input, &set)?;
+    draft.write("levels.json", &pretty(&document(args, &game, &set))?).map_err(failure)?;
+    draft.commit().map_err(failure)?;
+    console.document(&document(args, &game, &set))?;
+    console.say(summary(args, &set, started.seconds()).trim_end());
+    Ok(set.levels.len() == args.count as usize)
+}
+
+fn order(args: &Args, input: &GameInput, game: &Game) -> Result<LevelOrder, Failure> {
+    let config = LevelConfig::default();
+    let config = match args.size {
+        Some((columns, rows)) => LevelConfig { columns: (columns, columns), rows: (rows, rows), ..config },
+        None => config,
+    };
+    let analysis = Analysis::of(game);
+    let rule = |text: &String| RuleRef::parse(&analysis, text);
+    let uses = args.uses.iter().map(rule).collect::<Result<_, _>>();
+    let uses = uses.map_err(|error| Failure::malformed(format!("--uses: {error}")))?;
+    let _ = input;
+    Ok(LevelOrder {
+        difficulty: args.difficulty,
+        min_solution: args.min_solution,
+        uses,
+        ..LevelOrder::new(args.method, args.count, config)
+    })
+}
+
+struct Bar(ProgressBar);
+
+impl Progress for Bar {
+    fn looked(&self) {
+        self.0.tick();
+    }
+
+    fn made(&self, _number: u32) {
+        self.0.inc(1);
+    }
+}
+
+/// The game, its levels and the episodes that win them.
+fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure> {
+    draft.write("game.vgdl", input.source.text.as_bytes()).map_err(failure)?;
+    for (number, made) in set.levels.iter().enumerate() {
+        let text = made.level.to_string();
+        draft.write(&format!("lvl{number}.txt"), text.as_bytes()).map_err(failure)?;
+        if let Some(witness) = made.report.as_ref().and_then(|report| report.witness.as_ref()) {
+            let path = format!("witness/lvl{number}.json");
+            draft.write(&path, &pretty(witness)?).map_err(failure)?;
+        }
+    }
+    Ok(())
+}
+
+fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
+    let mut text = serde_json::to_vec_pretty(value)
+        .map_err(|error| Failure::surroundings(error, "what was found cannot be written as JSON"))?;
+    text.push(b'\n');
+    Ok(text)
+}
+
+/// What is told of the levels: the same bytes for the same flags.
+fn document(args: &Args, game: &Game, set: &LevelSet) -> serde_json::Value {
+    let levels: Vec<serde_json::Value> = set.levels.iter().enumerate().map(level).collect();
+    json!({
+        "game": game.digest(),
+        "method": args.method,
+        "seed": args.seed,
+        "asked": {
+            "count": args.count,
+            "difficulty": args.difficulty,
+            "size": args.size,
+            "min_solution": args.min_solution,
+            "uses": args.uses,
+        },
+        "generation": generators::GENERATION,
+        "semantics": engine::SEMANTICS,
+        "levels": levels,
+        "cost": set.cost,
+    })
+}
+
+fn level((number, made): (usize, &MadeLevel)) -> serde_json::Value {
+    let witness = made.report.as_ref().and_then(|report| report.witness.as_ref());
+    let optimal = made.report.as_ref().and_then(|report| report.finding("winnable")?.optimal);
+    json!({
+        "file": format!("lvl{number}.txt"),
+        "number": made.number,
+        "digest": made.level.digest(),
+        "columns": made.level.columns(),
+        "rows": made.level.rows(),
+        "witness_ticks": witness.map(|witness| witness.actions.len()),
+        "optimal_ticks": optimal,
+        "difficulty": made.ladder.as_ref().map(|ladder| ladder.difficulty),
+        "ease": made.ladder.as_ref().and_then(|ladder| ladder.ease),
+        "report": made.report,
+    })
+}
+
+/// The levels, for a person.
+fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
+    let mut text = String::new();
+    for (number, made) in set.levels.iter().enumerate() {
+        let _ = writeln!(text, "lvl{number}.txt  {}", remark(&made.level, made));
+        for row in made.level.to_string().lines() {
+            let _ = writeln!(text, "    {row}");
+        }
+        text.push('\n');
+    }
+    let missing = args.count as usize - set.levels.len();
+    let cost = &set.cost;
+    let _ = writeln!(
+        text,
+        "{} of {} levels in {seconds:.1} s; {} looked at, {} judged; {:.1} million forward-model calls",
+        set.levels.len(),
+        args.count,
+        cost.looks,
+        cost.judged,
+        cost.calls as f64 / 1e6
+    );
+    if !cost.rejections.is_empty() {
+        let _ = writeln!(text, "turned down: {}", cost.reasons());
+    }
+    if missing > 0 {
+        let _ = writeln!(text, "{missing} could not be made: ask for less, or take another seed");
+    }
+    let out = args.out.display();
+    let _ = writeln!(text, "in {out}; look: arcade render {out} 0 -o level.png, play: arcade play {out} 0");
+    text
+}
+
+fn remark(level: &Level, made: &MadeLevel) -> String {
+    let size = format!("{}x{}", level.columns(), level.rows());
+    let Some(report) = &made.report else { return format!("{size}, judged by nobody") };
+    let ticks = report.witness.as_ref().map_or(0, |witness| witness.actions.len());
+    let optimal = report.finding("winnable").is_some_and(|finding| finding.optimal.is_some());
+    let proved = if optimal { ", proved to be the fewest" } else { "" };
+    let hard = made.ladder.as_ref().map_or(String::new(), |ladder| format!("; {}", ladder.difficulty));
+    format!("{size}, won in {ticks} ticks{proved}{hard}")
+}

@@ -1,0 +1,77 @@
+//! The last word on a level: the panel, and what the order asks beside.
+
+use super::aim::MARGIN;
+use super::look::cost;
+use super::order::LevelOrder;
+use engine::{Analysis, Level, Seed};
+use validators::{Case, Climb, Criteria, Difficulty, Ladder, Panel, Report};
+
+/// Judges levels for good, with dice that no search has seen.
+pub(super) struct Gate<'a> {
+    analysis: &'a Analysis,
+    order: &'a LevelOrder,
+    panel: Panel,
+    climb: Option<Climb>,
+    seed: Seed,
+}
+
+/// A level that was let in, or why it was not.
+pub(super) struct Judged {
+    /// What stands in the way, by name.
+    pub(super) obstacle: Option<&'static str>,
+    /// What the panel found.
+    pub(super) report: Report,
+    /// How hard it is, if that was asked.
+    pub(super) ladder: Option<Ladder>,
+    /// Forward-model calls.
+    pub(super) calls: u64,
+}
+
+impl<'a> Gate<'a> {
+    pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder, seed: Seed) -> Gate<'a> {
+        let least_ticks = order.criteria.least_ticks.max(order.min_solution.unwrap_or(0));
+        let criteria = Criteria { least_ticks, ..order.criteria.clone() };
+        let climb = order
+            .difficulty
+            .map(|_| Climb { held_out: Vec::new(), ..criteria.climb().expect("the criteria were checked") });
+        Gate { analysis, order, panel: Panel::new(&criteria), climb, seed }
+    }
+
+    /// Judges a level. The same level gets the same answer, whoever asks and when.
+    pub(super) fn judge(&self, level: &Level) -> Judged {
+        let game = self.analysis.game();
+        let seed = self.seed.child(&level.digest().to_string(), 0);
+        let report = self.panel.screen(game, level, seed.child("panel", 0));
+        let calls = report.judgements.iter().map(|judgement| cost(&judgement.finding)).sum();
+        let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
+        let mut judged = Judged { obstacle, report, ladder: None, calls };
+        let (None, Some(witness)) = (obstacle, judged.report.witness.clone()) else {
+            judged.obstacle = obstacle.or(Some("winnable"));
+            return judged;
+        };
+        if !self.order.uses.iter().all(|rule| rule.is_used(self.analysis, level, &witness)) {
+            judged.obstacle = Some("uses");
+            return judged;
+        }
+        if let (Some(climb), Some(asked)) = (&self.climb, self.order.difficulty) {
+            let seed = seed.child("ladder", 0);
+            let case = Case { game, level, seed, analysis: self.analysis, witness: Some(&witness) };
+            let ladder = climb.ladder(case);
+            judged.calls += ladder.rungs.iter().map(|fared| fared.rate.calls).sum::<u64>();
+            if !is_surely(&ladder, asked) {
+                judged.obstacle = Some("difficulty");
+            }
+            judged.ladder = Some(ladder);
+        }
+        judged
+    }
+}
+
+/// Whether a level bears a label, and not just so: another look with other dice should find it too.
+fn is_surely(ladder: &Ladder, asked: Difficulty) -> bool {
+    let (Some(ease), Some([low, high])) = (ladder.ease, asked.eases()) else { return false };
+    // The labels at either end have nothing beyond them.
+    let low = if low > 0.0 { low + MARGIN / 2.0 } else { low };
+    let high = if high < 1.0 { high - MARGIN / 2.0 } else { high };
+    ladder.difficulty == asked && (low..=high).contains(&ease)
+}

@@ -1,0 +1,166 @@
+//! Searches under the eyes of judges: each level by itself, or an archive of levels that differ.
+
+use super::accept::Gate;
+use super::aim::{Aim, axes};
+use super::look::{Look, Looker};
+use super::make::{Attempt, Cost, LevelSet, Maker, TWICE, made};
+use engine::{Digest, Level};
+use generators::{
+    Annealing, AnnealingConfig, Archive, Evaluation, Judged, MapElites, MapElitesConfig, Search,
+};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// Levels that come before the panel after a search, at most.
+const FINALISTS: usize = 3;
+
+impl Maker<'_> {
+    /// Anneals a level until the panel lets one in: each round is a search of its own.
+    pub(super) fn searched(&self, number: u32, refused: &BTreeSet<Digest>) -> Attempt {
+        let seed = self.level_seed(number);
+        let aim = Aim::new(self.analysis, self.order);
+        let looker = Looker::new(self.analysis, self.order, aim, seed.child("look", 0));
+        let gate = Gate::new(self.analysis, self.order, seed.child("gate", 0));
+        let looks = self.order.effort.looks as usize;
+        let mut cost = Cost::default();
+        for round in 0..u64::from(self.order.effort.rounds) {
+            let config = AnnealingConfig::of(looks);
+            let mut search = Annealing::new(&self.variation, config, seed.child("round", round));
+            let mut best = Finalists::default();
+            self.strive(&mut search, looks, &looker, &mut cost, |level, evaluation| {
+                best.note(level, evaluation)
+            });
+            for level in best.levels {
+                if refused.contains(&self.likeness.digest(&level)) {
+                    cost.reject(TWICE);
+                    continue;
+                }
+                let judged = gate.judge(&level);
+                cost.judged(&judged);
+                if judged.obstacle.is_none() {
+                    return (Some(made(number, level, judged)), cost);
+                }
+            }
+        }
+        (None, cost)
+    }
+
+    /// Fills an archive and picks levels that differ from it, until enough have passed the panel.
+    pub(super) fn evolved(&self) -> LevelSet {
+        let aim = Aim::new(self.analysis, self.order);
+        let looker = Looker::new(self.analysis, self.order, aim, self.seed.child("look", 0));
+        let gate = Gate::new(self.analysis, self.order, self.seed.child("gate", 0));
+        let looks = self.order.effort.looks as usize * self.order.count as usize;
+        let config = MapElitesConfig { initial: (looks / 4).max(1), ..MapElitesConfig::default() };
+        let key = |level: &Level| self.likeness.digest(level);
+        let mut search = MapElites::new(&self.variation, key, axes(), config, self.seed.child("archive", 0));
+        let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };
+        let mut shown = BTreeSet::new();
+        for _ in 0..self.order.effort.rounds {
+            self.strive(&mut search, looks, &looker, &mut set.cost, |_, _| ());
+            let wanted = self.order.count as usize - set.levels.len();
+            let picked = spread(search.archive(), wanted, &mut shown, key);
+            let judged: Vec<_> = picked.par_iter().map(|level| gate.judge(level)).collect();
+            for (level, judged) in picked.into_iter().zip(judged) {
+                set.cost.judged(&judged);
+                if judged.obstacle.is_none() {
+                    let number = set.levels.len() as u32;
+                    self.progress.made(number);
+                    set.levels.push(made(number, level, judged));
+                }
+            }
+            if set.levels.len() == self.order.count as usize {
+                break;
+            }
+        }
+        set
+    }
+
+    /// Lets a search ask, looks at what it proposes on all threads, and tells it.
+    fn strive<S: Search<Candidate = Level>>(
+        &self,
+        search: &mut S,
+        looks: usize,
+        looker: &Looker<'_>,
+        cost: &mut Cost,
+        mut note: impl FnMut(&Level, &Evaluation),
+    ) {
+        let mut asked = 0;
+        while asked < looks {
+            let levels = search.ask(self.order.effort.batch.min(looks - asked));
+            if levels.is_empty() {
+                return;
+            }
+            asked += levels.len();
+            let looks: Vec<Look> = levels
+                .par_iter()
+                .map(|level| {
+                    let look = looker.look(level);
+                    self.progress.looked();
+                    look
+                })
+                .collect();
+            cost.looks += looks.len() as u64;
+            cost.calls += looks.iter().map(|look| look.calls).sum::<u64>();
+            let told = levels.into_iter().zip(looks).map(|(level, look)| (level, look.evaluation));
+            let told: Vec<(Level, Evaluation)> = told.collect();
+            told.iter().for_each(|(level, evaluation)| note(level, evaluation));
+            search.tell(told);
+        }
+    }
+}
+
+/// The best feasible levels of a search, the very best first.
+#[derive(Default)]
+struct Finalists {
+    levels: Vec<Level>,
+    objectives: Vec<f64>,
+}
+
+impl Finalists {
+    fn note(&mut self, level: &Level, evaluation: &Evaluation) {
+        if !evaluation.is_feasible() || self.levels.contains(level) {
+            return;
+        }
+        let place = self.objectives.partition_point(|&objective| objective >= evaluation.objective);
+        if place < FINALISTS {
+            self.levels.insert(place, level.clone());
+            self.objectives.insert(place, evaluation.objective);
+            self.levels.truncate(FINALISTS);
+            self.objectives.truncate(FINALISTS);
+        }
+    }
+}
+
+/// Levels of an archive that have not been shown, as far apart in it as can be: the best one first, then always the one that is
+/// farthest from all that have been picked, the better one of equals.
+fn spread(
+    archive: &Archive<Level>,
+    wanted: usize,
+    shown: &mut BTreeSet<Digest>,
+    key: impl Fn(&Level) -> Digest,
+) -> Vec<Level> {
+    let mut left: Vec<(Vec<usize>, &Judged<Level>)> = archive
+        .elites()
+        .filter(|(_, elite)| !shown.contains(&key(&elite.candidate)))
+        .map(|(cell, elite)| (archive.bins(cell), elite))
+        .collect();
+    let mut picked: Vec<(Vec<usize>, &Judged<Level>)> = Vec::new();
+    while picked.len() < wanted && !left.is_empty() {
+        let apart = |bins: &[usize]| {
+            let distances = picked
+                .iter()
+                .map(|(other, _)| bins.iter().zip(other).map(|(a, b)| a.abs_diff(*b)).sum::<usize>());
+            distances.min().unwrap_or(0)
+        };
+        let better = |(a, one): &(Vec<usize>, &Judged<Level>), (b, two): &(Vec<usize>, &Judged<Level>)| {
+            let objectives = one.evaluation.objective.total_cmp(&two.evaluation.objective);
+            apart(a).cmp(&apart(b)).then(objectives)
+        };
+        let at = (0..left.len()).max_by(|&a, &b| better(&left[a], &left[b]).then(b.cmp(&a)));
+        picked.push(left.swap_remove(at.expect("some are left")));
+    }
+    let levels: Vec<Level> = picked.into_iter().map(|(_, elite)| elite.candidate.clone()).collect();
+    shown.extend(levels.iter().map(key));
+    levels
+}

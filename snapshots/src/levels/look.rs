@@ -1,0 +1,185 @@
+//! A quick look at a candidate: what a search is told of it.
+
+use super::aim::Aim;
+use super::order::LevelOrder;
+use agents::{PortfolioConfig, Solution, Solved, solve};
+use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
+use generators::Evaluation;
+use validators::{Case, Criteria, Finding, NoEarlyDeath, NotIdle, NotRandom, Validator, Verdict, WellFormed};
+
+/// Episodes of doing nothing, where chance plays a part.
+const IDLE_PLAYS: u32 = 2;
+/// Episodes of random play.
+const RANDOM_PLAYS: u32 = 10;
+/// Games of chance in which the first ticks are lived through.
+const CHANCES: u32 = 4;
+/// The share of a look's calls that each of those may take.
+const EARLY: u64 = 50;
+
+/// Looks at candidates for one order, cheaply: with few plays and a small budget. What it likes has still to be accepted by
+/// the panel.
+pub(super) struct Looker<'a> {
+    game: &'a Game,
+    analysis: &'a Analysis,
+    order: &'a LevelOrder,
+    aim: Aim<'a>,
+    seed: Seed,
+}
+
+/// What a look found.
+#[derive(Clone, Debug)]
+pub(super) struct Look {
+    /// What the search is told.
+    pub(super) evaluation: Evaluation,
+    /// Forward-model calls.
+    pub(super) calls: u64,
+}
+
+/// Graded constraints, from 0.0 to 1.0 each.
+struct Constraints {
+    values: [f64; CONSTRAINTS],
+    met: usize,
+}
+
+/// Well-formed, not idle, not random, no early death, winnable, the aim's own.
+const CONSTRAINTS: usize = 6;
+
+impl Constraints {
+    /// Notes the next constraint; whether it is met.
+    fn note(&mut self, value: f64) -> bool {
+        self.values[self.met] = value;
+        self.met += 1;
+        value >= 1.0
+    }
+
+    /// Their mean: exactly 1.0 only if all are met.
+    fn feasibility(&self) -> f64 {
+        if self.values.iter().all(|&value| value >= 1.0) {
+            return 1.0;
+        }
+        (self.values.iter().sum::<f64>() / CONSTRAINTS as f64).min(0.999)
+    }
+}
+
+impl<'a> Looker<'a> {
+    pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder, aim: Aim<'a>, seed: Seed) -> Looker<'a> {
+        Looker { game: analysis.game(), analysis, order, aim, seed }
+    }
+
+    /// Looks at a level. The same level gets the same look, whoever asks and when. Cost: a few hundred plays of nobody in
+    /// particular, and [`super::Effort::calls`] forward-model calls; those of a ladder too, if a difficulty is asked.
+    pub(super) fn look(&self, level: &Level) -> Look {
+        let seed = self.seed.child(&level.digest().to_string(), 0);
+        let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
+        let mut calls = 0;
+        let won = self.constrain(level, seed, &mut constraints, &mut calls);
+        let measures = self.aim.measures(level, won.as_ref());
+        let objective = won.map_or(0.0, |witness| {
+            let told = self.aim.tell(self.case(level, seed, Some(&witness)));
+            calls += told.calls;
+            constraints.note(told.constraint);
+            told.objective
+        });
+        Look { evaluation: Evaluation { feasibility: constraints.feasibility(), objective, measures }, calls }
+    }
+
+    /// Asks the cheap judges, one after the other; a win, if all are content.
+    fn constrain(
+        &self,
+        level: &Level,
+        seed: Seed,
+        constraints: &mut Constraints,
+        calls: &mut u64,
+    ) -> Option<Episode> {
+        let criteria = &self.order.criteria;
+        let ask = |validator: &dyn Validator, calls: &mut u64| {
+            let case = self.case(level, seed.child(validator.name(), 0), None);
+            let finding = validator.validate(case);
+            *calls += cost(&finding);
+            finding
+        };
+        if !constraints.note(passes(&ask(&WellFormed, calls))) || !self.analysis.reach(level).can_win() {
+            return None;
+        }
+        // A level that is won without skill is no better for being won with it.
+        let idle = ask(&NotIdle { plays: IDLE_PLAYS }, calls);
+        let random = ask(&NotRandom { plays: RANDOM_PLAYS, most: criteria.random_wins }, calls);
+        let met = constraints.note(1.0 - win_share(&idle));
+        let met =
+            constraints.note(if random.verdict.is_pass() { 1.0 } else { 1.0 - win_share(&random) }) && met;
+        if !met {
+            return None;
+        }
+        let early = NoEarlyDeath {
+            ticks: criteria.early_ticks,
+            calls: self.order.effort.calls / EARLY,
+            chances: CHANCES,
+            share: criteria.early_deaths,
+        };
+        if !constraints.note(passes(&ask(&early, calls))) {
+            return None;
+        }
+        let solved = self.solve(level, seed.child("winnable", 0), criteria);
+        *calls += solved.calls;
+        match solved.solution {
+            Solution::Won { episode, .. } => {
+                constraints.note(1.0);
+                Some(*episode)
+            }
+            Solution::Impossible { .. } => None,
+            Solution::Unknown => {
+                constraints.note(0.5 * self.nearness(level, &solved));
+                None
+            }
+        }
+    }
+
+    fn case<'b>(&'b self, level: &'b Level, seed: Seed, witness: Option<&'b Episode>) -> Case<'b> {
+        Case { game: self.game, level, seed, analysis: self.analysis, witness }
+    }
+
+    fn solve(&self, level: &Level, seed: Seed, criteria: &Criteria) -> Solved {
+        let config = PortfolioConfig {
+            budget: self.order.effort.calls,
+            shortest: 0.3,
+            decision: criteria.decision,
+            depths: criteria.depths.clone(),
+            ..PortfolioConfig::default()
+        };
+        solve(self.analysis, level, &config, seed)
+    }
+
+    /// How near to a win the best of the plays came, from 0.0, not at all, to 1.0.
+    fn nearness(&self, level: &Level, solved: &Solved) -> f64 {
+        let wins: Vec<_> = self.analysis.goals().iter().filter(|goal| goal.win).collect();
+        let missing =
+            |state: &engine::State| wins.iter().map(|goal| self.analysis.missing(goal, state)).min();
+        let plays = solved.plays.iter().filter(|play| play.episode.outcome != Outcome::Lost);
+        let near = plays.filter_map(|play| {
+            let start = missing(&self.game.start(level, play.episode.seed))?;
+            let end = missing(&play.episode.replay(self.game, level).ok()?)?;
+            Some(1.0 - f64::from(end) / f64::from(start.max(1)))
+        });
+        near.fold(0.0, f64::max).clamp(0.0, 1.0)
+    }
+}
+
+fn passes(finding: &Finding) -> f64 {
+    match finding.verdict {
+        Verdict::Pass { .. } => 1.0,
+        // Who did not find out holds nothing against it: the panel will.
+        Verdict::Unknown { .. } => 1.0,
+        Verdict::Fail { .. } => 0.0,
+    }
+}
+
+fn win_share(finding: &Finding) -> f64 {
+    finding.measured.as_ref().map_or(0.0, |rate| rate.wins as f64 / rate.plays.max(1) as f64)
+}
+
+/// The forward-model calls of a finding.
+pub(super) fn cost(finding: &Finding) -> u64 {
+    let ladder = finding.ladder.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out));
+    let ladder: u64 = ladder.map(|fared| fared.rate.calls).sum();
+    finding.searched.unwrap_or(0) + finding.measured.as_ref().map_or(0, |rate| rate.calls) + ladder
+}

@@ -1,0 +1,233 @@
+//! How levels of each method are made.
+
+use super::accept::{Gate, Judged};
+use super::order::{LevelOrder, Method};
+use crate::mint::reasons;
+use engine::{Analysis, Digest, Game, Level, Seed};
+use generators::levels::{ConstructiveLevels, LevelVariation, Likeness};
+use generators::{GenerateError, Generator};
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use validators::{CriteriaError, Ladder, Report};
+
+/// A level that was made.
+#[derive(Clone, Debug)]
+pub struct MadeLevel {
+    /// Its number among those that were asked for.
+    pub number: u32,
+    /// The level.
+    pub level: Level,
+    /// What its judges found; none of a level that nobody has judged.
+    pub report: Option<Report>,
+    /// How hard it is, if that was asked.
+    pub ladder: Option<Ladder>,
+}
+
+/// What it cost to make levels.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Cost {
+    /// Levels that a search looked at.
+    pub looks: u64,
+    /// Levels that came before the panel.
+    pub judged: u64,
+    /// Forward-model calls of all looks and judges.
+    pub calls: u64,
+    /// How often each criterion of the panel, or the generator, said no.
+    pub rejections: BTreeMap<String, u64>,
+}
+
+impl Cost {
+    pub(super) fn judged(&mut self, judged: &Judged) {
+        self.judged += 1;
+        self.calls += judged.calls;
+        if let Some(obstacle) = judged.obstacle {
+            self.reject(obstacle);
+        }
+    }
+
+    pub(super) fn reject(&mut self, why: &str) {
+        *self.rejections.entry(why.to_owned()).or_default() += 1;
+    }
+
+    fn add(&mut self, other: &Cost) {
+        self.looks += other.looks;
+        self.judged += other.judged;
+        self.calls += other.calls;
+        for (why, count) in &other.rejections {
+            *self.rejections.entry(why.clone()).or_default() += count;
+        }
+    }
+
+    /// The rejections in words, the most frequent first.
+    pub fn reasons(&self) -> String {
+        reasons(&self.rejections)
+    }
+}
+
+/// The levels of an order.
+#[derive(Clone, Debug)]
+pub struct LevelSet {
+    /// Those that could be made, in the order of their numbers.
+    pub levels: Vec<MadeLevel>,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+/// Why no level was made.
+#[derive(Debug, thiserror::Error)]
+pub enum LevelsError {
+    /// The game leaves the generator no way.
+    #[error(transparent)]
+    Generate(#[from] GenerateError),
+    /// The criteria are not sensible.
+    #[error("the criteria: {0}")]
+    Criteria(#[from] CriteriaError),
+    /// No candidate passed.
+    #[error("no level was accepted: of {judged} that were judged, {why}")]
+    NoneAccepted {
+        /// Candidates before the panel.
+        judged: u64,
+        /// Their obstacles.
+        why: String,
+    },
+}
+
+/// Told how the making goes; from several threads.
+pub trait Progress: Sync {
+    /// A level was looked at, or judged.
+    fn looked(&self) {}
+    /// A level is accepted.
+    fn made(&self, _number: u32) {}
+}
+
+impl Progress for () {}
+
+/// Makes the levels of an order for one game. Cost: [`LevelOrder::effort`]; on all threads of the current rayon pool. The same
+/// game, order and seed give the same levels on any number of threads.
+///
+/// Levels that could not be made are missing in the set.
+///
+/// # Errors
+/// The game is none for the generator, the criteria are not sensible, or not one level was accepted.
+pub fn make_levels(
+    game: &Game,
+    order: &LevelOrder,
+    seed: Seed,
+    progress: &dyn Progress,
+) -> Result<LevelSet, LevelsError> {
+    order.criteria.check()?;
+    let variation = LevelVariation::new(game, order.config())?;
+    let analysis = Analysis::of(game);
+    let likeness = Likeness::of(&analysis);
+    let maker = Maker { analysis: &analysis, order, variation, likeness, seed, progress };
+    let set = match order.method {
+        Method::Constructive if !order.has_to_be_measured() => maker.drawn(),
+        Method::Constructive => maker.each(|number, refused| maker.drawn_and_judged(number, refused)),
+        Method::Search => maker.each(|number, refused| maker.searched(number, refused)),
+        Method::Evolutionary => maker.evolved(),
+    };
+    if set.levels.is_empty() && order.count > 0 {
+        return Err(LevelsError::NoneAccepted { judged: set.cost.judged, why: set.cost.reasons() });
+    }
+    Ok(set)
+}
+
+/// A level, or none, and what it cost.
+pub(super) type Attempt = (Option<MadeLevel>, Cost);
+
+pub(super) struct Maker<'a> {
+    pub(super) analysis: &'a Analysis,
+    pub(super) order: &'a LevelOrder,
+    pub(super) variation: LevelVariation<'a>,
+    pub(super) likeness: Likeness,
+    pub(super) seed: Seed,
+    pub(super) progress: &'a dyn Progress,
+}
+
+impl<'a> Maker<'a> {
+    fn generator(&self) -> &ConstructiveLevels<'a> {
+        self.variation.constructive()
+    }
+
+    /// Levels as they are drawn, judged by nobody.
+    fn drawn(&self) -> LevelSet {
+        self.each(|number, refused| {
+            let mut cost = Cost::default();
+            for candidate in 0..DRAWS {
+                match self.generator().generate(self.level_seed(number).child("candidate", candidate)) {
+                    Ok(level) if refused.contains(&self.likeness.digest(&level)) => cost.reject(TWICE),
+                    Ok(level) => {
+                        return (Some(MadeLevel { number, level, report: None, ladder: None }), cost);
+                    }
+                    Err(_) => cost.reject(NO_BOARD),
+                }
+            }
+            (None, cost)
+        })
+    }
+
+    /// Draws levels until one is accepted.
+    fn drawn_and_judged(&self, number: u32, refused: &BTreeSet<Digest>) -> Attempt {
+        let mut cost = Cost::default();
+        let seed = self.level_seed(number);
+        let gate = Gate::new(self.analysis, self.order, seed.child("gate", 0));
+        for candidate in 0..u64::from(self.order.effort.looks * self.order.effort.rounds) {
+            match self.generator().generate(seed.child("candidate", candidate)) {
+                Ok(level) if refused.contains(&self.likeness.digest(&level)) => cost.reject(TWICE),
+                Ok(level) => {
+                    let judged = gate.judge(&level);
+                    self.progress.looked();
+                    cost.judged(&judged);
+                    if judged.obstacle.is_none() {
+                        return (Some(made(number, level, judged)), cost);
+                    }
+                }
+                Err(_) => cost.reject(NO_BOARD),
+            }
+        }
+        (None, cost)
+    }
+
+    /// Makes each level by itself, all at once; then those anew that are like an earlier one.
+    fn each(&self, make: impl Fn(u32, &BTreeSet<Digest>) -> Attempt + Sync) -> LevelSet {
+        let attempts: Vec<Attempt> = (0..self.order.count)
+            .into_par_iter()
+            .map(|number| {
+                let attempt = make(number, &BTreeSet::new());
+                self.progress.made(number);
+                attempt
+            })
+            .collect();
+        let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };
+        let mut taken = BTreeSet::new();
+        for (made, cost) in attempts {
+            set.cost.add(&cost);
+            let Some(mut level) = made else { continue };
+            if taken.contains(&self.likeness.digest(&level.level)) {
+                set.cost.reject(TWICE);
+                let (again, cost) = make(level.number, &taken);
+                set.cost.add(&cost);
+                let Some(again) = again else { continue };
+                level = again;
+            }
+            taken.insert(self.likeness.digest(&level.level));
+            set.levels.push(level);
+        }
+        set
+    }
+
+    pub(super) fn level_seed(&self, number: u32) -> Seed {
+        self.seed.child("level", u64::from(number))
+    }
+}
+
+/// Boards that are drawn for a level that nobody judges.
+const DRAWS: u64 = 20;
+/// Why a candidate is no level of the set.
+pub(super) const TWICE: &str = "the same level twice";
+const NO_BOARD: &str = "level generator";
+
+pub(super) fn made(number: u32, level: Level, judged: Judged) -> MadeLevel {
+    MadeLevel { number, level, report: Some(judged.report), ladder: judged.ladder }
+}

@@ -1,0 +1,15 @@
+//! Levels on request: what `arcade generate levels` makes.
+//!
+//! A search proposes levels, a cheap look at each tells it what to try next, and the panel has the last word with dice of its
+//! own. Levels of the constructive and the search method depend on their number and the seed alone; those of the
+//! evolutionary one come from one archive. No byte depends on the number of threads.
+
+mod accept;
+mod aim;
+mod improve;
+mod look;
+mod make;
+mod order;
+
+pub use make::{Cost, LevelSet, LevelsError, MadeLevel, Progress, make_levels};
+pub use order::{Effort, LevelOrder, Method};

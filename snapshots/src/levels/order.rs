@@ -1,0 +1,130 @@
+//! What is asked of a set of levels.
+
+use generators::levels::LevelConfig;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+use validators::{Criteria, Difficulty, RuleRef};
+
+/// How levels come about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Walls, then furniture by role: instant, and judged only where something is asked that has to be measured.
+    Constructive,
+    /// Levels are altered step by step while judges look on: each by itself.
+    Search,
+    /// An archive of levels that differ evolves under the eyes of judges; the levels are picked from it.
+    Evolutionary,
+}
+
+impl Method {
+    /// All methods, the cheapest first.
+    pub const ALL: [Method; 3] = [Method::Constructive, Method::Search, Method::Evolutionary];
+
+    /// Its name on the command line and in cards.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Constructive => "constructive",
+            Method::Search => "search",
+            Method::Evolutionary => "evolutionary",
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Method {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Method, String> {
+        let found = Method::ALL.into_iter().find(|method| method.name() == name);
+        found.ok_or_else(|| {
+            format!("there is no method `{name}`; there are constructive, search, evolutionary")
+        })
+    }
+}
+
+/// What is asked of a set of levels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LevelOrder {
+    /// How they come about.
+    pub method: Method,
+    /// How many.
+    pub count: u32,
+    /// Size, and what else the constructive generator is told. Its difficulty is replaced where [`LevelOrder::difficulty`] is
+    /// given.
+    pub config: LevelConfig,
+    /// How hard each is to be, measured with the ladder of the criteria.
+    pub difficulty: Option<Difficulty>,
+    /// Ticks that the shortest win found takes at least.
+    pub min_solution: Option<usize>,
+    /// Rules that the win has to use, every one.
+    pub uses: Vec<RuleRef>,
+    /// What each level must show. See [`LevelOrder::criteria_by_default`].
+    pub criteria: Criteria,
+    /// How much a search may look at.
+    pub effort: Effort,
+}
+
+/// How much a search may look at for one level, or for one level of an archive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Candidates that are looked at between two attempts to have the best of them accepted.
+    pub looks: u32,
+    /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
+    pub batch: usize,
+    /// Attempts.
+    pub rounds: u32,
+    /// Forward-model calls of a look for a win.
+    pub calls: u64,
+}
+
+impl Default for Effort {
+    fn default() -> Effort {
+        Effort { looks: 32, batch: 8, rounds: 6, calls: 100_000 }
+    }
+}
+
+impl LevelOrder {
+    /// `count` levels of a method, with nothing special asked.
+    pub fn new(method: Method, count: u32, config: LevelConfig) -> LevelOrder {
+        LevelOrder {
+            method,
+            count,
+            config,
+            difficulty: None,
+            min_solution: None,
+            uses: Vec::new(),
+            criteria: LevelOrder::criteria_by_default(),
+            effort: Effort::default(),
+        }
+    }
+
+    /// The criteria of a release for levels, but stricter with random play: 1 of 40 episodes won at most, so that a second
+    /// look with other dice finds 10 % or less.
+    ///
+    /// Whether a game is readable is a property of its rules, not of its levels: it is not asked.
+    pub fn criteria_by_default() -> Criteria {
+        let ask = ["well-formed", "not-idle", "not-random", "early-death", "winnable", "length"];
+        let ask = ask.into_iter().map(str::to_owned).collect();
+        Criteria { ask, random_wins: 0.025, ..Criteria::default() }
+    }
+
+    /// What the constructive generator is told: a difficulty that is asked is a difficulty of its own scale, too.
+    pub fn config(&self) -> LevelConfig {
+        let labels = Difficulty::LABELS.iter().map(|(label, _)| label);
+        let place = self.difficulty.and_then(|asked| labels.clone().position(|label| *label == asked));
+        let difficulty = place.map_or(self.config.difficulty, |place| place as f64 / 4.0);
+        LevelConfig { difficulty, ..self.config.clone() }
+    }
+
+    /// Whether something is asked that only playing can tell.
+    pub fn has_to_be_measured(&self) -> bool {
+        self.difficulty.is_some() || self.min_solution.is_some() || !self.uses.is_empty()
+    }
+}
