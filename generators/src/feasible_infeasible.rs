@@ -13,6 +13,8 @@ pub struct FeasibleInfeasibleConfig {
     pub initial: usize,
     /// How many members a parent is the best of: 1 chooses blindly, more presses harder.
     pub tournament: usize,
+    /// The share of each batch that the feasible population breeds at least, however small it is.
+    pub boost: f64,
     /// The probability that a child has two parents.
     pub crossing: f64,
     /// The share of candidates that are created from nothing later on.
@@ -21,7 +23,14 @@ pub struct FeasibleInfeasibleConfig {
 
 impl Default for FeasibleInfeasibleConfig {
     fn default() -> FeasibleInfeasibleConfig {
-        FeasibleInfeasibleConfig { size: 32, initial: 64, tournament: 3, crossing: 0.5, fresh: 0.05 }
+        FeasibleInfeasibleConfig {
+            size: 32,
+            initial: 64,
+            tournament: 3,
+            boost: 0.75,
+            crossing: 0.5,
+            fresh: 0.05,
+        }
     }
 }
 
@@ -30,8 +39,9 @@ impl Default for FeasibleInfeasibleConfig {
 ///
 /// Feasible candidates compete by their objective, infeasible ones by their feasibility. Parents and mates come from one
 /// population; children go where they belong, so that each population feeds the other from its side of the border.
-/// The feasible one breeds at least half of every batch, however small it is (the offspring boost of Liapis et al., "Enhancements
-/// to Constrained Novelty Search", 2013). Members stay until better ones come, and no candidate is asked for twice.
+/// The feasible one breeds at least a given share of every batch, however small it is (the offspring boost of Liapis et al.,
+/// "Enhancements to Constrained Novelty Search", 2013). Members stay until better ones come, and no candidate is asked for
+/// twice.
 ///
 /// ```
 /// use engine::{Digest, Sampler, Seed};
@@ -119,9 +129,9 @@ impl<'a, V: Variation> FeasibleInfeasible<'a, V> {
             return self.breeding.create();
         }
         // Without the boost, each would breed in proportion to its size.
-        let boosted = if feasible == 0 { 0 } else { feasible.max(infeasible) };
-        let population =
-            if sampler.ratio(boosted, boosted + infeasible) { &self.feasible } else { &self.infeasible };
+        let share = feasible as f64 / (feasible + infeasible) as f64;
+        let is_feasible = feasible > 0 && sampler.unit() < share.max(self.config.boost);
+        let population = if is_feasible || infeasible == 0 { &self.feasible } else { &self.infeasible };
         let parent = tournament(population.len(), self.config.tournament, &mut sampler);
         let mate = tournament(population.len(), self.config.tournament, &mut sampler);
         let mate = (mate != parent).then(|| &population[mate].candidate);

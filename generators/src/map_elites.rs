@@ -24,7 +24,7 @@ pub struct MapElitesConfig {
 
 impl Default for MapElitesConfig {
     fn default() -> MapElitesConfig {
-        MapElitesConfig { initial: 64, crossing: 0.4, fresh: 0.05, infeasible: 0.25, pocket: 4 }
+        MapElitesConfig { initial: 64, crossing: 0.4, fresh: 0.05, infeasible: 0.1, pocket: 4 }
     }
 }
 

@@ -1,0 +1,195 @@
+//! Levels evolved with a cheap stand-in for the judges, beside as many levels from the constructive generator.
+
+use engine::{Analysis, Digest, Game, Level, Seed};
+use generators::levels::{LevelConfig, LevelMeasure, LevelMeasures, LevelVariation, Likeness};
+use generators::{
+    Archive, Axis, Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, MapElites, MapElitesConfig,
+    Search, Variation,
+};
+use std::collections::VecDeque;
+
+/// Down to the hatch, past the rats.
+const GAME: &str = "
+BasicGame
+    SpriteSet
+        wall > Immovable
+        gem > Immovable
+        hatch > Door
+        rat > Chaser stype=diver
+        diver > MovingAvatar
+    LevelMapping
+        w > wall
+        g > gem
+        h > hatch
+        r > rat
+        d > diver
+    InteractionSet
+        diver wall > stepBack
+        rat wall > stepBack
+        gem diver > killSprite scoreChange=1
+        diver rat > killSprite
+        hatch diver > killSprite
+    TerminationSet
+        SpriteCounter stype=hatch win=True
+        SpriteCounter stype=diver win=False
+";
+/// Each from a seed of its own.
+const RUNS: u64 = 3;
+/// Batches of a run.
+const BATCHES: usize = 75;
+/// Levels in a batch.
+const BATCH: usize = 40;
+
+/// Long ways to the hatch, past two to four rats, among walls that are built and not sprinkled; every gem can be reached.
+struct Judge {
+    measures: LevelMeasures,
+}
+
+impl Judge {
+    fn judge(&self, level: &Level) -> Evaluation {
+        let cells = level.cells();
+        let count = |symbol: u8| cells.iter().filter(|&&cell| cell == symbol).count();
+        let steps = ways(level);
+        let reached = |symbol: u8| {
+            let reached = (0..cells.len()).filter(|&cell| cells[cell] == symbol && steps[cell].is_some());
+            if count(symbol) == 0 { 0.0 } else { reached.count() as f64 / count(symbol) as f64 }
+        };
+        let all = self.measures.of(level);
+        let walls = all[LevelMeasure::Walls as usize];
+        let rats = count(b'r') as f64;
+        let constraints = [
+            if count(b'h') == 1 { reached(b'h') } else { 0.0 },
+            reached(b'g'),
+            (walls / 0.45).min(1.0),
+            ((1.0 - walls) / 0.35).min(1.0),
+            1.0 - all[LevelMeasure::Sprinkle as usize],
+            (rats / 2.0).min(1.0) * (4.0 / rats.max(4.0)),
+        ];
+        let met = constraints.iter().sum::<f64>() / constraints.len() as f64;
+        let hatch = cells.iter().position(|&cell| cell == b'h').and_then(|cell| steps[cell]).unwrap_or(0);
+        Evaluation {
+            feasibility: if constraints.iter().all(|&met| met >= 1.0) { 1.0 } else { met.min(0.999) },
+            objective: (hatch as f64 / 40.0).min(1.0),
+            measures: vec![all[LevelMeasure::Openness as usize], all[LevelMeasure::Pressure as usize]],
+        }
+    }
+}
+
+/// Steps from the diver to every cell, walls and rats apart.
+fn ways(level: &Level) -> Vec<Option<usize>> {
+    let (columns, cells) = (level.columns(), level.cells());
+    let start = cells.iter().position(|&cell| cell == b'd').expect("a level has a diver");
+    let mut steps = vec![None; cells.len()];
+    steps[start] = Some(0);
+    let mut queue = VecDeque::from([start]);
+    while let Some(cell) = queue.pop_front() {
+        // The border is wall, so that no step wraps around.
+        for next in [cell - columns, cell - 1, cell + 1, cell + columns] {
+            if cells[next] != b'w' && steps[next].is_none() {
+                steps[next] = steps[cell].map(|steps| steps + 1);
+                queue.push_back(next);
+            }
+        }
+    }
+    steps
+}
+
+fn axes() -> Vec<Axis> {
+    vec![Axis::new("openness", (0.3, 0.8), 10), Axis::new("enemy pressure", (0.0, 0.5), 10)]
+}
+
+/// What came of [`BATCHES`] batches.
+#[derive(Debug)]
+struct Figures {
+    /// Feasible candidates in each fifth of all batches.
+    feasible: Vec<usize>,
+    /// All that was judged, in the grid.
+    archive: Archive<Level>,
+}
+
+impl Figures {
+    /// Judges what is asked for by `ask`, which is told what is found.
+    fn of(judge: &Judge, mut ask: impl FnMut(Vec<(Level, Evaluation)>) -> Vec<Level>) -> Figures {
+        let (mut archive, mut feasible, mut told) = (Archive::new(axes(), 0), vec![0; 5], Vec::new());
+        for batch in 0..BATCHES {
+            let asked = ask(told).into_iter();
+            told = asked.map(|level| (level.clone(), judge.judge(&level))).collect();
+            for (level, evaluation) in &told {
+                feasible[batch * 5 / BATCHES] += usize::from(evaluation.is_feasible());
+                archive.add(level.clone(), evaluation.clone());
+            }
+        }
+        Figures { feasible, archive }
+    }
+
+    fn best(&self) -> f64 {
+        self.archive.best().map_or(0.0, |elite| elite.evaluation.objective)
+    }
+}
+
+/// Asks a search, after telling it what the judges found.
+fn asks(search: &mut impl Search<Candidate = Level>, told: Vec<(Level, Evaluation)>) -> Vec<Level> {
+    search.tell(told);
+    search.ask(BATCH)
+}
+
+/// The mean over the runs.
+fn mean(runs: &[Figures], figure: impl Fn(&Figures) -> f64) -> f64 {
+    runs.iter().map(figure).sum::<f64>() / runs.len() as f64
+}
+
+/// What was feasible by fifth of the run, the best objective, coverage, QD-score.
+fn table(name: &str, runs: &[Figures]) -> String {
+    let fifths: Vec<String> =
+        (0..5).map(|fifth| format!("{:.0}", mean(runs, |run| run.feasible[fifth] as f64))).collect();
+    let best = mean(runs, Figures::best);
+    let coverage = mean(runs, |run| run.archive.coverage());
+    let score = mean(runs, |run| run.archive.qd_score());
+    format!("{name}: feasible {}, best {best:.3}, coverage {coverage:.3}, score {score:.1}", fifths.join(" "))
+}
+
+#[test]
+#[allow(clippy::print_stderr, reason = "figures for whoever asks with --nocapture")]
+fn evolution_beats_as_many_levels_from_the_constructive_generator() {
+    let game = Game::from_source(GAME).expect("a game");
+    let analysis = Analysis::of(&game);
+    let config = LevelConfig { columns: (13, 13), rows: (9, 9), difficulty: 0.5 };
+    let variation = LevelVariation::new(&game, config).expect("levels can be made for the game");
+    let judge = Judge { measures: LevelMeasures::new(&analysis).expect("a diver can be placed") };
+    let likeness = Likeness::of(&analysis);
+    let key = |level: &Level| -> Digest { likeness.digest(level) };
+    let seeds = || (0..RUNS).map(|run| Seed::from_text("evolution").child("run", run));
+
+    let sample = |seed: Seed| {
+        let mut created = 0..;
+        let mut next = || created.by_ref().find_map(|at| variation.create(seed.child("level", at)));
+        Figures::of(&judge, |_| (0..BATCH).filter_map(|_| next()).collect())
+    };
+    let two_populations = |seed| {
+        let config = FeasibleInfeasibleConfig::default();
+        let mut search = FeasibleInfeasible::new(&variation, key, config, seed);
+        Figures::of(&judge, |told| asks(&mut search, told))
+    };
+    let elites = |seed| {
+        let mut search = MapElites::new(&variation, key, axes(), MapElitesConfig::default(), seed);
+        Figures::of(&judge, |told| asks(&mut search, told))
+    };
+    let constructive: Vec<Figures> = seeds().map(sample).collect();
+    let two_populations: Vec<Figures> = seeds().map(two_populations).collect();
+    let elites: Vec<Figures> = seeds().map(elites).collect();
+    let figures = [
+        table("constructive", &constructive),
+        table("FI-2Pop", &two_populations),
+        table("MAP-Elites", &elites),
+    ];
+    let figures = figures.join("\n");
+    eprintln!("{figures}");
+
+    for runs in [&two_populations, &elites] {
+        let gain = |figure: &dyn Fn(&Figures) -> f64| mean(runs, figure) / mean(&constructive, figure);
+        assert!(gain(&|run| run.feasible[4] as f64) > 2.0, "{figures}");
+        assert!(gain(&Figures::best) > 1.1, "{figures}");
+        assert!(gain(&|run| run.archive.coverage()) > 1.5, "{figures}");
+        assert!(gain(&|run| run.archive.qd_score()) > 2.0, "{figures}");
+    }
+}
