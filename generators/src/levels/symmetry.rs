@@ -20,8 +20,8 @@ pub struct Likeness {
     class: [u8; 128],
     /// By character: how much the cell counts where two levels differ.
     weight: [u32; 128],
-    /// By character: it is a wall.
-    wall: [bool; 128],
+    /// By character: it gives a board its shape, as walls do.
+    structure: [bool; 128],
 }
 
 impl Likeness {
@@ -38,9 +38,10 @@ impl Likeness {
             let known = palette.as_ref().is_some_and(|palette| palette.base == symbol);
             known || places(symbol).iter().all(|&stype| analysis.role(stype) == Role::Floor)
         };
-        let wall = symbols.map(|symbol| {
+        let structure = symbols.map(|symbol| {
             let known = palette.as_ref().is_some_and(|palette| palette.wall == Some(symbol));
-            known || places(symbol).iter().any(|&stype| analysis.role(stype) == Role::Wall)
+            let shapes = |role| matches!(role, Role::Wall | Role::Breakable | Role::Soil);
+            known || places(symbol).iter().any(|&stype| shapes(analysis.role(stype)))
         });
         // Blanks and characters that place nothing are the same; none is the same as outside.
         let class = symbols.map(|symbol| {
@@ -48,11 +49,11 @@ impl Likeness {
             same.unwrap_or(symbol)
         });
         let weight = symbols.map(|symbol| match () {
-            () if symbol == OUTSIDE || wall[usize::from(symbol)] => 1,
+            () if symbol == OUTSIDE || structure[usize::from(symbol)] => 1,
             () if is_ground(symbol) => 0,
             () => 2,
         });
-        Likeness { class, weight, wall }
+        Likeness { class, weight, structure }
     }
 
     /// The same for levels that are the same up to the eight symmetries of the board, and up to characters that place the same
@@ -75,10 +76,10 @@ impl Likeness {
     ///   Σ weight of the cells that differ  /  Σ weight of all cells
     /// ```
     ///
-    /// with both levels put on each other at the top left. A cell weighs 0 if both levels have ground there, or both a wall on
-    /// their border, which is but a frame; 1 if one has a wall there and neither a thing, or if it lies outside of one;
-    /// else 2. So levels that are mostly empty are alike only if the little that they have is. Symmetric in its two arguments.
-    /// Cost: O(cells).
+    /// with both levels put on each other at the top left. A cell weighs 0 if both levels have ground there, or both the same
+    /// wall on their border, which is but a frame; 1 if it is wall, soil or ground in both, or lies outside of one of them;
+    /// else 2. So levels that are mostly empty are alike only if the little that they have is. Symmetric in its two
+    /// arguments. Cost: O(cells).
     pub fn distance(&self, one: &Level, two: &Level) -> f64 {
         let (one, two) = (self.classes(one), self.classes(two));
         let turned = |fixed: &(Grid, Vec<u8>), (grid, cells): &(Grid, Vec<u8>)| {
@@ -111,8 +112,9 @@ impl Likeness {
         let (mut differing, mut all) = (0, 0);
         for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
             let ((one, one_border), (two, two_border)) = (at(grid, one, x, y), at(other_grid, two, x, y));
-            let is_wall = |symbol: u8| self.wall[usize::from(symbol)];
-            if one == two && (one == OUTSIDE || (one_border && two_border && is_wall(one))) {
+            if one == two
+                && (one == OUTSIDE || (one_border && two_border && self.structure[usize::from(one)]))
+            {
                 continue;
             }
             let weight = self.weight[usize::from(one)].max(self.weight[usize::from(two)]);
