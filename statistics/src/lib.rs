@@ -15,6 +15,8 @@ mod bootstrap;
 mod correction;
 mod difference;
 mod fisher;
+mod quantile;
+mod spearman;
 mod summary;
 mod wilson;
 
@@ -22,5 +24,7 @@ pub use bootstrap::bootstrap;
 pub use correction::benjamini_hochberg;
 pub use difference::difference;
 pub use fisher::fisher;
+pub use quantile::quantile;
+pub use spearman::spearman;
 pub use summary::Summary;
 pub use wilson::{Interval, Z95, wilson};

@@ -10,6 +10,7 @@ mod improve;
 mod look;
 mod make;
 mod order;
+pub mod report;
 
 pub use make::{Cost, LevelSet, LevelsError, MadeLevel, Progress, make_levels};
 pub use order::{Effort, LevelOrder, Method};

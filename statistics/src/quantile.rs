@@ -1,0 +1,48 @@
+//! Quantiles of a sample (R. J. Hyndman and Y. Fan, "Sample quantiles in statistical packages", 1996, definition 7).
+
+/// The quantile of `values` at `share` (0.5: the median): the value of rank `share · (n − 1)` from below, counted from 0, on a
+/// straight line between neighbours. `None` without values, or if one is not finite. Cost: O(n log n) and one copy.
+///
+/// # Panics
+/// If `share` is not within 0..=1.
+///
+/// ```
+/// assert_eq!(statistics::quantile(&[4.0, 1.0, 2.0], 0.25), Some(1.5));
+/// ```
+pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
+    assert!((0.0..=1.0).contains(&share), "the share is {share}");
+    if values.is_empty() || !values.iter().all(|value| value.is_finite()) {
+        return None;
+    }
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let rank = share * (sorted.len() - 1) as f64;
+    let below = (rank as usize).min(sorted.len() - 1);
+    let above = (below + 1).min(sorted.len() - 1);
+    let (low, high) = (sorted[below], sorted[above]);
+    // Beyond the neighbours is a rounding error.
+    Some((low + (rank - below as f64) * (high - low)).clamp(low, high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_between_values_are_interpolated() {
+        let values = [30.0, 10.0, 20.0, 40.0, 50.0];
+        for (share, expect) in [(0.0, 10.0), (0.25, 20.0), (0.4, 26.0), (0.5, 30.0), (0.9, 46.0), (1.0, 50.0)]
+        {
+            let found = quantile(&values, share).unwrap();
+            assert!((found - expect).abs() < 1e-12, "{share}: {found}");
+        }
+        assert_eq!(quantile(&[7.0], 0.3), Some(7.0));
+        assert_eq!(quantile(&[1.0, 2.0], 0.5), Some(1.5));
+    }
+
+    #[test]
+    fn nothing_known() {
+        assert_eq!(quantile(&[], 0.5), None);
+        assert_eq!(quantile(&[1.0, f64::NAN], 0.5), None);
+    }
+}
