@@ -1,0 +1,156 @@
+//! The page: one HTML file that needs nothing else.
+
+use super::boards::{Board, Boards};
+use super::sections::{self, Fact, Section};
+use super::{Pictures, plots, words};
+use crate::failure::Failure;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use minijinja::Environment;
+use minijinja::value::{Serde, Value};
+use serde::Serialize;
+use snapshots::levels::report::{BINS, Control, LevelRow, LevelSetReport, Range};
+
+const TEMPLATE: &str = include_str!("page.html");
+
+/// A picture in the page.
+#[derive(Serialize)]
+struct Figure<'a> {
+    png: String,
+    size: [u32; 2],
+    head: &'a str,
+    line: &'a str,
+}
+
+impl Figure<'_> {
+    fn of(board: &Board) -> Figure<'_> {
+        Figure { png: STANDARD.encode(&board.png), size: board.size, head: &board.head, line: &board.line }
+    }
+}
+
+/// A heat map in the page.
+#[derive(Serialize)]
+struct Heat {
+    svg: String,
+    caption: String,
+}
+
+/// Asked against measured.
+#[derive(Serialize)]
+struct Confusion {
+    labels: Vec<String>,
+    rows: Vec<(String, Vec<u64>)>,
+    pool: Vec<u64>,
+}
+
+impl Confusion {
+    /// The labels that were asked for, as rows.
+    fn of(control: &Control) -> Confusion {
+        let labels: Vec<String> = control.labels.iter().map(ToString::to_string).collect();
+        let asked = |row: &(String, Vec<u64>)| row.1.iter().sum::<u64>() > 0;
+        let rows = labels.iter().cloned().zip(control.table.iter().cloned()).filter(asked).collect();
+        Confusion { rows, pool: control.pool.clone(), labels }
+    }
+}
+
+/// The table of all levels.
+#[derive(Serialize)]
+struct Table {
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn of(rows: &[LevelRow]) -> Table {
+        let mut measures: Vec<&String> = Vec::new();
+        for name in rows.iter().flat_map(|row| row.measures.keys()) {
+            if !measures.contains(&name) {
+                measures.push(name);
+            }
+        }
+        let (some_asked, some_label) =
+            (rows.iter().any(|row| row.asked.is_some()), rows.iter().any(|row| row.label.is_some()));
+        let mut columns: Vec<String> = ["", "size", "verdict"].map(str::to_owned).to_vec();
+        columns.extend(some_asked.then(|| "asked".to_owned()));
+        columns.extend(some_label.then(|| "measured".to_owned()));
+        columns.extend(measures.iter().map(|name| (*name).clone()));
+        columns.extend(["shortest", "nearest", "digest"].map(str::to_owned));
+        let row = |(at, row): (usize, &LevelRow)| {
+            let verdict = match &row.obstacle {
+                None if row.passes => "passes".to_owned(),
+                None => row.solved.clone(),
+                Some(obstacle) if obstacle == "winnable" => row.solved.clone(),
+                Some(obstacle) => format!("not {obstacle}"),
+            };
+            let none = || words::NONE.to_owned();
+            let mut cells = vec![at.to_string(), format!("{} × {}", row.columns, row.rows), verdict];
+            cells.extend(some_asked.then(|| words::label(row.asked)));
+            cells.extend(some_label.then(|| words::label(row.label)));
+            cells.extend(
+                measures
+                    .iter()
+                    .map(|name| row.measures.get(*name).map_or_else(none, |value| words::short(*value))),
+            );
+            cells.push(row.shortest.map_or_else(none, |ticks| ticks.to_string()));
+            cells.push(row.nearest.map_or_else(none, words::short));
+            cells.push(row.digest.short());
+            cells
+        };
+        Table { columns, rows: rows.iter().enumerate().map(row).collect() }
+    }
+}
+
+/// All that the template shows.
+#[derive(Serialize)]
+struct Page<'a> {
+    title: &'a str,
+    method: &'a str,
+    count: u64,
+    digest: String,
+    semantics: u32,
+    generation: u32,
+    seconds: Option<String>,
+    headlines: Vec<Fact>,
+    levels: Vec<Figure<'a>>,
+    /// Levels without a picture.
+    left_out: u64,
+    examples: Vec<Figure<'a>>,
+    heats: Vec<Heat>,
+    confusion: Option<Confusion>,
+    sections: Vec<Section>,
+    table: Table,
+}
+
+/// The page. The same arguments give the same bytes.
+pub(super) fn render(
+    report: &LevelSetReport,
+    pictures: &Pictures<'_>,
+    boards: &Boards,
+) -> Result<String, Failure> {
+    let heat = |range: &Range| {
+        let caption = format!("{} of {} cells hold a level", range.occupied, BINS * BINS);
+        Heat { svg: plots::heat_map(range), caption }
+    };
+    let page = Page {
+        title: pictures.title,
+        method: &report.method,
+        count: report.count,
+        digest: report.game.short(),
+        semantics: report.semantics,
+        generation: report.generation,
+        seconds: pictures.seconds.map(words::short),
+        headlines: sections::headlines(report),
+        levels: boards.levels.iter().map(Figure::of).collect(),
+        left_out: report.count - boards.levels.len() as u64,
+        examples: boards.examples.iter().map(Figure::of).collect(),
+        heats: report.ranges.iter().map(heat).collect(),
+        confusion: report.control.as_ref().map(Confusion::of),
+        sections: sections::all(report),
+        table: Table::of(&report.levels),
+    };
+    let mut environment = Environment::new();
+    let added = environment.add_template("page.html", TEMPLATE);
+    let rendered =
+        added.and_then(|()| environment.get_template("page.html")?.render(Value::from(Serde(&page))));
+    rendered.map_err(|error| Failure::surroundings(error, "the page of the report"))
+}

@@ -1,0 +1,95 @@
+//! Figures as people read them.
+
+use snapshots::levels::report::{Estimate, Quantiles, Share};
+use validators::Difficulty;
+
+/// `95 %`; of nothing, a dash.
+pub(super) fn percent(share: &Share) -> String {
+    if share.of == 0 { NONE.to_owned() } else { rounded(100.0 * share.share(), " %") }
+}
+
+/// `19 of 20`.
+pub(super) fn counted(share: &Share) -> String {
+    format!("{} of {}", share.count, share.of)
+}
+
+/// `76 to 99 %`; of nothing, nothing.
+pub(super) fn band(share: &Share) -> String {
+    let [low, high] = share.interval.map(|end| 100.0 * end);
+    if share.of == 0 { String::new() } else { format!("{low:.0} to {high:.0} %") }
+}
+
+/// `+0.31`.
+pub(super) fn signed(estimate: &Estimate) -> String {
+    format!("{:+.2}", estimate.mean)
+}
+
+/// `+0.20 to +0.42`.
+pub(super) fn signed_band(estimate: &Estimate) -> String {
+    let [low, high] = estimate.interval;
+    format!("{low:+.2} to {high:+.2}")
+}
+
+/// `0.31`.
+pub(super) fn mean(estimate: &Estimate) -> String {
+    format!("{:.2}", estimate.mean)
+}
+
+/// `0.20 to 0.42`.
+pub(super) fn mean_band(estimate: &Estimate) -> String {
+    let [low, high] = estimate.interval;
+    format!("{low:.2} to {high:.2}")
+}
+
+/// Least, lower quartile, median, upper quartile and greatest.
+pub(super) fn five(quantiles: &Quantiles) -> [String; 5] {
+    let Quantiles { min, lower, median, upper, max, .. } = *quantiles;
+    [min, lower, median, upper, max].map(short)
+}
+
+/// A count without decimals, anything else with as many as tell it from its neighbours.
+pub(super) fn short(value: f64) -> String {
+    let decimals = if value.fract() == 0.0 || value.abs() >= 100.0 {
+        0
+    } else if value.abs() >= 10.0 {
+        1
+    } else {
+        2
+    };
+    format!("{value:.decimals$}")
+}
+
+/// `12 345 678`.
+pub(super) fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let first = digits.len() % 3;
+    let (head, tail) = digits.split_at(first);
+    let groups = (0..tail.len() / 3).map(|group| &tail[3 * group..3 * group + 3]);
+    std::iter::once(head).filter(|head| !head.is_empty()).chain(groups).collect::<Vec<_>>().join("\u{202f}")
+}
+
+/// A difficulty, or a dash.
+pub(super) fn label(difficulty: Option<Difficulty>) -> String {
+    difficulty.map_or(NONE.to_owned(), |label| label.to_string())
+}
+
+/// What stands where there is nothing to tell.
+pub(super) const NONE: &str = "–";
+
+fn rounded(value: f64, unit: &str) -> String {
+    format!("{value:.0}{unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_short() {
+        let share = |count, of| Share { count, of, interval: [0.764, 0.991] };
+        assert_eq!((percent(&share(19, 20)), band(&share(19, 20))), ("95 %".into(), "76 to 99 %".into()));
+        assert_eq!((percent(&share(0, 0)), band(&share(0, 0))), (NONE.into(), String::new()));
+        assert_eq!([3.0, 0.3333, 12.25, 123.4].map(short), ["3", "0.33", "12.2", "123"]);
+        assert_eq!([7, 1000, 12_345_678].map(grouped), ["7", "1\u{202f}000", "12\u{202f}345\u{202f}678"]);
+    }
+}
