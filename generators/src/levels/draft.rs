@@ -1,7 +1,7 @@
 //! A level that is being edited: its characters, what they are for, and whether an edit has spoilt anything.
 
 use super::constructive::ConstructiveLevels;
-use super::grid::{FAR, Grid};
+use super::grid::{FAR, Grid, WAYS};
 use super::palette::holds_avatar;
 use crate::Generator;
 use engine::analysis::{Harm, Reason, Role};
@@ -105,12 +105,17 @@ pub(crate) struct Faults {
     pub(crate) stranded: usize,
     /// How much too close what harms is to the avatar.
     pub(crate) crowded: usize,
+    /// Blocks of wall by themselves, and gates that stand in the open.
+    pub(crate) untidy: usize,
 }
 
 impl Faults {
     /// None is worse than there.
     pub(crate) fn no_worse_than(&self, other: &Faults) -> bool {
-        self.amiss <= other.amiss && self.stranded <= other.stranded && self.crowded <= other.crowded
+        self.amiss <= other.amiss
+            && self.stranded <= other.stranded
+            && self.crowded <= other.crowded
+            && self.untidy <= other.untidy
     }
 
     /// The worse of each.
@@ -119,6 +124,7 @@ impl Faults {
             amiss: self.amiss.max(other.amiss),
             stranded: self.stranded.max(other.stranded),
             crowded: self.crowded.max(other.crowded),
+            untidy: self.untidy.max(other.untidy),
         }
     }
 }
@@ -202,7 +208,12 @@ impl<'v> Draft<'v> {
 
     /// What is wrong with it.
     pub(crate) fn faults(&self) -> Faults {
-        Faults { amiss: self.amiss(), stranded: self.stranded().len(), crowded: self.crowded() }
+        Faults {
+            amiss: self.amiss(),
+            stranded: self.stranded().len(),
+            crowded: self.crowded(),
+            untidy: self.untidy(),
+        }
     }
 
     fn amiss(&self) -> usize {
@@ -261,6 +272,35 @@ impl<'v> Draft<'v> {
         harmful.map(|cell| RESPECT.saturating_sub(self.grid.manhattan(cell, avatar))).sum()
     }
 
+    fn untidy(&self) -> usize {
+        let lonely = |cell: usize| {
+            let mut around = self.grid.around(cell).into_iter();
+            around.all(|next| next.is_some_and(|next| !self.is_wall(next)))
+        };
+        let untidy = |&cell: &usize| match self.kind(cell) {
+            Kind::Wall => lonely(cell),
+            Kind::Thing(Role::Gate) => !self.is_between(cell),
+            _ => false,
+        };
+        (0..self.grid.len()).filter(untidy).count()
+    }
+
+    /// What is wall beside a cell, in the order of [`WAYS`]; so is what lies off the board.
+    pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
+        WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_wall(next)))
+    }
+
+    /// Whether there is wall on two opposite sides of it and none on the others.
+    pub(crate) fn is_between(&self, cell: usize) -> bool {
+        matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
+    }
+
+    /// Whether a character may lie on that ground: gates want walls to both sides.
+    pub(crate) fn suits(&self, symbol: u8, cell: usize) -> bool {
+        let gate = self.words.kind(symbol) == Kind::Thing(Role::Gate);
+        self.is_ground(cell) && (!gate || self.is_between(cell))
+    }
+
     /// Opens walls to what cannot be reached, along the fewest walls, and fills small empty pockets.
     pub(crate) fn open_ways(&mut self) {
         let Some(wall) = self.levels.palette.wall else { return };
@@ -313,7 +353,7 @@ impl<'v> Draft<'v> {
             while count < low || count > high {
                 let surplus = count > high;
                 let cells = self.cells_where(|draft, cell| {
-                    if surplus { draft.cells[cell] == symbol } else { draft.is_ground(cell) }
+                    if surplus { draft.cells[cell] == symbol } else { draft.suits(symbol, cell) }
                 });
                 if cells.is_empty() {
                     break;

@@ -52,10 +52,10 @@ const EDITS: [(Edit, u32); 13] = [
     (Edit::Remove, 3),
     (Edit::Swap, 2),
     (Edit::Restart, 2),
-    (Edit::Extend, 3),
-    (Edit::Shorten, 3),
+    (Edit::Extend, 4),
+    (Edit::Shorten, 2),
     (Edit::Open, 2),
-    (Edit::Close, 2),
+    (Edit::Close, 3),
     (Edit::Shift, 3),
     (Edit::Mirror, 1),
     (Edit::Regrow, 1),
@@ -104,8 +104,10 @@ impl Draft<'_> {
             Edit::Restart => self.restart(sampler),
             Edit::Extend => self.toggle(sampler, Draft::extends),
             Edit::Shorten => self.toggle(sampler, Draft::is_end),
-            Edit::Open => self.toggle(sampler, |draft, cell| draft.is_wall(cell) && draft.divides(cell)),
-            Edit::Close => self.toggle(sampler, |draft, cell| draft.is_ground(cell) && draft.is_gap(cell)),
+            Edit::Open => self.toggle(sampler, |draft, cell| draft.is_wall(cell) && draft.is_between(cell)),
+            Edit::Close => {
+                self.toggle(sampler, |draft, cell| draft.is_ground(cell) && draft.is_between(cell))
+            }
             Edit::Shift => self.shift(sampler),
             Edit::Mirror => self.mirror(sampler),
             Edit::Regrow => self.regrow(sampler),
@@ -122,7 +124,7 @@ impl Draft<'_> {
                 Some(_) => grid.x(cell) == grid.x(thing),
                 None => grid.manhattan(cell, thing) <= NEAR,
             };
-            in_lane && draft.is_ground(cell)
+            in_lane && draft.suits(draft.cells[thing], cell)
         });
         self.exchange(thing, pick(&cells, sampler)?);
         Some(())
@@ -141,8 +143,8 @@ impl Draft<'_> {
 
     fn carry(&mut self, sampler: &mut Sampler) -> Option<()> {
         let thing = pick(&self.things(), sampler)?;
-        let cell = pick(&self.cells_where(Draft::is_ground), sampler)?;
-        self.exchange(thing, cell);
+        let cells = self.cells_where(|draft, cell| draft.suits(draft.cells[thing], cell));
+        self.exchange(thing, pick(&cells, sampler)?);
         Some(())
     }
 
@@ -167,7 +169,7 @@ impl Draft<'_> {
         let near = sampler.ratio(1, 2) && !like.is_empty();
         let cells = self.cells_where(|draft, cell| {
             let close = || like.iter().any(|&other| draft.grid.manhattan(other, cell) <= NEAR);
-            draft.is_ground(cell) && (!near || close())
+            draft.suits(symbol, cell) && (!near || close())
         });
         let cell = pick(&cells, sampler)?;
         self.cells[cell] = symbol;
@@ -272,11 +274,6 @@ impl Draft<'_> {
         Symmetry::ALL.into_iter().find(holds).filter(|_| inner >= 4)
     }
 
-    /// What is wall around a cell, in the order of [`WAYS`]; so is what lies off the board.
-    fn walls_beside(&self, cell: usize) -> [bool; 4] {
-        WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_wall(next)))
-    }
-
     /// Ground ahead of the end of a line, with nothing to its sides.
     fn extends(&self, cell: usize) -> bool {
         self.is_ground(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() == 1
@@ -285,16 +282,6 @@ impl Draft<'_> {
     /// The end of a line, or a block by itself.
     fn is_end(&self, cell: usize) -> bool {
         self.is_wall(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() <= 1
-    }
-
-    /// Wall with something open on two opposite sides and wall on the others.
-    fn divides(&self, cell: usize) -> bool {
-        matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
-    }
-
-    /// Open, between two walls.
-    fn is_gap(&self, cell: usize) -> bool {
-        self.divides(cell)
     }
 
     fn shift(&mut self, sampler: &mut Sampler) -> Option<()> {

@@ -17,7 +17,7 @@ const ATTEMPTS: usize = 12;
 ///
 /// Whatever comes out is a level: one avatar, the size and the closed border of the parent, no termination that holds at the
 /// start, and no fault that its parents had not: what the game requires is there, numbers are as usual, no cell is cut off,
-/// nothing that harms stands right beside the avatar. Walls that were symmetrical mostly stay so. Nothing is judged here:
+/// nothing that harms stands right beside the avatar, no gate in the open, no block of wall by itself. Walls that were symmetrical mostly stay so. Nothing is judged here:
 /// whether a level can be won is for others to say.
 ///
 /// Cost: some tens of microseconds for a mutation of a level of usual size.
