@@ -1,0 +1,185 @@
+//! Breadth-first search backwards from all solved positions: how far each position is from being solved.
+
+use super::yard::{Position, Pushing, bit, each};
+use crate::levels::grid::{Grid, WAYS};
+
+/// Not known.
+const NONE: u32 = u32::MAX;
+
+/// Positions that have been met, in the order in which they were, with their distances.
+#[derive(Default)]
+pub(crate) struct Met {
+    positions: Vec<Position>,
+    distances: Vec<u16>,
+    /// Open addressing: indices of positions; a power of two of them.
+    slots: Vec<u32>,
+    /// All that can be reached has been met.
+    pub(crate) complete: bool,
+}
+
+impl Met {
+    pub(crate) fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// All of them, nearest first, each with its distance.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&Position, usize)> {
+        self.positions
+            .iter()
+            .zip(&self.distances)
+            .map(|(position, &distance)| (position, usize::from(distance)))
+    }
+
+    pub(crate) fn distance(&self, position: &Position) -> Option<usize> {
+        let at = self.slots.get(self.slot(position)).copied().filter(|&at| at != NONE)?;
+        Some(usize::from(self.distances[at as usize]))
+    }
+
+    /// Where it is, or belongs.
+    fn slot(&self, position: &Position) -> usize {
+        let mask = self.slots.len().wrapping_sub(1);
+        let mut slot = hash(position) as usize & mask;
+        while let Some(&at) = self.slots.get(slot) {
+            if at == NONE || self.positions[at as usize] == *position {
+                break;
+            }
+            slot = (slot + 1) & mask;
+        }
+        slot
+    }
+
+    fn insert(&mut self, position: Position, distance: u16) {
+        if self.positions.len() * 2 >= self.slots.len() {
+            self.grow();
+        }
+        let slot = self.slot(&position);
+        if self.slots[slot] == NONE {
+            self.slots[slot] = self.positions.len() as u32;
+            self.positions.push(position);
+            self.distances.push(distance);
+        }
+    }
+
+    fn grow(&mut self) {
+        self.slots = vec![NONE; (self.slots.len() * 4).max(1 << 12)];
+        for at in 0..self.positions.len() {
+            let slot = self.slot(&self.positions[at]);
+            self.slots[slot] = at as u32;
+        }
+    }
+}
+
+fn hash(position: &Position) -> u64 {
+    let mut hash = u64::from(position.avatar);
+    for cells in [position.things[0], position.things[1], position.targets] {
+        for half in [cells as u64, (cells >> 64) as u64] {
+            hash = (hash.rotate_left(23) ^ half).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        }
+    }
+    hash ^ hash >> 29
+}
+
+impl Pushing<'_> {
+    /// The least number of pushes from each position, the avatar taken as anywhere where it can walk to: its cell is the
+    /// first of those. At most `most` positions are looked at; then the farthest ones are left out.
+    ///
+    /// Cost: O(positions × things), about a microsecond for each position.
+    pub(crate) fn by_pushes(&self, most: usize) -> Met {
+        let mut met = Met::default();
+        for solved in self.solved() {
+            let mut open = self.stands(&solved);
+            while open != 0 {
+                let region = self.flood(open & open.wrapping_neg(), open);
+                met.insert(Position { avatar: region.trailing_zeros() as u8, ..solved }, 0);
+                open &= !region;
+            }
+        }
+        let strides = self.strides();
+        let mut at = 0;
+        while let Some(&position) = met.positions.get(at) {
+            if met.len() > most {
+                return met;
+            }
+            let depth = met.distances[at].saturating_add(1);
+            at += 1;
+            let region = self.flood(bit(position.avatar.into()), self.stands(&position));
+            let ends = self.ends(&position);
+            for stride in strides {
+                let beside = if stride < 0 { ends >> -stride } else { ends << stride };
+                for near in each(region & beside) {
+                    self.before(&position, near, stride, &mut |before| {
+                        let region = self.flood(bit(before.avatar.into()), self.stands(&before));
+                        met.insert(Position { avatar: region.trailing_zeros() as u8, ..before }, depth);
+                    });
+                }
+            }
+        }
+        met.complete = true;
+        met
+    }
+
+    /// The least number of the avatar's steps from each position.
+    pub(crate) fn by_steps(&self, most: usize) -> Met {
+        let mut met = Met::default();
+        for solved in self.solved() {
+            for avatar in each(self.stands(&solved)) {
+                met.insert(Position { avatar: avatar as u8, ..solved }, 0);
+            }
+        }
+        let strides = self.strides();
+        let mut at = 0;
+        while let Some(&position) = met.positions.get(at) {
+            if met.len() > most {
+                return met;
+            }
+            let steps = met.distances[at].saturating_add(1);
+            at += 1;
+            let avatar = usize::from(position.avatar);
+            let stands = self.stands(&position);
+            for stride in strides {
+                let from = avatar.wrapping_add_signed(stride);
+                if from < self.yard.grid.len() && stands & bit(from) != 0 {
+                    met.insert(Position { avatar: from as u8, ..position }, steps);
+                }
+                self.before(&position, avatar, stride, &mut |before| met.insert(before, steps));
+            }
+        }
+        met.complete = true;
+        met
+    }
+
+    /// Steps of the avatar that solve a position with the fewest pushes, walking little before each of them. `pushes` comes
+    /// from [`Pushing::by_pushes`]; none if it does not hold the position.
+    pub(crate) fn solution(&self, pushes: &Met, start: Position) -> Option<Vec<(i32, i32)>> {
+        let grid = self.yard.grid;
+        let distance = |position: &Position| {
+            let region = self.flood(bit(position.avatar.into()), self.stands(position));
+            pushes.distance(&Position { avatar: region.trailing_zeros() as u8, ..*position })
+        };
+        let mut position = start;
+        let mut left = distance(&position)?;
+        let mut ways = Vec::new();
+        while left > 0 {
+            let avatar = usize::from(position.avatar);
+            let stands = self.stands(&position);
+            let steps = grid.flood(&[avatar], |cell| stands & bit(cell) != 0);
+            let region = each(self.flood(bit(avatar), stands));
+            let options = region.flat_map(|from| WAYS.map(|way| (from, way))).filter_map(|(from, way)| {
+                let near = grid.shift(from, way).filter(|&near| position.taken() & bit(near) != 0)?;
+                let stride = near as isize - from as isize;
+                let after = self.step(&Position { avatar: from as u8, ..position }, stride)?;
+                (distance(&after) == Some(left - 1)).then_some((from, way, after))
+            });
+            let (from, way, after) = options.min_by_key(|(from, ..)| steps[*from])?;
+            let walk = grid.way(avatar, from, |cell| stands & bit(cell) != 0)?;
+            for pair in walk.windows(2) {
+                let step =
+                    |axis: fn(Grid, usize) -> usize| axis(grid, pair[1]) as i32 - axis(grid, pair[0]) as i32;
+                ways.push((step(Grid::x), step(Grid::y)));
+            }
+            ways.push(way);
+            (position, left) = (after, left - 1);
+        }
+        Some(ways)
+    }
+}

@@ -1,0 +1,234 @@
+//! Floor plans for puzzles: drawn, changed a little, and rated by how far from solved their farthest position is.
+
+use super::rules::{Home, KINDS, Rules};
+use super::yard::{Cells, Position, Pushing, Yard, bit, each};
+use crate::levels::edits::pick;
+use crate::levels::grid::{Grid, WAYS};
+use crate::{Evaluation, Variation};
+use engine::{Sampler, Seed};
+
+/// Positions looked at for the rating of a floor plan.
+const MOST_POSITIONS: usize = 60_000;
+/// How far apart targets of a group are at most, in cells.
+const GROUP: usize = 2;
+/// A rating of 1.0 stands for so many pushes.
+const PERFECT: f64 = 120.0;
+/// Draws of a change before a floor plan is given back as it was.
+const REDRAWS: usize = 40;
+
+/// Floor plans of one size, for so many things.
+pub(crate) struct FloorPlans<'a> {
+    pub(crate) rules: &'a Rules,
+    pub(crate) grid: Grid,
+    pub(crate) counts: [usize; KINDS],
+}
+
+impl FloorPlans<'_> {
+    fn inner(&self) -> Vec<usize> {
+        (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
+    }
+
+    /// How many targets there are.
+    fn homes(&self) -> usize {
+        if self.rules.target.is_some() { self.counts[0] } else { 0 }
+    }
+
+    /// Rooms and corridors that hang together, and targets in a group.
+    fn draw(&self, sampler: &mut Sampler) -> Option<Yard> {
+        let (columns, rows) = (self.grid.columns - 2, self.grid.rows - 2);
+        let mut open: Cells = 0;
+        let wanted = columns * rows * sampler.between(52, 72) / 100;
+        for _ in 0..60 {
+            if open.count_ones() as usize >= wanted {
+                break;
+            }
+            // Corridors are one cell wide, rooms two or three.
+            let (long, wide) = if sampler.ratio(1, 2) { (5, 1) } else { (4, 3) };
+            let (long, wide) = (sampler.between(2, long), sampler.between(wide.min(2), wide));
+            let (width, height) = if sampler.ratio(1, 2) { (long, wide) } else { (wide, long) };
+            let (width, height) = (width.min(columns), height.min(rows));
+            let left = sampler.between(1, columns - width + 1);
+            let top = sampler.between(1, rows - height + 1);
+            let mut piece: Cells = 0;
+            for y in top..top + height {
+                (left..left + width).for_each(|x| piece |= bit(self.grid.at(x, y)));
+            }
+            let touches = each(piece).any(|cell| self.grid.beside(cell).any(|next| open & bit(next) != 0));
+            if open == 0 || touches || piece & open != 0 {
+                open |= piece;
+            }
+        }
+        let mut yard = Yard { grid: self.grid, wall: self.wall_of(open), targets: 0, counts: self.counts };
+        for _ in 0..self.homes() {
+            let cells: Vec<usize> =
+                each(open & !yard.targets).filter(|&cell| self.joins(&yard, cell)).collect();
+            yard.targets |= bit(pick(&cells, sampler)?);
+        }
+        self.is_fair(&yard).then_some(yard)
+    }
+
+    fn wall_of(&self, open: Cells) -> Cells {
+        (0..self.grid.len()).filter(|&cell| open & bit(cell) == 0).map(bit).sum()
+    }
+
+    /// Whether a target at the cell is one of the group.
+    fn joins(&self, yard: &Yard, cell: usize) -> bool {
+        yard.targets == 0 || each(yard.targets).any(|other| self.grid.manhattan(cell, other) <= GROUP)
+    }
+
+    /// Whether it hangs together and has room.
+    fn is_fair(&self, yard: &Yard) -> bool {
+        let pushing = Pushing { yard, rules: self.rules };
+        let open = pushing.stands(&Position::default());
+        let things: usize = self.counts.iter().sum();
+        let first = open & open.wrapping_neg();
+        let grouped = each(yard.targets).all(|cell| {
+            let others = Yard { targets: yard.targets & !bit(cell), ..yard.clone() };
+            self.joins(&others, cell)
+        });
+        open.count_ones() as usize >= 3 * things + 5
+            && yard.targets & yard.wall == 0
+            && yard.targets.count_ones() as usize == self.homes()
+            && grouped
+            && pushing.flood(first, open) == open
+    }
+
+    /// A small change: a wall goes or comes, a wall moves, a target moves, or all do.
+    fn change(&self, yard: &Yard, sampler: &mut Sampler) -> Option<Yard> {
+        let mut next = yard.clone();
+        let inner = self.inner();
+        let wall = |yard: &Yard, cell: usize| yard.wall & bit(cell) != 0;
+        // Where wall and floor meet.
+        let edge = |yard: &Yard, walls: bool| -> Vec<usize> {
+            let meets = |&cell: &usize| {
+                wall(yard, cell) == walls
+                    && yard.targets & bit(cell) == 0
+                    && self.grid.beside(cell).any(|next| wall(yard, next) != walls)
+            };
+            inner.iter().copied().filter(meets).collect()
+        };
+        match sampler.weighted(&[3, 3, 4, 3, 1])? {
+            0 => next.wall ^= bit(pick(&edge(yard, true), sampler)?),
+            1 => next.wall ^= bit(pick(&edge(yard, false), sampler)?),
+            2 => {
+                next.wall ^= bit(pick(&edge(yard, true), sampler)?);
+                next.wall ^= bit(pick(&edge(yard, false), sampler)?);
+            }
+            3 => {
+                let targets: Vec<usize> = each(yard.targets).collect();
+                next.targets &= !bit(pick(&targets, sampler)?);
+                let free = |&cell: &usize| !wall(yard, cell) && yard.targets & bit(cell) == 0;
+                let cells: Vec<usize> = inner.iter().copied().filter(free).collect();
+                next.targets |= bit(pick(&cells, sampler)?);
+            }
+            _ => {
+                let way = *sampler.choose(&WAYS);
+                next.targets = 0;
+                for target in each(yard.targets) {
+                    next.targets |= bit(self.grid.shift(target, way)?);
+                }
+            }
+        }
+        self.is_fair(&next).then_some(next)
+    }
+
+    /// How many pushes its farthest position takes.
+    pub(crate) fn depth(&self, yard: &Yard) -> usize {
+        let pushing = Pushing { yard, rules: self.rules };
+        let met = pushing.by_pushes(MOST_POSITIONS);
+        let starts = met.iter().filter(|(position, _)| pushing.is_start(position));
+        starts.map(|(_, pushes)| pushes).max().unwrap_or(0)
+    }
+
+    /// The pushes that it takes, less what looks careless: halls, and blocks of wall by themselves.
+    pub(crate) fn rate(&self, yard: &Yard) -> Evaluation {
+        let depth = self.depth(yard);
+        let objective = (depth as f64 - self.blemishes(yard)).max(0.0) / PERFECT;
+        Evaluation {
+            feasibility: if depth > 0 { 1.0 } else { 0.5 },
+            objective: objective.min(1.0),
+            measures: Vec::new(),
+        }
+    }
+
+    /// In pushes: what it has to gain by them.
+    fn blemishes(&self, yard: &Yard) -> f64 {
+        let is_wall = |cell: Option<usize>| cell.is_none_or(|cell| yard.wall & bit(cell) != 0);
+        let inner = self.inner();
+        let halls = inner.iter().filter(|&&cell| {
+            !is_wall(Some(cell)) && self.grid.around(cell).into_iter().all(|next| !is_wall(next))
+        });
+        let crumbs = inner
+            .iter()
+            .filter(|&&cell| is_wall(Some(cell)) && self.grid.beside(cell).all(|next| !is_wall(Some(next))));
+        1.5 * halls.count() as f64 + crumbs.count() as f64
+    }
+
+    /// Floor that no way to the solution needs becomes wall, and walls by themselves go, as long as the farthest position
+    /// stays as far.
+    pub(crate) fn tidy(&self, yard: &Yard) -> Yard {
+        let mut best = yard.clone();
+        let mut depth = self.depth(&best);
+        for cell in self.inner() {
+            let beside = self.grid.beside(cell).filter(|&next| best.wall & bit(next) != 0).count();
+            let is_wall = best.wall & bit(cell) != 0;
+            let idle = if is_wall { beside == 0 } else { beside >= 2 && best.targets & bit(cell) == 0 };
+            if !idle {
+                continue;
+            }
+            let next = Yard { wall: best.wall ^ bit(cell), ..best.clone() };
+            if self.is_fair(&next) {
+                let found = self.depth(&next);
+                if found >= depth {
+                    (best, depth) = (next, found);
+                }
+            }
+        }
+        best
+    }
+
+    /// Whether things come in pairs.
+    pub(crate) fn counts_of(rules: &Rules, things: usize) -> [usize; KINDS] {
+        if rules.home == Home::Partner { [(things / 2).max(1); KINDS] } else { [things, 0] }
+    }
+}
+
+impl Variation for FloorPlans<'_> {
+    type Candidate = Yard;
+
+    fn create(&self, seed: Seed) -> Option<Yard> {
+        (0..20).find_map(|draw| self.draw(&mut seed.child("floor", draw).sampler()))
+    }
+
+    fn mutate(&self, parent: &Yard, sampler: &mut Sampler) -> Yard {
+        let changes = if sampler.ratio(1, 3) { 2 } else { 1 };
+        let mut yard = parent.clone();
+        for _ in 0..changes {
+            let next = (0..REDRAWS).find_map(|_| self.change(&yard, sampler));
+            yard = next.unwrap_or(yard);
+        }
+        yard
+    }
+
+    /// One half of each.
+    fn cross(&self, one: &Yard, two: &Yard, sampler: &mut Sampler) -> Yard {
+        for _ in 0..REDRAWS {
+            let across = sampler.ratio(1, 2);
+            let half = |&cell: &usize| {
+                if across {
+                    2 * self.grid.x(cell) < self.grid.columns
+                } else {
+                    2 * self.grid.y(cell) < self.grid.rows
+                }
+            };
+            let mask: Cells = (0..self.grid.len()).filter(half).map(bit).sum();
+            let wall = one.wall & mask | two.wall & !mask;
+            let targets = if sampler.ratio(1, 2) { one.targets } else { two.targets };
+            let child = Yard { wall: wall & !targets, targets, ..one.clone() };
+            if self.is_fair(&child) {
+                return child;
+            }
+        }
+        self.mutate(one, sampler)
+    }
+}

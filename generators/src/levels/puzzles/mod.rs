@@ -1,0 +1,10 @@
+//! Puzzles of pushed things, made backwards: all positions from which a floor plan can be solved are searched, and the
+//! farthest one is the level.
+
+mod backward;
+mod floor;
+mod rules;
+mod variation;
+mod yard;
+
+pub use variation::{PuzzleConfig, PuzzleVariation};

@@ -1,0 +1,134 @@
+//! What pushing means in a game, for those in which it is all that a win takes.
+
+use crate::GenerateError;
+use crate::levels::palette::{Palette, Walk};
+use engine::analysis::{Condition, Fate, Role, Sink, Steering};
+use engine::{Analysis, SpriteType};
+
+/// Kinds of pushed things at most.
+pub(crate) const KINDS: usize = 2;
+
+/// Where a thing has to be pushed to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Home {
+    /// Onto a target, where it vanishes; the target remains.
+    Sink,
+    /// Onto a target, and both vanish.
+    Hole,
+    /// Onto a target, where it can be pushed on from.
+    Place,
+    /// Onto a thing of the other kind, and both vanish.
+    Partner,
+}
+
+/// The rules of pushing.
+#[derive(Clone, Debug)]
+pub(crate) struct Rules {
+    /// What is pushed: one kind; two if they go together.
+    pub(crate) kinds: Vec<SpriteType>,
+    pub(crate) home: Home,
+    /// The type of the targets; none: things go onto things.
+    pub(crate) target: Option<SpriteType>,
+    /// The avatar can stand on a target.
+    pub(crate) walkable: bool,
+    /// `merges[a][b]`: a thing of kind a that is pushed onto one of kind b ends both.
+    pub(crate) merges: [[bool; KINDS]; KINDS],
+}
+
+impl Rules {
+    /// # Errors
+    /// [`GenerateError::Unsuitable`] with the reason, if the game is not won by pushing alone, or pushes otherwise.
+    pub(crate) fn of(analysis: &Analysis, palette: &Palette) -> Result<Rules, GenerateError> {
+        find(analysis, palette).map_err(|why| GenerateError::Unsuitable(why.to_owned()))
+    }
+}
+
+fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
+    let avatar = analysis.start_avatar().ok_or("no avatar can be placed")?;
+    if avatar.steering != Steering::FourWay || !analysis.steps_by_cells(avatar.stype) {
+        return Err("its avatar does not go from cell to cell in four ways");
+    }
+    if !analysis.is_deterministic() || !analysis.is_turn_based() {
+        return Err("things move by themselves or by chance, so that no puzzle can be made backwards");
+    }
+    let wall = palette.wall.ok_or("it has no walls to build with")?;
+    let mut wins = analysis.goals().iter().filter(|goal| goal.win);
+    let (Some(goal), None) = (wins.next(), wins.next()) else {
+        return Err("it is not won in exactly one way");
+    };
+    let (Condition::AtMost(counted, 0) | Condition::Exactly(counted, 0)) = &goal.condition else {
+        return Err("it is not won by making things go");
+    };
+    let is_placed = |stype: &SpriteType| palette.symbol(*stype).is_some();
+    let kinds: Vec<SpriteType> = counted.iter().copied().filter(is_placed).collect();
+    let is_pushed = |stype: &SpriteType| {
+        let listed = analysis.pushables().iter().any(|pushable| pushable.stype == *stype);
+        listed && analysis.touch(avatar.stype, *stype).pushes
+    };
+    if kinds.is_empty() || !kinds.iter().all(is_pushed) {
+        return Err("what must go for a win is not pushed");
+    }
+    if kinds.len() > KINDS {
+        return Err("things of more than two kinds must be pushed");
+    }
+    let walls = analysis.game().places(wall);
+    if !kinds.iter().all(|&kind| walls.iter().any(|&wall| analysis.blocks(wall, kind))) {
+        return Err("walls do not hold up what is pushed");
+    }
+    let sinks = |kind: SpriteType| {
+        let pushable = analysis.pushables().iter().find(|pushable| pushable.stype == kind);
+        pushable.map_or(&[][..], |pushable| &pushable.sinks)
+    };
+    let mut merges = [[false; KINDS]; KINDS];
+    for (a, &one) in kinds.iter().enumerate() {
+        for (b, &two) in kinds.iter().enumerate() {
+            let ends = |sink: &Sink| sink.partner == two && sink.fate == Fate::Goes && sink.fills;
+            merges[a][b] = sinks(one).iter().any(ends);
+            if !merges[a][b] && !analysis.blocks(two, one) {
+                return Err("pushed things do not hold up each other");
+            }
+        }
+    }
+    match kinds[..] {
+        [kind] if !merges[0][0] => single(analysis, palette, kind, counted, sinks(kind), merges),
+        [_, _] if merges[0][1] && merges[1][0] && !merges[0][0] && !merges[1][1] => {
+            Ok(Rules { kinds, home: Home::Partner, target: None, walkable: true, merges })
+        }
+        _ => Err("things are pushed onto each other in a way that is not known"),
+    }
+}
+
+/// The rules for one kind of things, which go to targets.
+fn single(
+    analysis: &Analysis,
+    palette: &Palette,
+    kind: SpriteType,
+    counted: &[SpriteType],
+    sinks: &[Sink],
+    merges: [[bool; KINDS]; KINDS],
+) -> Result<Rules, &'static str> {
+    let returns = |to: SpriteType| {
+        let pushed = analysis.pushables().iter().any(|pushable| pushable.stype == to);
+        pushed && analysis.turns(to).iter().any(|&(back, _)| back == kind)
+    };
+    let homes = sinks.iter().filter_map(|sink| {
+        let symbol = palette.symbol(sink.partner)?;
+        let lies = matches!(analysis.role(sink.partner), Role::Socket | Role::Hazard);
+        let home = match sink.fate {
+            Fate::Goes if sink.fills => Home::Hole,
+            Fate::Goes => Home::Sink,
+            Fate::Becomes(to) if !sink.fills && !counted.contains(&to) && returns(to) => Home::Place,
+            _ => return None,
+        };
+        let fair = lies && !palette.ground.contains(&sink.partner);
+        let fair = fair && !analysis.aims().protect.contains(&sink.partner);
+        fair.then_some((sink.partner, home, palette.walk(symbol)))
+    });
+    let (target, home, walk) = homes.into_iter().next().ok_or("nothing that is pushed can go anywhere")?;
+    let walkable = match walk {
+        Walk::Open => true,
+        Walk::Blocked | Walk::Deadly => false,
+        _ => return Err("the places to push to are barred in a way that is not known"),
+    };
+    Ok(Rules { kinds: vec![kind], home, target: Some(target), walkable, merges })
+}

@@ -1,0 +1,255 @@
+//! Levels that are puzzles of pushed things, as candidates of a search.
+
+use super::floor::FloorPlans;
+use super::rules::Rules;
+use super::yard::{Cells, MOST_CELLS, Position, Pushing, Yard, bit, each};
+use crate::levels::board::Board;
+use crate::levels::builder::Builder;
+use crate::levels::config::LevelConfig;
+use crate::levels::constructive::{ConstructiveLevels, Solved};
+use crate::levels::grid::Grid;
+use crate::levels::jobs::Jobs;
+use crate::{Annealing, AnnealingConfig, GenerateError, Search, Variation};
+use engine::{Game, Level, Sampler, Seed};
+
+/// Positions of the avatar looked at to find the longest way.
+const MOST_POSITIONS: usize = 600_000;
+/// Floor plans asked for at once; they are rated one after the other.
+const BATCH: usize = 8;
+/// Floor plans drawn that lead to no level before a seed is given up.
+const ATTEMPTS: u64 = 4;
+/// Changes of a floor plan of which a mutation keeps the best.
+const CHANGES: usize = 6;
+
+/// What is asked of puzzles.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PuzzleConfig {
+    /// Things to push; none: two to four, as difficulty and room allow.
+    pub things: Option<usize>,
+    /// Floor plans looked at for a level.
+    pub floor_plans: usize,
+}
+
+impl Default for PuzzleConfig {
+    fn default() -> PuzzleConfig {
+        PuzzleConfig { things: None, floor_plans: 240 }
+    }
+}
+
+/// Levels of a game that is won by pushing things where they belong (Sokoban and its kin).
+///
+/// A floor plan is annealed on the number of pushes that its farthest position takes; that number is exact, because all
+/// positions are searched backwards from all that are solved (Taylor and Parberry 2011, "Procedural generation of Sokoban
+/// levels"). Of the farthest positions the level is the one that takes the most steps of the avatar. Each level has been
+/// won in the game itself.
+///
+/// Cost: about a millisecond for each floor plan of 8 by 8 cells with three things; it grows with the number of positions.
+pub struct PuzzleVariation<'a> {
+    levels: ConstructiveLevels<'a>,
+    rules: Rules,
+    config: LevelConfig,
+    puzzle: PuzzleConfig,
+}
+
+impl<'a> PuzzleVariation<'a> {
+    /// For a game. Cost: that of a few small puzzles.
+    ///
+    /// # Errors
+    /// [`GenerateError::Unsuitable`] if the game is not won by pushing alone, with the reason; if no board of the size asked
+    /// for is small enough to be searched; and as [`ConstructiveLevels::new`].
+    pub fn new(
+        game: &'a Game,
+        config: LevelConfig,
+        puzzle: PuzzleConfig,
+    ) -> Result<PuzzleVariation<'a>, GenerateError> {
+        let levels = ConstructiveLevels::new(game, config.clone())?;
+        let unsuitable = |why: &str| Err(GenerateError::Unsuitable(why.to_owned()));
+        let rules = Rules::of(&levels.analysis, &levels.palette)?;
+        let (columns, rows) = (config.columns.0, config.rows.0);
+        if columns * rows > MOST_CELLS || columns.max(rows) > config.columns.1.max(config.rows.1) {
+            return unsuitable("boards that large cannot be searched backwards");
+        }
+        if config.columns.1.min(config.rows.1) < 6 {
+            return unsuitable("boards that small leave no room to push");
+        }
+        if puzzle.things == Some(0) || puzzle.floor_plans == 0 {
+            return unsuitable("a puzzle needs something to push, and a floor plan");
+        }
+        let variation = PuzzleVariation { levels, rules, config, puzzle };
+        let trial = |index: u64| variation.made(Seed::from_text("trial").child("puzzle", index), BATCH);
+        if (0..ATTEMPTS).all(|index| trial(index).is_none()) {
+            return unsuitable("no puzzle that was tried could be won by pushing as its rules seem to say");
+        }
+        Ok(variation)
+    }
+
+    /// What the game means.
+    pub fn constructive(&self) -> &ConstructiveLevels<'a> {
+        &self.levels
+    }
+
+    /// The level of a seed with actions that win it: the fewest pushes, not always the fewest actions.
+    pub fn create_solved(&self, seed: Seed) -> Option<Solved> {
+        (0..ATTEMPTS).find_map(|attempt| self.made(seed.child("attempt", attempt), self.puzzle.floor_plans))
+    }
+
+    fn made(&self, seed: Seed, floor_plans: usize) -> Option<Solved> {
+        let mut sampler = seed.child("size", 0).sampler();
+        let mut side = |(low, high): (usize, usize)| {
+            let low = low.max(6).min(high);
+            // Puzzles gain nothing from wide halls.
+            sampler.between(low, high.min(low.max(9)))
+        };
+        let grid = Grid { columns: side(self.config.columns), rows: side(self.config.rows) };
+        if grid.len() > MOST_CELLS {
+            return None;
+        }
+        let inner = (grid.columns - 2) * (grid.rows - 2);
+        let usual = 2 + crate::levels::plan::round(0.2 + 2.0 * self.config.difficulty, &mut sampler);
+        let things = self.puzzle.things.unwrap_or(usual.min(inner / 10).max(2));
+        let floors =
+            FloorPlans { rules: &self.rules, grid, counts: FloorPlans::counts_of(&self.rules, things) };
+        let yard = anneal(&floors, floor_plans, seed.child("floor plans", 0))?;
+        self.level_of(&floors.tidy(&yard), seed)
+    }
+
+    /// The level with the farthest position of a floor plan.
+    fn level_of(&self, yard: &Yard, seed: Seed) -> Option<Solved> {
+        let pushing = Pushing { yard, rules: &self.rules };
+        let met = pushing.by_pushes(MOST_POSITIONS);
+        let starts = || met.iter().filter(|(position, _)| pushing.is_start(position));
+        let most = starts().map(|(_, pushes)| pushes).max()?;
+        // Easy levels start on the way.
+        let wanted = (most as f64 * (0.3 + 1.4 * self.config.difficulty).min(1.0)) as usize;
+        let far = starts().filter(|(_, pushes)| *pushes == wanted);
+        let steps = pushing.by_steps(MOST_POSITIONS);
+        let stands = far.flat_map(|(position, _)| {
+            let region = pushing.flood(bit(position.avatar.into()), pushing.stands(position));
+            let clear = region & !position.targets;
+            let clear = if clear == 0 { region } else { clear };
+            each(clear).map(|avatar| Position { avatar: avatar as u8, ..*position })
+        });
+        // Without all steps counted the first one will do.
+        let start = stands.max_by_key(|start| (steps.distance(start), std::cmp::Reverse(start.avatar)))?;
+        let ways = pushing.solution(&met, start)?;
+        self.furnish(yard, &start, &ways, seed)
+    }
+
+    /// Puts a position on a board, and around it what else the game has, if it can still be won then.
+    fn furnish(&self, yard: &Yard, start: &Position, ways: &[(i32, i32)], seed: Seed) -> Option<Solved> {
+        let wall = (0..yard.grid.len()).map(|cell| yard.wall & bit(cell) != 0).collect();
+        let mut builder = Builder {
+            analysis: &self.levels.analysis,
+            palette: &self.levels.palette,
+            config: &self.config,
+            sampler: seed.child("furniture", 0).sampler(),
+            board: Board::new(yard.grid, wall),
+            log: Vec::new(),
+        };
+        if let Some(target) = self.rules.target {
+            each(start.targets).for_each(|cell| builder.put(cell, target));
+        }
+        for (kind, &stype) in self.rules.kinds.iter().enumerate() {
+            each(start.things[kind]).for_each(|cell| builder.put(cell, stype));
+        }
+        builder.put_avatar(start.avatar.into());
+        let solved = |board: &Board| {
+            let solution = self.levels.play(board, ways, true, seed)?;
+            let level = self.levels.game.level(&board.text(&self.levels.palette)).ok()?;
+            Some(Solved { level, solution: Some(solution) })
+        };
+        let bare = solved(&builder.board)?;
+        let mut cell = usize::from(start.avatar);
+        for &way in ways {
+            cell = yard.grid.shift(cell, way)?;
+            for used in [Some(cell), yard.grid.shift(cell, way)].into_iter().flatten() {
+                builder.board.kept[used] = true;
+            }
+        }
+        builder.garnish(&Jobs::default());
+        Some(solved(&builder.board).unwrap_or(bare))
+    }
+
+    /// The floor plan of a level, if it is one of these puzzles.
+    fn yard_of(&self, level: &Level) -> Option<Yard> {
+        let grid = Grid { columns: level.columns(), rows: level.rows() };
+        if grid.len() > MOST_CELLS {
+            return None;
+        }
+        let wall = self.levels.palette.wall?;
+        let mut yard = Yard { grid, wall: 0, targets: 0, counts: [0; 2] };
+        for (cell, &symbol) in level.cells().iter().enumerate() {
+            let places = self.levels.game.places(symbol);
+            if symbol == wall {
+                yard.wall |= bit(cell);
+            }
+            if self.rules.target.is_some_and(|target| places.contains(&target)) {
+                yard.targets |= bit(cell);
+            }
+            for (kind, stype) in self.rules.kinds.iter().enumerate() {
+                yard.counts[kind] += usize::from(places.contains(stype));
+            }
+        }
+        let border: Cells = (0..grid.len()).filter(|&cell| grid.on_border(cell)).map(bit).sum();
+        (yard.wall & border == border && yard.counts[0] > 0).then_some(yard)
+    }
+
+    /// The best of a few floor plans, as a level.
+    fn best(
+        &self,
+        parent: &Yard,
+        sampler: &mut Sampler,
+        plan: impl Fn(&FloorPlans<'_>, &mut Sampler) -> Yard,
+    ) -> Option<Level> {
+        let floors = FloorPlans { rules: &self.rules, grid: parent.grid, counts: parent.counts };
+        let plans = (0..CHANGES).map(|_| plan(&floors, sampler)).filter(|plan| plan != parent);
+        let rated: Vec<(f64, Yard)> = plans.map(|plan| (floors.rate(&plan).objective, plan)).collect();
+        // The first of the best.
+        let best = rated.into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best })?;
+        let seed = Seed::from_text("mutation").child("draw", sampler.bits());
+        self.level_of(&best.1, seed).map(|solved| solved.level)
+    }
+}
+
+impl Variation for PuzzleVariation<'_> {
+    type Candidate = Level;
+
+    fn create(&self, seed: Seed) -> Option<Level> {
+        self.create_solved(seed).map(|solved| solved.level)
+    }
+
+    /// The best of a few changes of the floor plan, searched anew; the parent itself if that leads nowhere.
+    fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
+        let varied = self.yard_of(parent).and_then(|yard| {
+            (0..ATTEMPTS)
+                .find_map(|_| self.best(&yard, sampler, |floors, sampler| floors.mutate(&yard, sampler)))
+        });
+        varied.unwrap_or_else(|| parent.clone())
+    }
+
+    /// Half of one floor plan and half of the other, searched anew; a mutation of the first if they do not fit.
+    fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
+        let (first, second) = (self.yard_of(one), self.yard_of(two));
+        let fit = first
+            .zip(second)
+            .filter(|(first, second)| (first.grid, first.counts) == (second.grid, second.counts));
+        let crossed = fit.and_then(|(first, second)| {
+            self.best(&first, sampler, |floors, sampler| floors.cross(&first, &second, sampler))
+        });
+        crossed.unwrap_or_else(|| self.mutate(one, sampler))
+    }
+}
+
+/// The best floor plan of so many.
+fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<Yard> {
+    let config = AnnealingConfig::of(floor_plans);
+    let mut search = Annealing::new(floors, config, seed);
+    loop {
+        let plans = search.ask(BATCH);
+        if plans.is_empty() {
+            let best = search.best().filter(|(_, evaluation)| evaluation.is_feasible());
+            return best.map(|(yard, _)| yard.clone());
+        }
+        search.tell(plans.into_iter().map(|plan| (plan.clone(), floors.rate(&plan))).collect());
+    }
+}

@@ -1,0 +1,226 @@
+//! A floor plan for pushing: walls and targets as sets of cells, and what a push does.
+
+use super::rules::{Home, KINDS, Rules};
+use crate::levels::grid::{Grid, WAYS};
+
+/// Cells of a board at most: they are bits of one number.
+pub(crate) const MOST_CELLS: usize = 128;
+
+/// A set of cells.
+pub(crate) type Cells = u128;
+
+/// The set of one cell.
+pub(crate) fn bit(cell: usize) -> Cells {
+    1 << cell
+}
+
+/// The cells of a set, in order.
+pub(crate) fn each(mut cells: Cells) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let cell = (cells != 0).then(|| cells.trailing_zeros() as usize)?;
+        cells &= cells - 1;
+        Some(cell)
+    })
+}
+
+/// A floor plan. Its border is wall.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Yard {
+    pub(crate) grid: Grid,
+    pub(crate) wall: Cells,
+    pub(crate) targets: Cells,
+    /// How many things of each kind there are at the start.
+    pub(crate) counts: [usize; KINDS],
+}
+
+/// Where everything is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Position {
+    /// By kind.
+    pub(crate) things: [Cells; KINDS],
+    /// The targets that are there.
+    pub(crate) targets: Cells,
+    /// The cell of the avatar, or the first of those that it can walk to.
+    pub(crate) avatar: u8,
+}
+
+impl Position {
+    /// Cells with a thing.
+    pub(crate) fn taken(&self) -> Cells {
+        self.things[0] | self.things[1]
+    }
+}
+
+/// A floor plan with the rules of pushing.
+#[derive(Clone, Copy)]
+pub(crate) struct Pushing<'a> {
+    pub(crate) yard: &'a Yard,
+    pub(crate) rules: &'a Rules,
+}
+
+impl Pushing<'_> {
+    /// By how much the index of a cell grows in each of the [`WAYS`].
+    pub(crate) fn strides(&self) -> [isize; 4] {
+        WAYS.map(|(x, y)| x as isize + y as isize * self.yard.grid.columns as isize)
+    }
+
+    /// Cells where the avatar can be.
+    pub(crate) fn stands(&self, position: &Position) -> Cells {
+        let barred = if self.rules.walkable { 0 } else { position.targets };
+        self.inside() & !(self.yard.wall | position.taken() | barred)
+    }
+
+    /// Cells where a thing can come to lie.
+    pub(crate) fn lies(&self, position: &Position) -> Cells {
+        let sinks = if self.rules.home == Home::Place { 0 } else { position.targets };
+        self.inside() & !(self.yard.wall | position.taken() | sinks)
+    }
+
+    fn inside(&self) -> Cells {
+        let cells = self.yard.grid.len();
+        if cells == MOST_CELLS { Cells::MAX } else { bit(cells) - 1 }
+    }
+
+    /// The cells of `open` that hang together with `from`. Cost: a few operations for each step of the longest way.
+    pub(crate) fn flood(&self, from: Cells, open: Cells) -> Cells {
+        let columns = self.yard.grid.columns;
+        let mut reached = from & open;
+        loop {
+            let next = reached << 1 | reached >> 1 | reached << columns | reached >> columns;
+            let next = reached | next & open;
+            if next == reached {
+                return reached;
+            }
+            reached = next;
+        }
+    }
+
+    /// The positions in which everything is done, the avatar left out.
+    pub(crate) fn solved(&self) -> Vec<Position> {
+        let all = self.yard.targets;
+        let position = |thing: Cells, targets: Cells| Position { things: [thing, 0], targets, avatar: 0 };
+        match self.rules.home {
+            Home::Sink | Home::Partner => vec![position(0, all)],
+            // Which holes have been filled; all of them, if there are no more than things.
+            Home::Hole => subsets(all, self.yard.counts[0])
+                .into_iter()
+                .map(|filled| position(0, all & !filled))
+                .collect(),
+            Home::Place => {
+                subsets(all, self.yard.counts[0]).into_iter().map(|things| position(things, all)).collect()
+            }
+        }
+    }
+
+    /// Whether all things are there.
+    pub(crate) fn is_start(&self, position: &Position) -> bool {
+        let counted = |kind: usize| position.things[kind].count_ones() as usize == self.yard.counts[kind];
+        let at_home = self.rules.home == Home::Place && position.things[0] & position.targets != 0;
+        (0..KINDS).all(counted) && !at_home
+    }
+
+    /// Cells where the push that led to a position may have ended.
+    pub(crate) fn ends(&self, after: &Position) -> Cells {
+        let homes = match self.rules.home {
+            Home::Place => 0,
+            Home::Sink | Home::Hole => self.yard.targets,
+            Home::Partner => self.lies(after),
+        };
+        after.taken() | homes
+    }
+
+    /// The positions before the push that left the avatar at `near`, coming from `near` plus `stride`: the thing came from
+    /// `near`, and went to `near` minus `stride`. The avatar of those positions is where it pushed from.
+    pub(crate) fn before(
+        &self,
+        after: &Position,
+        near: usize,
+        stride: isize,
+        each: &mut impl FnMut(Position),
+    ) {
+        let (to, far) = (near.wrapping_add_signed(-stride), near.wrapping_add_signed(stride));
+        let cells = self.yard.grid.len();
+        if to >= cells || far >= cells {
+            return;
+        }
+        let (to_bit, near_bit, far_bit) = (bit(to), bit(near), bit(far));
+        let (stands, lies) = (self.stands(after), self.lies(after));
+        if lies & near_bit == 0 || stands & far_bit == 0 {
+            return;
+        }
+        let avatar = far as u8;
+        for kind in 0..self.rules.kinds.len() {
+            if after.things[kind] & to_bit != 0 {
+                let mut things = after.things;
+                things[kind] ^= to_bit | near_bit;
+                each(Position { things, avatar, ..*after });
+            }
+        }
+        let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.yard.counts[kind];
+        match self.rules.home {
+            Home::Sink if after.targets & to_bit != 0 && more(0) => {
+                each(Position { things: [after.things[0] | near_bit, 0], avatar, ..*after });
+            }
+            Home::Hole => {
+                let free = self.yard.targets & !after.targets & !after.taken() & to_bit != 0;
+                // The hole is open again, and neither thing nor avatar is on it.
+                if free && more(0) {
+                    let things = [after.things[0] | near_bit, 0];
+                    each(Position { things, targets: after.targets | to_bit, avatar });
+                }
+            }
+            Home::Partner if lies & to_bit != 0 && more(0) && more(1) => {
+                for kind in 0..KINDS {
+                    let mut things = after.things;
+                    things[kind] |= near_bit;
+                    things[1 - kind] |= to_bit;
+                    each(Position { things, avatar, ..*after });
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The position after a step of the avatar, whose own cell counts; none if it is held up.
+    pub(crate) fn step(&self, position: &Position, stride: isize) -> Option<Position> {
+        let near = usize::from(position.avatar).checked_add_signed(stride)?;
+        if self.stands(position) & bit(near) != 0 {
+            return Some(Position { avatar: near as u8, ..*position });
+        }
+        let kind = position.things.iter().position(|things| things & bit(near) != 0)?;
+        let to = near.checked_add_signed(stride).filter(|&to| to < self.yard.grid.len())?;
+        let mut after = Position { avatar: near as u8, ..*position };
+        after.things[kind] &= !bit(near);
+        // Where it lay there may be a target that the avatar cannot stand on.
+        if self.stands(&after) & bit(near) == 0 {
+            return None;
+        }
+        if position.targets & bit(to) != 0 && self.rules.home != Home::Place {
+            if self.rules.home == Home::Hole {
+                after.targets &= !bit(to);
+            }
+            return Some(after);
+        }
+        if let Some(other) = position.things.iter().position(|things| things & bit(to) != 0) {
+            after.things[other] &= !bit(to);
+            return self.rules.merges[kind][other].then_some(after);
+        }
+        after.things[kind] |= bit(to);
+        (self.yard.wall & bit(to) == 0).then_some(after)
+    }
+}
+
+/// All subsets of so many cells, smallest first.
+fn subsets(cells: Cells, count: usize) -> Vec<Cells> {
+    let mut subsets = vec![0];
+    for _ in 0..count {
+        let larger = subsets.iter().flat_map(|&subset: &Cells| {
+            // Only cells after the last one: each subset comes about once.
+            let after = cells & !(Cells::MAX >> subset.leading_zeros().min(127)) & !subset;
+            let after = if subset == 0 { cells } else { after };
+            each(after).map(move |cell| subset | bit(cell))
+        });
+        subsets = larger.collect();
+    }
+    subsets
+}
