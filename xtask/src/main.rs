@@ -8,6 +8,7 @@ mod fidelity;
 mod instructions;
 mod levels;
 mod solve;
+mod survey;
 
 use clap::{Parser, Subcommand};
 
@@ -25,6 +26,7 @@ enum Chore {
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
     Solve(solve::Args),
+    Survey(survey::Args),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -33,5 +35,6 @@ fn main() -> anyhow::Result<()> {
         Chore::Fidelity(args) => fidelity::run(&args),
         Chore::Instructions(args) => instructions::run(&args),
         Chore::Solve(args) => solve::run(&args),
+        Chore::Survey(args) => survey::run(&args),
     }
 }
