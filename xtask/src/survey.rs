@@ -9,12 +9,13 @@ use anyhow::{Context, bail};
 use cpu_time::ThreadTime;
 use engine::{Analysis, Level, Seed};
 use generators::Generator;
-use generators::levels::{ConstructiveLevels, LevelConfig};
+use generators::levels::{ConstructiveLevels, Examples, LevelConfig};
 use judged::{Judge, Judged};
 use rayon::prelude::*;
 use render::{Looks, Style};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use table::Row;
 
 /// Makes levels for every game of a folder with the constructive generator and measures them: made, winnable with a witness,
@@ -44,6 +45,9 @@ pub(crate) struct Args {
     /// Text that all seeds come from
     #[arg(long, value_name = "TEXT", default_value = "survey")]
     seed: String,
+    /// Learn nothing from the games' own levels
+    #[arg(long)]
+    unlearnt: bool,
     /// Measure the games' own levels instead
     #[arg(long)]
     own: bool,
@@ -136,7 +140,10 @@ fn subjects(args: &Args) -> anyhow::Result<Vec<Subject>> {
 
 /// The levels of one game, on one thread, so that the time is that of one level.
 fn make(subject: &Subject, args: &Args) -> Vec<Made> {
-    let config = LevelConfig { difficulty: args.difficulty, ..LevelConfig::default() };
+    let own = if args.unlearnt { &[] } else { &subject.own[..] };
+    let examples = Examples::of(subject.analysis.game(), own);
+    let like = examples.map_or_else(LevelConfig::default, |examples| LevelConfig::like(Arc::new(examples)));
+    let config = LevelConfig { difficulty: args.difficulty, ..like };
     let seed = Seed::from_text(&args.seed).child(&subject.name, 1);
     let generator = match ConstructiveLevels::new(subject.analysis.game(), config) {
         Ok(generator) => generator,

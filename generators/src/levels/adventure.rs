@@ -17,9 +17,7 @@ impl Builder<'_> {
 
     /// Everything but the avatar, the gates and what has been placed already.
     pub(crate) fn furnish(&mut self, gates: &[SpriteType]) {
-        let area = self.board.area();
-        let difficulty = self.difficulty();
-        let wishes = plan::wishes(self.analysis, self.palette, area, difficulty, &mut self.sampler);
+        let wishes = self.wishes();
         let done: Vec<SpriteType> = self.log.iter().map(|(_, stype)| *stype).collect();
         let (exits, rest): (Vec<Wish>, Vec<Wish>) = wishes
             .into_iter()
@@ -210,6 +208,15 @@ impl Builder<'_> {
         let open = |cell: usize| !self.board.wall[cell];
         let survives = self.analysis.aims().remove.is_empty() && self.analysis.aims().create.is_empty();
         let centre = grid.at(grid.columns / 2, grid.rows / 2);
+        if self.target.is_some() {
+            let avatar = self.palette.avatars[0].0;
+            let suits = |cell: usize| !self.falls() || self.has_footing(cell);
+            let weight = |&cell: &usize| if suits(cell) { self.habit(cell, avatar) } else { 0 };
+            let weights: Vec<u32> = cells.iter().map(weight).collect();
+            if let Some(at) = self.sampler.weighted(&weights) {
+                return cells[at];
+            }
+        }
         let some = *self.sampler.choose(&cells);
         let target = if survives {
             centre
@@ -324,7 +331,10 @@ impl Builder<'_> {
             if symbol == structure {
                 continue;
             }
-            let count = plan::round(self.board.area() as f64 * 0.03, &mut self.sampler);
+            let count = match &self.target {
+                Some(target) => target.counts[stype.index()].0,
+                None => plan::round(self.board.area() as f64 * 0.03, &mut self.sampler),
+            };
             for _ in 0..count {
                 let steps = self.steps();
                 let placed = self.put_where(stype, |builder, cell| {
@@ -401,9 +411,14 @@ impl Builder<'_> {
                 moves && builder.board.grid.manhattan(cell, other) <= 2
             })
         };
-        let cells: Vec<usize> = self.board.free().collect();
+        let mut cells: Vec<usize> = self.board.free().collect();
+        let (filled, of) = match &self.target {
+            Some(target) => (target.counts[stype.index()].0.min(cells.len()), cells.len().max(1)),
+            None => (78, 100),
+        };
+        cells.retain(|&cell| !burrow(self, cell));
         for cell in cells {
-            if !burrow(self, cell) && self.sampler.ratio(78, 100) {
+            if self.sampler.ratio(filled, of) {
                 self.put(cell, stype);
             }
         }

@@ -2,8 +2,10 @@
 
 use super::board::Board;
 use super::config::LevelConfig;
+use super::examples::{Examples, Target, USUAL};
 use super::grid::{FAR, WAYS};
 use super::palette::{Palette, Walk};
+use super::plan::{self, Wish};
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, Sampler, SpriteType};
 
@@ -16,6 +18,8 @@ pub(crate) struct Builder<'a> {
     pub(crate) board: Board,
     /// What has been put where, in order.
     pub(crate) log: Vec<(usize, SpriteType)>,
+    /// What it is to be like, if there are examples.
+    pub(crate) target: Option<Target>,
 }
 
 impl Builder<'_> {
@@ -39,11 +43,69 @@ impl Builder<'_> {
         stype: SpriteType,
         weight: impl Fn(&Self, usize) -> u32,
     ) -> Option<usize> {
+        if self
+            .examples()
+            .is_some_and(|examples| examples.is_closed() && examples.stance(stype).is_on_border())
+            && let Some(cell) = self.put_in_border(stype)
+        {
+            return Some(cell);
+        }
         let cells: Vec<usize> = self.board.free().collect();
-        let weights: Vec<u32> = cells.iter().map(|&cell| weight(self, cell)).collect();
+        let weights: Vec<u32> = cells
+            .iter()
+            .map(|&cell| match weight(self, cell) {
+                0 => 0,
+                weight => weight.saturating_mul(self.habit(cell, stype)),
+            })
+            .collect();
         let cell = cells[self.sampler.weighted(&weights)?];
         self.put(cell, stype);
         Some(cell)
+    }
+
+    /// Lets a sprite into the wall around the board, where the board is open beside it.
+    fn put_in_border(&mut self, stype: SpriteType) -> Option<usize> {
+        let grid = self.board.grid;
+        let open = |cell: usize| !self.board.wall[cell] && !grid.on_border(cell);
+        let suits =
+            |cell: usize| grid.on_border(cell) && self.board.wall[cell] && grid.beside(cell).any(open);
+        let cells: Vec<usize> = (0..grid.len()).filter(|&cell| suits(cell)).collect();
+        let weights: Vec<u32> = cells.iter().map(|&cell| self.habit(cell, stype)).collect();
+        let cell = cells[self.sampler.weighted(&weights)?];
+        self.board.wall[cell] = false;
+        self.put(cell, stype);
+        Some(cell)
+    }
+
+    /// The levels that this one is to be like.
+    pub(crate) fn examples(&self) -> Option<&Examples> {
+        self.config.like.as_deref()
+    }
+
+    /// How well a cell agrees with where examples have such sprites.
+    pub(crate) fn habit(&self, cell: usize, stype: SpriteType) -> u32 {
+        let usual = if self.config.like.is_some() { USUAL } else { 1 };
+        self.examples().map_or(usual, |examples| examples.stance(stype).weigh(self.board.grid, cell))
+    }
+
+    /// How many of which type the level is to hold: by their roles, or as in examples, and as the configuration says.
+    pub(crate) fn wishes(&mut self) -> Vec<Wish> {
+        let (analysis, palette) = (self.analysis, self.palette);
+        let (area, difficulty) = (self.board.area(), self.difficulty());
+        let mut wishes = match &self.target {
+            Some(target) => plan::wishes_like(analysis, palette, target, area, difficulty, &mut self.sampler),
+            None => plan::wishes(analysis, palette, area, difficulty, &mut self.sampler),
+        };
+        for &(stype, count) in &self.config.counts {
+            match wishes.iter_mut().find(|wish| wish.stype == stype) {
+                Some(wish) => wish.count = count,
+                None if palette.symbol(stype).is_some() => {
+                    wishes.push(Wish { stype, role: analysis.role(stype), count });
+                }
+                None => {}
+            }
+        }
+        wishes
     }
 
     /// Whether the avatar falls, so that things are best put on the ground.

@@ -4,6 +4,7 @@ use super::board::Board;
 use super::builder::Builder;
 use super::config::LevelConfig;
 use super::crossing;
+use super::examples::{Target, cover};
 use super::grid::Grid;
 use super::jobs::Jobs;
 use super::layout::{self, Family};
@@ -15,8 +16,15 @@ use engine::{Action, Analysis, Game, Level, Sampler, Seed};
 
 /// Boards tried for one seed.
 const ATTEMPTS: u64 = 40;
+/// Boards tried for the cover that was asked for.
+const COVERS: u64 = 10;
 /// Boards tried for a puzzle before it is furnished like any other level.
 const PUZZLES: u64 = 30;
+
+/// Layouts drawn, of which the one whose walls are nearest to the examples' in number is taken.
+const LAYOUTS: usize = 3;
+/// Boards with a smaller share of walls inside have none on purpose.
+const BARE: f64 = 0.02;
 
 /// Makes levels for one game, any game: what its sprite types are for is derived from the rules.
 ///
@@ -98,36 +106,54 @@ impl<'a> ConstructiveLevels<'a> {
     /// # Errors
     /// [`GenerateError::Unlucky`] if all boards that were tried had a fault.
     pub fn generate_solved(&self, seed: Seed) -> Result<Solved, GenerateError> {
-        let mut second_best: Option<Solved> = None;
+        // By how much of what was asked for it has.
+        let mut second_best: Option<(u32, Solved)> = None;
         let mut fault = "no board could be furnished".to_owned();
         for attempt in 0..ATTEMPTS {
             let seed = seed.child("board", attempt);
             let Some(made) = self.attempt(seed, attempt) else { continue };
             match self.inspect(&made, seed) {
-                Ok((level, true)) => return Ok(Solved { level, solution: made.solution }),
-                Ok((level, false)) => {
-                    second_best.get_or_insert(Solved { level, solution: made.solution });
+                Ok((level, survivable)) => {
+                    let covered = self
+                        .config
+                        .cover
+                        .is_none_or(|(low, high)| (low..=high).contains(&cover(&self.analysis, &level)));
+                    let solved = Solved { level, solution: made.solution };
+                    if survivable && covered {
+                        return Ok(solved);
+                    }
+                    let rank = 2 * u32::from(survivable) + u32::from(covered);
+                    if second_best.as_ref().is_none_or(|(best, _)| rank > *best) {
+                        second_best = Some((rank, solved));
+                    }
+                    // A cover that was not met ten times will hardly be.
+                    if survivable && attempt >= COVERS {
+                        break;
+                    }
                 }
                 Err(problem) => fault = problem,
             }
         }
-        second_best.ok_or(GenerateError::Unlucky(fault))
+        second_best.map(|(_, solved)| solved).ok_or(GenerateError::Unlucky(fault))
     }
 
     /// One board, furnished.
     fn attempt(&self, seed: Seed, attempt: u64) -> Option<Made> {
         let mut layout = seed.child("layout", 0).sampler();
-        let mut grid = Grid {
-            columns: layout.between(self.config.columns.0, self.config.columns.1),
-            rows: layout.between(self.config.rows.0, self.config.rows.1),
-        };
+        let examples = self.config.like.as_deref();
+        let target =
+            examples.map(|examples| examples.draw(self.config.columns, self.config.rows, &mut layout));
+        let mut grid = target.as_ref().map_or_else(|| self.size(&mut layout), |target| target.grid);
         let sampler = seed.child("furniture", 0).sampler();
-        let ring = self.palette.ring && grid.columns > 4 && grid.rows > 4;
+        let ring = examples.map_or(self.palette.ring, |examples| examples.is_closed())
+            && grid.columns > 4
+            && grid.rows > 4;
         let steering = self.analysis.start_avatar()?.steering;
         if matches!(steering, Steering::Horizontal | Steering::Vertical) {
             let wall = layout::walls(Family::Field, grid, ring, 0.0, &mut layout);
-            let mut builder = self.builder(Board::new(grid, wall), sampler);
+            let mut builder = self.builder(Board::new(grid, wall), sampler, target);
             builder.gallery(steering, ring);
+            builder.settle();
             return Some(Made::plain(builder.board));
         }
         if attempt < PUZZLES {
@@ -136,25 +162,26 @@ impl<'a> ConstructiveLevels<'a> {
             let difficulty = self.config.difficulty;
             let inner = grid.len().saturating_sub(border);
             if let Some(plan) = Jobs::draw(&self.analysis, &self.palette, inner, difficulty, &mut sampler) {
-                let board = self.puzzle_walls(&plan, grid, ring, &mut layout);
-                return self.puzzle(&plan, self.builder(board, sampler), seed);
+                let board = self.puzzle_walls(&plan, grid, ring, target.as_ref(), &mut layout);
+                return self.puzzle(&plan, self.builder(board, sampler, target), seed);
             }
         }
         if grid.rows >= 6
             && let Some(traffic) = crossing::traffic(&self.analysis, &self.palette)
         {
             let closed = self.palette.wall.is_some();
-            let mut builder = self.builder(Board::new(grid, vec![false; grid.len()]), sampler);
+            let mut builder = self.builder(Board::new(grid, vec![false; grid.len()]), sampler, target);
             let rows = builder.rows(grid, closed, &traffic);
             builder.board = Board::new(grid, Builder::lane_walls(grid, &rows, closed, &traffic));
             builder.crossing(&rows, &traffic);
+            builder.settle();
             return Some(Made::plain(builder.board));
         }
         let mut family = self.family(&mut layout);
         if family == Family::Maze && grid.columns.min(grid.rows) < 7 {
             family = Family::Arena;
         }
-        if family == Family::Maze {
+        if family == Family::Maze && target.is_none() {
             // Mazes want odd sides.
             grid.columns -= usize::from(grid.columns & 1 == 0 && grid.columns > self.config.columns.0);
             grid.rows -= usize::from(grid.rows & 1 == 0 && grid.rows > self.config.rows.0);
@@ -169,15 +196,67 @@ impl<'a> ConstructiveLevels<'a> {
         let wraps =
             self.analysis.encounters().iter().any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
         let closed = self.palette.wall.is_some() && !wraps && grid.columns > 4 && grid.rows > 4;
-        let ring = ring || (closed && family != Family::Field);
-        let wall = layout::walls(family, grid, ring, loops, &mut layout);
-        let mut builder = self.builder(Board::new(grid, wall), sampler);
+        let ring = ring || (closed && family != Family::Field && target.is_none());
+        let wall = match &target {
+            Some(target) => self.walls_like(target, ring, loops, &mut layout),
+            None => layout::walls(family, grid, ring, loops, &mut layout),
+        };
+        let mut builder = self.builder(Board::new(grid, wall), sampler, target);
         builder.adventure();
+        builder.settle();
         Some(Made::plain(builder.board))
     }
 
+    fn size(&self, layout: &mut Sampler) -> Grid {
+        Grid {
+            columns: layout.between(self.config.columns.0, self.config.columns.1),
+            rows: layout.between(self.config.rows.0, self.config.rows.1),
+        }
+    }
+
+    /// Walls like those of the examples: assembled of their windows, or of a family that suits the game; as many as they have.
+    fn walls_like(&self, target: &Target, ring: bool, loops: f64, layout: &mut Sampler) -> Vec<bool> {
+        let grid = target.grid;
+        let patterns = self.config.like.as_deref().map(|examples| examples.patterns());
+        let patterns = patterns.filter(|patterns| patterns.has_structure());
+        let draw = |layout: &mut Sampler| {
+            let learnt = patterns.filter(|_| layout.ratio(2, 3));
+            let learnt = learnt.and_then(|patterns| layout::learnt(patterns, grid, layout));
+            learnt.unwrap_or_else(|| {
+                let family = match self.family(layout) {
+                    _ if target.walls < BARE || self.palette.wall.is_none() => Family::Field,
+                    Family::Maze if grid.columns.min(grid.rows) < 7 => Family::Arena,
+                    family => family,
+                };
+                layout::walls(family, grid, ring, loops, layout)
+            })
+        };
+        let off = |wall: &Vec<bool>| {
+            let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
+            let wanted = (target.walls * inner().count() as f64) as usize;
+            inner().filter(|&cell| wall[cell]).count().abs_diff(wanted)
+        };
+        let drawn = (0..LAYOUTS).map(|_| draw(layout)).collect::<Vec<_>>();
+        let mut wall = drawn.into_iter().min_by_key(off).expect("at least one layout is drawn");
+        if self.palette.wall.is_some() {
+            layout::adjust(grid, target.walls, layout, &mut wall);
+        }
+        wall
+    }
+
     /// Walls for a puzzle of pushed things.
-    fn puzzle_walls(&self, plan: &Jobs, grid: Grid, ring: bool, layout: &mut Sampler) -> Board {
+    fn puzzle_walls(
+        &self,
+        plan: &Jobs,
+        grid: Grid,
+        ring: bool,
+        target: Option<&Target>,
+        layout: &mut Sampler,
+    ) -> Board {
+        if let Some(target) = target {
+            let loops = if plan.is_barred() { 0.0 } else { 0.4 };
+            return Board::new(grid, self.walls_like(target, ring, loops, layout));
+        }
         // Puzzles gain nothing from wide halls.
         let grid = Grid {
             columns: grid.columns.min(self.config.columns.0.max(9 + plan.jobs.len())),
@@ -202,6 +281,7 @@ impl<'a> ConstructiveLevels<'a> {
         let bare = self.play(&builder.board, &ways, plan.is_all, seed)?;
         let puzzle = builder.board.clone();
         builder.garnish(plan);
+        builder.settle();
         if !self.analysis.is_deterministic() {
             return Some(Made { board: builder.board, solution: None, played: true });
         }
@@ -214,7 +294,7 @@ impl<'a> ConstructiveLevels<'a> {
         Some(Made { board, solution: actions.filter(|_| plan.is_all), played: true })
     }
 
-    fn builder(&self, board: Board, sampler: Sampler) -> Builder<'_> {
+    fn builder(&self, board: Board, sampler: Sampler, target: Option<Target>) -> Builder<'_> {
         Builder {
             analysis: &self.analysis,
             palette: &self.palette,
@@ -222,6 +302,7 @@ impl<'a> ConstructiveLevels<'a> {
             sampler,
             board,
             log: Vec::new(),
+            target,
         }
     }
 }

@@ -111,8 +111,7 @@ impl Builder<'_> {
             self.board.kept[cell] = true;
         }
         self.keys(&[]);
-        let (area, difficulty) = (self.board.area(), self.difficulty());
-        let wishes = plan::wishes(self.analysis, self.palette, area, difficulty, &mut self.sampler);
+        let wishes = self.wishes();
         let others =
             wishes.into_iter().filter(|wish| !traffic.types.contains(&wish.stype) && wish.role != Role::Exit);
         let (goods, rest): (Vec<_>, Vec<_>) = others.partition(|wish| wish.role == Role::Collectable);

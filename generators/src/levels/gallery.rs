@@ -1,7 +1,7 @@
 //! Furnishing an open field for an avatar that moves along one edge: its enemies at the far side, cover in between.
 
 use super::builder::Builder;
-use super::plan::{self, Wish};
+use super::plan::Wish;
 use engine::SpriteType;
 use engine::analysis::{Motion, Role, Steering};
 
@@ -48,9 +48,7 @@ impl Builder<'_> {
         let upright = steering != Steering::Vertical;
         let (length, depth) = if upright { (columns, rows) } else { (rows, columns) };
         let field = Field { upright, edge, length };
-        let area = self.board.area();
-        let difficulty = self.difficulty();
-        let wishes = plan::wishes(self.analysis, self.palette, area, difficulty, &mut self.sampler);
+        let wishes = self.wishes();
         let wards = wishes.iter().any(|wish| wish.role == Role::Ward && self.is_still(wish.stype));
         // What is to be protected stands behind the avatar, if there is room.
         let home = if wards && depth >= 6 { depth - 2 } else { depth - 1 };

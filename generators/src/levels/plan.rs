@@ -1,5 +1,6 @@
 //! How many of which sprite type a level is to hold.
 
+use super::examples::Target;
 use super::palette::Palette;
 use engine::analysis::{Motion, Reason, Role};
 use engine::{Analysis, Sampler, SpriteType};
@@ -33,13 +34,53 @@ pub(crate) fn wishes(
         let total = round(total, sampler).max(least(role, types.len()));
         wishes.extend(share(types, role, total, sampler));
     }
-    for wish in &mut wishes {
-        if analysis.facts(wish.stype).singleton {
-            wish.count = wish.count.min(1);
+    settle(analysis, area, &mut wishes);
+    wishes
+}
+
+/// The same, with as many of each type as examples have.
+pub(crate) fn wishes_like(
+    analysis: &Analysis,
+    palette: &Palette,
+    target: &Target,
+    area: usize,
+    difficulty: f64,
+    sampler: &mut Sampler,
+) -> Vec<Wish> {
+    let mut wishes: Vec<Wish> = Vec::new();
+    for role in ROLES {
+        for stype in furnishable(analysis, palette, role) {
+            let (drawn, least, most) = target.counts[stype.index()];
+            let wanted = analysis.aims().remove.contains(&stype);
+            // What harms, or is asked for, follows the difficulty; so does, the other way round, what helps.
+            let share = match role {
+                Role::Enemy | Role::Boulder | Role::Hazard => Some(difficulty),
+                Role::Spawner if analysis.makes_harm(stype) => Some(difficulty),
+                Role::Prey | Role::Collectable if wanted => Some(difficulty),
+                Role::Collectable => Some(1.0 - difficulty),
+                _ => None,
+            };
+            let count = match share {
+                Some(share) => {
+                    let asked = least as f64 + (most - least) as f64 * share;
+                    round(0.5 * (asked + drawn as f64), sampler).clamp(least, most)
+                }
+                None => drawn,
+            };
+            wishes.push(Wish { stype, role, count });
         }
     }
-    require(analysis, area, &mut wishes);
+    settle(analysis, area, &mut wishes);
+    wishes.retain(|wish| wish.count > 0);
     wishes
+}
+
+/// Makes numbers possible.
+fn settle(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
+    for wish in wishes.iter_mut().filter(|wish| analysis.facts(wish.stype).singleton) {
+        wish.count = wish.count.min(1);
+    }
+    require(analysis, area, wishes);
 }
 
 /// In the order in which they are placed: what the others must not be in the way of comes first.

@@ -71,7 +71,7 @@ fn every_public_game_gets_levels_or_a_reason() {
         games += 1;
         let configs = [((4, 6), (4, 5), 0.0), ((10, 18), (8, 11), 1.0), ((24, 30), (12, 16), 0.3)];
         for (columns, rows, difficulty) in configs {
-            let config = LevelConfig { columns, rows, difficulty };
+            let config = LevelConfig { columns, rows, difficulty, ..LevelConfig::default() };
             let Ok(levels) = ConstructiveLevels::new(&game, config) else { continue };
             for index in 0..3 {
                 let seed = Seed::from_text("any game").child(&name_of(&folder), index);

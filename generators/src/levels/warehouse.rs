@@ -247,8 +247,7 @@ impl Builder<'_> {
             let gates = self.gates();
             self.keys(&gates);
         }
-        let (area, difficulty) = (self.board.area(), self.difficulty());
-        let wishes = super::plan::wishes(self.analysis, self.palette, area, difficulty, &mut self.sampler);
+        let wishes = self.wishes();
         let used: Vec<SpriteType> = plan.jobs.iter().flat_map(|job| [job.pushed, job.partner]).collect();
         for wish in wishes {
             let puzzle = matches!(wish.role, Role::Pushable | Role::Socket | Role::Exit);

@@ -52,7 +52,8 @@ impl Levels<'_> {
     fn level(&self, game: &Game, number: u32, taken: &[Digest], tally: &mut Tally) -> Option<Found> {
         let difficulty = f64::from(number) / f64::from((self.part.levels - 1).max(1));
         let board = &self.recipe.board;
-        let config = LevelConfig { columns: board.columns, rows: board.rows, difficulty };
+        let config =
+            LevelConfig { columns: board.columns, rows: board.rows, difficulty, ..LevelConfig::default() };
         let generator = match ConstructiveLevels::new(game, config) {
             Ok(generator) => generator,
             Err(error) => {

@@ -1,40 +1,8 @@
 //! Open layouts: pieces of wall, and pillars.
 
+use super::mirror::Mirror;
 use crate::levels::grid::{Grid, WAYS};
 use engine::Sampler;
-
-/// Symmetries of a board.
-#[derive(Clone, Copy)]
-enum Mirror {
-    None,
-    Sides,
-    Ends,
-    Turn,
-}
-
-impl Mirror {
-    fn draw(sampler: &mut Sampler) -> Mirror {
-        *sampler.choose(&[
-            Mirror::None,
-            Mirror::Sides,
-            Mirror::Sides,
-            Mirror::Ends,
-            Mirror::Turn,
-            Mirror::Turn,
-        ])
-    }
-
-    fn of(self, grid: Grid, cell: usize) -> usize {
-        let (x, y) = (grid.x(cell), grid.y(cell));
-        let (other_x, other_y) = (grid.columns - 1 - x, grid.rows - 1 - y);
-        match self {
-            Mirror::None => cell,
-            Mirror::Sides => grid.at(other_x, y),
-            Mirror::Ends => grid.at(x, other_y),
-            Mirror::Turn => grid.at(other_x, other_y),
-        }
-    }
-}
 
 /// Straight and bent pieces of wall of two to four cells that touch neither each other nor the border.
 pub(super) fn pieces(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {

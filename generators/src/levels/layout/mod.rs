@@ -2,9 +2,15 @@
 
 mod arena;
 mod cave;
+mod density;
+mod learnt;
 mod maze;
+mod mirror;
 mod platforms;
 mod rooms;
+
+pub(crate) use density::adjust;
+pub(crate) use learnt::Patterns;
 
 use super::grid::Grid;
 use engine::Sampler;
@@ -43,6 +49,38 @@ pub(crate) fn walls(family: Family, grid: Grid, ring: bool, loops: f64, sampler:
     }
     keep_largest(grid, &mut wall);
     wall
+}
+
+/// Draws walls assembled of learnt windows; None if that comes to no end. All cells without wall hang together.
+pub(crate) fn learnt(patterns: &Patterns, grid: Grid, sampler: &mut Sampler) -> Option<Vec<bool>> {
+    let mut wall = patterns.assemble(grid, sampler)?;
+    join(grid, &mut wall);
+    keep_largest(grid, &mut wall);
+    Some(wall)
+}
+
+/// The smallest region that is worth a way to it, cells.
+const ROOM: usize = 4;
+
+/// Opens the shortest way through the walls from the largest region to every other one that is worth it.
+fn join(grid: Grid, wall: &mut [bool]) {
+    for region in grid.regions(|cell| !wall[cell]).into_iter().skip(1) {
+        let main = grid.regions(|cell| !wall[cell]).swap_remove(0);
+        if region.len() < ROOM || main.contains(&region[0]) {
+            continue;
+        }
+        let inside = |cell: usize| !grid.on_border(cell) || !wall[cell];
+        let steps = grid.flood(&region, inside);
+        let Some(&nearest) = main.iter().min_by_key(|&&cell| (steps[cell], cell)) else { continue };
+        let Some(way) = grid.way(nearest, region[0], inside) else { continue };
+        // The way leads on inside the region, where nothing is to be opened.
+        for cell in way {
+            wall[cell] = false;
+            if region.contains(&cell) {
+                break;
+            }
+        }
+    }
 }
 
 /// Fills every open region but the largest.

@@ -1,0 +1,271 @@
+//! Walls that run as in examples: every window of three by three cells is one that occurs in some example.
+//!
+//! This is the overlapping model of wave function collapse: Karth and Smith 2017, "WaveFunctionCollapse is Constraint
+//! Solving in the Wild". Here the cells of the border are classes of their own, so that windows learnt at an edge stay there.
+
+use crate::levels::grid::Grid;
+use engine::Sampler;
+use std::collections::BTreeMap;
+
+/// Side of a window, cells.
+const SIDE: usize = 3;
+/// Cells of a window.
+const CELLS: usize = SIDE * SIDE;
+/// Different windows at most, the most frequent ones: time and memory grow with their square.
+const MOST: usize = 320;
+/// Boards begun at most.
+const RESTARTS: usize = 3;
+/// Windows ruled out and looked at, at most, on one board.
+const WORK: usize = 3_000_000;
+
+/// Cells inside, then cells of the border; open, then wall.
+const CLASSES: usize = 4;
+
+type Window = [u8; CELLS];
+
+/// Windows of examples, with how often each occurs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Patterns(BTreeMap<Window, u32>);
+
+/// A cell's class.
+fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
+    2 * u8::from(grid.on_border(cell)) + u8::from(wall)
+}
+
+impl Patterns {
+    /// Adds the windows of a board, and those of its reflection left to right: walls mean the same either way.
+    pub(crate) fn learn(&mut self, grid: Grid, wall: &[bool]) {
+        for mirrored in [false, true] {
+            for y in 0..(grid.rows + 1).saturating_sub(SIDE) {
+                for x in 0..(grid.columns + 1).saturating_sub(SIDE) {
+                    let window = std::array::from_fn(|at| {
+                        let (dx, dy) = (at % SIDE, at / SIDE);
+                        let cell = grid.at(x + if mirrored { SIDE - 1 - dx } else { dx }, y + dy);
+                        class(grid, cell, wall[cell])
+                    });
+                    *self.0.entry(window).or_default() += 1;
+                }
+            }
+        }
+    }
+
+    /// Whether there is a structure to learn: walls inside, in some variety.
+    pub(crate) fn has_structure(&self) -> bool {
+        self.0.keys().filter(|window| window.contains(&1)).count() >= 8
+    }
+
+    /// Walls for a board; None if no board was found within the limits.
+    pub(crate) fn assemble(&self, grid: Grid, sampler: &mut Sampler) -> Option<Vec<bool>> {
+        if grid.columns <= SIDE || grid.rows <= SIDE {
+            return None;
+        }
+        let mut windows: Vec<(u32, Window)> =
+            self.0.iter().map(|(window, &count)| (count, *window)).collect();
+        windows.sort_by_key(|&(count, window)| (std::cmp::Reverse(count), window));
+        windows.truncate(MOST);
+        let model = Model::new(windows);
+        (0..RESTARTS).find_map(|_| Wave::new(&model, grid)?.collapse(sampler))
+    }
+}
+
+/// A set of windows by index.
+type Set = Vec<u64>;
+
+/// Which windows may overlap.
+struct Model {
+    windows: Vec<(u32, Window)>,
+    /// By window: those that fit one cell to the right of it, one cell down, to the left, up.
+    fits: [Vec<Set>; 4],
+}
+
+/// Steps from a window to its neighbours, in the order of [`Model::fits`].
+const STEPS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
+
+impl Model {
+    fn new(windows: Vec<(u32, Window)>) -> Model {
+        let words = windows.len().div_ceil(64);
+        let agree = |one: &Window, two: &Window, (dx, dy): (usize, usize)| {
+            let inner = (0..SIDE - dx).flat_map(|x| (0..SIDE - dy).map(move |y| (x, y)));
+            inner.into_iter().all(|(x, y)| one[(y + dy) * SIDE + x + dx] == two[y * SIDE + x])
+        };
+        let fits = STEPS.map(|(dx, dy)| {
+            let fitting = |(_, one): &(u32, Window)| {
+                let mut set = vec![0u64; words];
+                for (at, (_, two)) in windows.iter().enumerate() {
+                    let fits = if dx + dy > 0 {
+                        agree(one, two, (dx as usize, dy as usize))
+                    } else {
+                        agree(two, one, (-dx as usize, -dy as usize))
+                    };
+                    set[at / 64] |= u64::from(fits) << (at % 64);
+                }
+                set
+            };
+            windows.iter().map(fitting).collect()
+        });
+        Model { windows, fits }
+    }
+}
+
+/// A board of which not every window is known yet: for each place, the windows that are still possible there.
+struct Wave<'a> {
+    model: &'a Model,
+    /// The board.
+    grid: Grid,
+    /// The places of windows, by their upper left cells.
+    places: Grid,
+    possible: Vec<Set>,
+    work: usize,
+}
+
+fn members(set: &Set) -> impl Iterator<Item = usize> + '_ {
+    set.iter().enumerate().flat_map(|(word, &bits)| {
+        (0..64).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| word * 64 + bit)
+    })
+}
+
+fn size(set: &Set) -> u32 {
+    set.iter().map(|bits| bits.count_ones()).sum()
+}
+
+impl<'a> Wave<'a> {
+    /// All windows, but border only where the board has it. None if that leaves a place without any.
+    fn new(model: &'a Model, grid: Grid) -> Option<Wave<'a>> {
+        let places = Grid { columns: grid.columns + 1 - SIDE, rows: grid.rows + 1 - SIDE };
+        let suits = |place: usize, window: &Window| {
+            (0..CELLS).all(|at| {
+                let cell = grid.at(places.x(place) + at % SIDE, places.y(place) + at / SIDE);
+                (window[at] >= 2) == grid.on_border(cell)
+            })
+        };
+        let possible = (0..places.len()).map(|place| {
+            let mut set = vec![0u64; model.windows.len().div_ceil(64)];
+            for (at, (_, window)) in model.windows.iter().enumerate() {
+                set[at / 64] |= u64::from(suits(place, window)) << (at % 64);
+            }
+            set
+        });
+        let mut wave = Wave { model, grid, places, possible: possible.collect(), work: 0 };
+        let all: Vec<usize> = (0..places.len()).collect();
+        wave.propagate(all)?;
+        Some(wave)
+    }
+
+    /// Decides the place that leaves the least choice, again and again.
+    fn collapse(mut self, sampler: &mut Sampler) -> Option<Vec<bool>> {
+        // Among equals, by an order that is drawn.
+        let mut order: Vec<usize> = (0..self.places.len()).collect();
+        sampler.shuffle(&mut order);
+        loop {
+            let open = order.iter().copied().filter(|&place| size(&self.possible[place]) > 1);
+            let Some(place) = open.min_by_key(|&place| self.entropy(place)) else { break };
+            let options: Vec<usize> = members(&self.possible[place]).collect();
+            let weights: Vec<u32> = options.iter().map(|&at| self.model.windows[at].0).collect();
+            let chosen = options[sampler.weighted(&weights)?];
+            self.possible[place].fill(0);
+            self.possible[place][chosen / 64] = 1 << (chosen % 64);
+            self.propagate(vec![place])?;
+        }
+        let mut wall = vec![false; self.grid.len()];
+        for place in 0..self.places.len() {
+            let window = self.model.windows[members(&self.possible[place]).next()?].1;
+            for (at, class) in window.into_iter().enumerate() {
+                let (x, y) = (self.places.x(place) + at % SIDE, self.places.y(place) + at / SIDE);
+                wall[self.grid.at(x, y)] = usize::from(class) % CLASSES % 2 == 1;
+            }
+        }
+        Some(wall)
+    }
+
+    /// How much choice a place leaves: Shannon's entropy of the frequencies, in thousandths of a nat.
+    fn entropy(&self, place: usize) -> u64 {
+        let (mut sum, mut logs) = (0.0, 0.0);
+        for at in members(&self.possible[place]) {
+            let count = f64::from(self.model.windows[at].0);
+            sum += count;
+            logs += count * libm::log(count);
+        }
+        ((libm::log(sum) - logs / sum) * 1000.0) as u64
+    }
+
+    /// Rules out, from these places on, what no neighbour allows. None: a place is left without a window.
+    fn propagate(&mut self, mut changed: Vec<usize>) -> Option<()> {
+        let mut waiting = vec![false; self.places.len()];
+        for &place in &changed {
+            waiting[place] = true;
+        }
+        while let Some(place) = changed.pop() {
+            waiting[place] = false;
+            for (fits, step) in self.model.fits.iter().zip(STEPS) {
+                let Some(next) = self.places.shift(place, step) else { continue };
+                let mut allowed = vec![0u64; self.possible[place].len()];
+                for at in members(&self.possible[place]) {
+                    for (word, fit) in allowed.iter_mut().zip(&fits[at]) {
+                        *word |= fit;
+                    }
+                    self.work += 1;
+                }
+                if self.work > WORK {
+                    return None;
+                }
+                let mut fewer = false;
+                for (word, allowed) in self.possible[next].iter_mut().zip(&allowed) {
+                    fewer |= *word & !allowed != 0;
+                    *word &= allowed;
+                }
+                if !fewer {
+                    continue;
+                }
+                if size(&self.possible[next]) == 0 {
+                    return None;
+                }
+                if !std::mem::replace(&mut waiting[next], true) {
+                    changed.push(next);
+                }
+            }
+        }
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Seed;
+    use std::collections::BTreeSet;
+
+    fn board(text: &str) -> (Grid, Vec<bool>) {
+        let columns = text.lines().next().map_or(0, str::len);
+        let wall: Vec<bool> = text.bytes().filter(|&c| c != b'\n').map(|c| c == b'#').collect();
+        (Grid { columns, rows: wall.len() / columns }, wall)
+    }
+
+    fn windows(grid: Grid, wall: &[bool]) -> BTreeSet<Window> {
+        let mut patterns = Patterns::default();
+        patterns.learn(grid, wall);
+        patterns.0.into_keys().collect()
+    }
+
+    /// Every window of what is assembled occurs in the example.
+    #[test]
+    fn what_is_assembled_is_made_of_the_example() {
+        let (grid, wall) = board(
+            "############\n#....#.....#\n#.##.#.###.#\n#.#....#...#\n#.#.####.#.#\n#......#.#.#\n#.####...#.#\n#....#.###.#\n\
+             ############\n",
+        );
+        let mut patterns = Patterns::default();
+        patterns.learn(grid, &wall);
+        assert!(patterns.has_structure());
+        let known = windows(grid, &wall);
+        let mut made = 0;
+        for index in 0..20 {
+            let mut sampler = Seed::from_text("learnt").child("board", index).sampler();
+            let size = Grid { columns: sampler.between(8, 16), rows: sampler.between(6, 12) };
+            if let Some(wall) = patterns.assemble(size, &mut sampler) {
+                made += 1;
+                assert!(windows(size, &wall).is_subset(&known));
+            }
+        }
+        assert!(made >= 10, "{made}");
+    }
+}

@@ -1,0 +1,128 @@
+//! Bringing a furnished board to the cover that was asked for.
+
+use super::builder::Builder;
+use super::examples::is_cover;
+use super::grid::FAR;
+use engine::analysis::Role;
+
+impl Builder<'_> {
+    /// Adds walls (or, on boards without, more of what lies about) until enough cells are covered, or takes some away until no
+    /// more are. What keeps the game going stays, and nothing is cut off; so there is not always a way to get there.
+    pub(crate) fn settle(&mut self) {
+        let Some((low, high)) = self.config.cover else { return };
+        if is_cover(self.analysis, self.palette.base) {
+            return;
+        }
+        for _ in 0..self.board.grid.len() {
+            let share = self.covered() as f64 / self.board.grid.len() as f64;
+            let done = if share < low {
+                !self.add_cover()
+            } else if share > high {
+                !self.remove_cover()
+            } else {
+                true
+            };
+            if done {
+                return;
+            }
+        }
+    }
+
+    /// Cells with more than floor.
+    fn covered(&self) -> usize {
+        let covered = |&cell: &usize| match self.board.placed[cell] {
+            Some(symbol) => is_cover(self.analysis, symbol),
+            None => self.board.wall[cell],
+        };
+        (0..self.board.grid.len()).filter(covered).count()
+    }
+
+    /// One more wall, or thing; whether there was room.
+    fn add_cover(&mut self) -> bool {
+        let grid = self.board.grid;
+        let bare = self.target.as_ref().is_some_and(|target| target.walls <= 0.0);
+        if self.palette.wall.is_some() && !bare {
+            let steps = self.steps();
+            let cells: Vec<usize> = self.board.free().collect();
+            let weight = |&cell: &usize| {
+                let near = grid.manhattan(cell, self.board.start) < 2;
+                let busy = grid.beside(cell).any(|next| self.board.placed[next].is_some());
+                let cut = near || busy || self.board.would_cut(self.palette, cell);
+                // Walls grow from walls, niches first.
+                let walls = self.board.walls_around(cell);
+                match walls {
+                    _ if cut || steps[cell] == FAR => 0,
+                    0 => 1,
+                    1..=2 => 3,
+                    3..=4 => 20,
+                    _ => 80,
+                }
+            };
+            let weights: Vec<u32> = cells.iter().map(weight).collect();
+            if let Some(at) = self.sampler.weighted(&weights) {
+                self.board.wall[cells[at]] = true;
+                return true;
+            }
+        }
+        let lying = |stype: &engine::SpriteType| {
+            matches!(
+                self.role(*stype),
+                Role::Soil | Role::Collectable | Role::Cover | Role::Refuge | Role::Breakable | Role::Hazard
+            )
+        };
+        let mut types: Vec<_> = self.log.iter().map(|(_, stype)| *stype).filter(lying).collect();
+        types.retain(|stype| self.config.counts.iter().all(|(asked, _)| asked != stype));
+        if types.is_empty() {
+            return false;
+        }
+        // What there is much of becomes more.
+        let stype = *self.sampler.choose(&types);
+        self.place(stype, self.role(stype)).is_some()
+    }
+
+    /// One wall, or thing, less; whether there was one to spare.
+    fn remove_cover(&mut self) -> bool {
+        let grid = self.board.grid;
+        let spare = |&(cell, stype): &(usize, engine::SpriteType)| {
+            let lies = matches!(
+                self.role(stype),
+                Role::Soil
+                    | Role::Collectable
+                    | Role::Cover
+                    | Role::Refuge
+                    | Role::Breakable
+                    | Role::Hazard
+                    | Role::Neutral
+                    | Role::Enemy
+                    | Role::Boulder
+                    | Role::Wall
+            );
+            let asked = self.config.counts.iter().any(|(asked, _)| *asked == stype);
+            lies && !asked && !self.board.kept[cell] && self.board.count(self.analysis, stype) > 3
+        };
+        let things: Vec<usize> = (0..self.log.len()).filter(|&at| spare(&self.log[at])).collect();
+        let walls: Vec<usize> = (0..grid.len())
+            .filter(|&cell| {
+                let stub = || grid.beside(cell).filter(|&next| self.board.wall[next]).count() <= 1;
+                self.board.wall[cell] && !grid.on_border(cell) && stub()
+            })
+            .filter(|&cell| {
+                grid.beside(cell).any(|next| !self.board.wall[next] && self.board.placed[next].is_none())
+            })
+            .collect();
+        // A game of gates is not opened up: only ends of walls go.
+        let open_up = !walls.is_empty() && (things.is_empty() || self.sampler.ratio(2, 3));
+        if open_up && !self.board.zone.iter().any(|&zone| zone > 0) {
+            let cell = *self.sampler.choose(&walls);
+            self.board.wall[cell] = false;
+            return true;
+        }
+        if things.is_empty() {
+            return false;
+        }
+        let at = *self.sampler.choose(&things);
+        let (cell, _) = self.log.swap_remove(at);
+        self.board.placed[cell] = None;
+        true
+    }
+}
