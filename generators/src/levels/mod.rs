@@ -19,10 +19,10 @@ mod measures;
 mod palette;
 mod plan;
 mod pulls;
-mod symmetry;
 mod puzzles;
-mod variation;
 mod settle;
+mod symmetry;
+mod variation;
 mod vault;
 mod warehouse;
 
@@ -31,8 +31,8 @@ mod tests;
 
 pub use config::LevelConfig;
 pub use constructive::{ConstructiveLevels, Solved};
-pub use measures::{LevelMeasure, LevelMeasures};
-pub use symmetry::Likeness;
-pub use puzzles::{PuzzleConfig, PuzzleVariation};
-pub use variation::LevelVariation;
 pub use examples::{Examples, cover};
+pub use measures::{LevelMeasure, LevelMeasures};
+pub use puzzles::{PuzzleConfig, PuzzleVariation};
+pub use symmetry::Likeness;
+pub use variation::LevelVariation;

@@ -145,6 +145,7 @@ impl<'a> PuzzleVariation<'a> {
             sampler: seed.child("furniture", 0).sampler(),
             board: Board::new(yard.grid, wall),
             log: Vec::new(),
+            target: None,
         };
         if let Some(target) = self.rules.target {
             each(start.targets).for_each(|cell| builder.put(cell, target));
