@@ -184,7 +184,8 @@ impl<C> Archive<C> {
 
     /// The sum of the objectives of all elites: an empty cell counts as the worst objective, 0.
     pub fn qd_score(&self) -> f64 {
-        self.elites.values().map(|elite| elite.evaluation.objective).sum()
+        // Not `sum`, which makes -0.0 of nothing.
+        self.elites.values().fold(0.0, |sum, elite| sum + elite.evaluation.objective)
     }
 
     /// The elite with the highest objective; of equals that of the first cell.
@@ -240,6 +241,7 @@ mod tests {
         let names: Vec<&str> = archive.pocket(6).iter().map(|judged| judged.candidate).collect();
         assert_eq!(names, ["half", "other third"]);
         assert_eq!((archive.elites().len(), archive.best()), (0, None));
+        assert!(archive.qd_score().is_sign_positive());
     }
 
     #[test]

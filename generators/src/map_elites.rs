@@ -4,8 +4,11 @@ use crate::breeding::Breeding;
 use crate::{Archive, Axis, Evaluation, Judged, Search, Variation};
 use engine::{Digest, Sampler, Seed};
 
-/// Of how many infeasible candidates a parent is the least infeasible: pockets alone keep too much of what leads nowhere.
+/// Of how many candidates from pockets an infeasible parent is the least infeasible one, at least: pockets keep much of what
+/// leads nowhere, and the more, the more of them there are.
 const TOURNAMENT: usize = 3;
+/// Pockets for which the tournament of infeasible parents grows by one.
+const SHARE: usize = 8;
 
 /// How [`MapElites`] searches.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +27,7 @@ pub struct MapElitesConfig {
 
 impl Default for MapElitesConfig {
     fn default() -> MapElitesConfig {
-        MapElitesConfig { initial: 64, crossing: 0.4, fresh: 0.05, infeasible: 0.1, pocket: 4 }
+        MapElitesConfig { initial: 64, crossing: 0.4, fresh: 0.05, infeasible: 0.15, pocket: 4 }
     }
 }
 
@@ -165,7 +168,7 @@ fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Judg
     if pockets.is_empty() {
         pockets = archive.pockets().collect();
     }
-    let drawn: Vec<&Judged<C>> = (0..TOURNAMENT)
+    let drawn: Vec<&Judged<C>> = (0..TOURNAMENT + pockets.len() / SHARE)
         .map(|_| {
             let (_, pocket) = *sampler.choose(&pockets);
             sampler.choose(pocket)

@@ -187,7 +187,8 @@ impl Marked {
         let to_goal = if goals.is_empty() { to_avatar.clone() } else { self.grid.flood(&goals, |_| true) };
         let near = |steps: u32| NEAR / (NEAR + f64::from(steps));
         let harm = |cell: usize| self.marks[cell].harm * (near(to_avatar[cell]) + near(to_goal[cell])) / 2.0;
-        saturate((0..self.marks.len()).map(harm).sum())
+        // Not `sum`, which makes -0.0 of nothing.
+        saturate((0..self.marks.len()).map(harm).fold(0.0, |sum, harm| sum + harm))
     }
 
     fn sprinkle(&self) -> f64 {
@@ -253,7 +254,10 @@ BasicGame
         let game = cellar();
         let measures = LevelMeasures::new(&Analysis::of(&game)).expect("an avatar can be placed");
         let all = measures.of(&level(&game, rows));
-        assert!(all.iter().all(|measure| (0.0..=1.0).contains(measure)), "{all:?}");
+        assert!(
+            all.iter().all(|measure| (0.0..=1.0).contains(measure) && measure.is_sign_positive()),
+            "{all:?}"
+        );
         for (measure, value) in expect {
             let found = all[*measure as usize];
             assert!((found - value).abs() < 1e-12, "{}: {found}, not {value}", measure.name());
