@@ -153,7 +153,7 @@ fn table(name: &str, runs: &[Figures]) -> String {
 fn evolution_beats_as_many_levels_from_the_constructive_generator() {
     let game = Game::from_source(GAME).expect("a game");
     let analysis = Analysis::of(&game);
-    let config = LevelConfig { columns: (13, 13), rows: (9, 9), difficulty: 0.5 };
+    let config = LevelConfig { columns: (13, 13), rows: (9, 9), ..LevelConfig::default() };
     let variation = LevelVariation::new(&game, config).expect("levels can be made for the game");
     let judge = Judge { measures: LevelMeasures::new(&analysis).expect("a diver can be placed") };
     let likeness = Likeness::of(&analysis);
