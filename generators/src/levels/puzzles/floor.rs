@@ -8,7 +8,7 @@ use crate::{Evaluation, Variation};
 use engine::{Sampler, Seed};
 
 /// Positions looked at for the rating of a floor plan.
-const MOST_POSITIONS: usize = 60_000;
+const MOST_POSITIONS: usize = 40_000;
 /// How far apart targets of a group are at most, in cells.
 const GROUP: usize = 2;
 /// A rating of 1.0 stands for so many pushes.
@@ -138,6 +138,11 @@ impl FloorPlans<'_> {
         let met = pushing.by_pushes(MOST_POSITIONS);
         let starts = met.iter().filter(|(position, _)| pushing.is_start(position));
         starts.map(|(_, pushes)| pushes).max().unwrap_or(0)
+    }
+
+    /// How many positions are looked at for its depth.
+    pub(crate) fn positions(&self, yard: &Yard) -> usize {
+        Pushing { yard, rules: self.rules }.by_pushes(MOST_POSITIONS).len()
     }
 
     /// The pushes that it takes, less what looks careless: halls, and blocks of wall by themselves.

@@ -4,6 +4,8 @@
 mod backward;
 mod floor;
 mod rules;
+#[cfg(test)]
+mod tests;
 mod variation;
 mod yard;
 

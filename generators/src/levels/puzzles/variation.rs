@@ -13,7 +13,9 @@ use crate::{Annealing, AnnealingConfig, GenerateError, Search, Variation};
 use engine::{Game, Level, Sampler, Seed};
 
 /// Positions of the avatar looked at to find the longest way.
-const MOST_POSITIONS: usize = 600_000;
+const MOST_POSITIONS: usize = 400_000;
+/// Positions looked at in all for a level, about: where each floor plan has many, fewer of them are looked at.
+const POSITIONS: usize = 1_500_000;
 /// Floor plans asked for at once; they are rated one after the other.
 const BATCH: usize = 8;
 /// Floor plans drawn that lead to no level before a seed is given up.
@@ -26,13 +28,13 @@ const CHANGES: usize = 6;
 pub struct PuzzleConfig {
     /// Things to push; none: two to four, as difficulty and room allow.
     pub things: Option<usize>,
-    /// Floor plans looked at for a level.
+    /// Floor plans looked at for a level, at most.
     pub floor_plans: usize,
 }
 
 impl Default for PuzzleConfig {
     fn default() -> PuzzleConfig {
-        PuzzleConfig { things: None, floor_plans: 240 }
+        PuzzleConfig { things: None, floor_plans: 600 }
     }
 }
 
@@ -43,7 +45,8 @@ impl Default for PuzzleConfig {
 /// levels"). Of the farthest positions the level is the one that takes the most steps of the avatar. Each level has been
 /// won in the game itself.
 ///
-/// Cost: about a millisecond for each floor plan of 8 by 8 cells with three things; it grows with the number of positions.
+/// Cost: about a tenth of a millisecond for each floor plan of 8 by 8 cells with three things; a second or so for a level
+/// at most, because the positions looked at are limited.
 pub struct PuzzleVariation<'a> {
     levels: ConstructiveLevels<'a>,
     rules: Rules,
@@ -243,7 +246,10 @@ impl Variation for PuzzleVariation<'_> {
 
 /// The best floor plan of so many.
 fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<Yard> {
-    let config = AnnealingConfig::of(floor_plans);
+    let samples: Vec<Yard> = (0..4).filter_map(|at| floors.create(seed.child("sample", at))).collect();
+    let positions: usize = samples.iter().map(|yard| floors.positions(yard)).sum();
+    let affordable = POSITIONS * samples.len() / positions.max(1);
+    let config = AnnealingConfig::of(floor_plans.min(affordable.max(BATCH)));
     let mut search = Annealing::new(floors, config, seed);
     loop {
         let plans = search.ask(BATCH);

@@ -1,0 +1,233 @@
+//! Puzzles of every kind of home: the backward search against plain search forward, and against the game itself.
+
+use super::floor::FloorPlans;
+use super::rules::{Home, Rules};
+use super::yard::{Position, Pushing, Yard, bit, each};
+use super::{PuzzleConfig, PuzzleVariation};
+use crate::levels::config::LevelConfig;
+use crate::levels::constructive::{ConstructiveLevels, Solved};
+use crate::levels::grid::Grid;
+use crate::levels::tests::{game_in, public_folder, workspace};
+use crate::{Generator, Variation};
+use agents::search::{Answer, Pushes, SearchLimits, a_star};
+use engine::{Analysis, Game, Level, Outcome, Seed, State};
+use std::collections::{BTreeMap, VecDeque};
+
+/// A game of pushing crates; `sprites`, `mapping` and `rules` say where they go.
+fn crates(sprites: &str, mapping: &str, rules: &str) -> Game {
+    let source = format!(
+        "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n{sprites}    porter > MovingAvatar\n  \
+         LevelMapping\n    . > floor\n    w > wall\n{mapping}    p > floor porter\n  InteractionSet\n    \
+         porter wall > stepBack\n{rules}  TerminationSet\n    SpriteCounter stype=crate win=True\n"
+    );
+    Game::from_source(&source).unwrap()
+}
+
+fn sink() -> Game {
+    let sprites = "    drain > Immovable\n    crate > Passive\n";
+    let mapping = "    o > floor drain\n    c > floor crate\n";
+    let rules =
+        "    crate porter > bounceForward\n    crate wall crate > undoAll\n    crate drain > killSprite\n";
+    crates(sprites, mapping, rules)
+}
+
+fn hole() -> Game {
+    let sprites = "    pit > Immovable\n    crate > Passive\n";
+    let mapping = "    o > floor pit\n    c > floor crate\n";
+    let rules = "    crate porter > bounceForward\n    crate wall crate > undoAll\n    crate pit > killBoth\n    \
+                 porter pit > stepBack\n";
+    crates(sprites, mapping, rules)
+}
+
+fn place() -> Game {
+    let sprites =
+        "    mat > Immovable\n    load > Passive\n      crate > color=BROWN\n      stored > color=GREEN\n";
+    let mapping = "    o > mat\n    c > floor crate\n";
+    let rules = "    load porter > bounceForward\n    load wall load > undoAll\n    crate mat > transformTo stype=stored\n    \
+                 stored floor > transformTo stype=crate\n";
+    crates(sprites, mapping, rules)
+}
+
+fn levels_of(game: &Game) -> ConstructiveLevels<'_> {
+    ConstructiveLevels::new(game, LevelConfig::default()).unwrap()
+}
+
+fn rules_of(game: &Game) -> Rules {
+    let levels = levels_of(game);
+    Rules::of(&levels.analysis, &levels.palette).unwrap()
+}
+
+/// The puzzles that the issue asks for: 8 by 8 cells, three things.
+fn puzzles(game: &Game) -> PuzzleVariation<'_> {
+    let config = LevelConfig { columns: (8, 8), rows: (8, 8), difficulty: 0.5 };
+    let puzzle = PuzzleConfig { things: Some(3), ..PuzzleConfig::default() };
+    PuzzleVariation::new(game, config, puzzle).unwrap()
+}
+
+#[test]
+fn rules_are_recognised() {
+    assert_eq!(rules_of(&sink()).home, Home::Sink);
+    assert_eq!(rules_of(&hole()).home, Home::Hole);
+    assert!(!rules_of(&hole()).walkable);
+    assert_eq!(rules_of(&place()).home, Home::Place);
+    let jars = game_in(&workspace().join("corpora/quiet-jars")).unwrap();
+    assert_eq!(rules_of(&jars).home, Home::Partner);
+}
+
+#[test]
+fn other_games_are_refused_with_a_reason() {
+    let refuse = |folder: &str, expect: &str| {
+        let game = game_in(&workspace().join("corpora").join(folder)).unwrap();
+        let made = PuzzleVariation::new(&game, LevelConfig::default(), PuzzleConfig::default());
+        let why = made.err().expect("a game without such puzzles").to_string();
+        assert!(why.contains(expect), "{folder}: {why}");
+    };
+    refuse("bog-lantern", "by chance");
+    refuse("tinkers-attic", "by chance");
+}
+
+/// The pushes from a position to the nearest solved one, by search forward.
+fn forward(pushing: &Pushing<'_>, start: Position) -> Option<usize> {
+    let key = |position: &Position| (position.things, position.targets, position.avatar);
+    let solved = pushing.solved();
+    let done = |position: &Position| {
+        solved.iter().any(|solved| (solved.things, solved.targets) == (position.things, position.targets))
+    };
+    let mut known = BTreeMap::from([(key(&start), 0)]);
+    let mut queue = VecDeque::from([(start, 0)]);
+    while let Some((position, pushes)) = queue.pop_front() {
+        if known[&key(&position)] < pushes {
+            continue;
+        }
+        if done(&position) {
+            return Some(pushes);
+        }
+        for stride in pushing.strides() {
+            let Some(next) = pushing.step(&position, stride) else { continue };
+            let walked = next.things == position.things;
+            let cost = pushes + usize::from(!walked);
+            if known.get(&key(&next)).is_none_or(|&known| cost < known) {
+                known.insert(key(&next), cost);
+                if walked { queue.push_front((next, cost)) } else { queue.push_back((next, cost)) }
+            }
+        }
+    }
+    None
+}
+
+#[test]
+fn backward_and_forward_agree() {
+    let jars = game_in(&workspace().join("corpora/quiet-jars")).unwrap();
+    for (game, things) in [(sink(), 2), (hole(), 2), (place(), 2), (jars, 2)] {
+        let rules = rules_of(&game);
+        let grid = Grid { columns: 7, rows: 6 };
+        let floors = FloorPlans { rules: &rules, grid, counts: FloorPlans::counts_of(&rules, things) };
+        for index in 0..3 {
+            let yard: Yard = floors.create(Seed::from_text("agree").child("yard", index)).unwrap();
+            let pushing = Pushing { yard: &yard, rules: &rules };
+            let met = pushing.by_pushes(usize::MAX);
+            assert!(met.complete);
+            let starts = met.iter().filter(|(position, _)| pushing.is_start(position));
+            for (position, pushes) in starts.step_by(7) {
+                assert_eq!(forward(&pushing, *position), Some(pushes), "{:?} {position:?}", rules.home);
+            }
+            // What was not met cannot be solved.
+            let floor = pushing.lies(&Position { targets: yard.targets, ..Position::default() });
+            let cells: Vec<usize> = each(floor).collect();
+            for pair in cells.windows(2).step_by(3).filter(|_| rules.kinds.len() == 1) {
+                let things = [bit(pair[0]) | bit(pair[1]), 0];
+                let position = Position { things, targets: yard.targets, avatar: 0 };
+                let stands = pushing.stands(&position);
+                let region = pushing.flood(stands & stands.wrapping_neg(), stands);
+                let position = Position { avatar: region.trailing_zeros() as u8, ..position };
+                if pushing.is_start(&position) {
+                    assert_eq!(met.distance(&position), forward(&pushing, position), "{:?}", rules.home);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn solutions_win_and_levels_vary() {
+    for game in [sink(), hole(), place()] {
+        let variation = puzzles(&game);
+        let seed = Seed::from_text("puzzles");
+        let mut sampler = seed.sampler();
+        let Solved { mut level, solution } = variation.create_solved(seed).unwrap();
+        let mut state = game.start(&level, seed);
+        let outcome = solution.unwrap().into_iter().map(|action| game.step(&mut state, action)).last();
+        assert_eq!(outcome, Some(Outcome::Won), "{level}");
+        let other = variation.create(seed.child("other", 0)).unwrap();
+        for _ in 0..4 {
+            let next = variation.mutate(&level, &mut sampler);
+            assert_ne!(next, level);
+            level = variation.cross(&next, &other, &mut sampler);
+            let count = |symbol: u8| level.cells().iter().filter(|&&other| other == symbol).count();
+            assert_eq!((count(b'c'), count(b'o'), count(b'p')), (3, 3, 1), "{level}");
+        }
+        assert_eq!(variation.create(seed.child("other", 0)), Some(other));
+    }
+}
+
+/// Fewest ticks, proved, with the pushes among them.
+fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
+    let game = analysis.game();
+    let mut state = game.start(level, Seed::from_text("proof"));
+    let pushes = Pushes::of(analysis, level);
+    let Answer::Won { actions, shortest: true } =
+        a_star(analysis, &pushes, &state, SearchLimits::calls(10_000_000)).answer
+    else {
+        panic!("not proved\n{level}")
+    };
+    let things = |state: &State| {
+        let pushed = analysis.pushables().iter().flat_map(|pushable| state.rects(pushable.stype));
+        let mut places: Vec<(i32, i32)> = pushed.map(|rect| (rect.x, rect.y)).collect();
+        places.sort_unstable();
+        places
+    };
+    let mut count = 0;
+    for &action in &actions {
+        let before = things(&state);
+        game.step(&mut state, action);
+        count += usize::from(things(&state) != before);
+    }
+    (actions.len(), count)
+}
+
+fn median(mut numbers: Vec<usize>) -> usize {
+    numbers.sort_unstable();
+    numbers[numbers.len() / 2]
+}
+
+/// Levels of 8 by 8 cells with three crates: long, and proved to be.
+fn check_length(game: &Game) {
+    let analysis = Analysis::of(game);
+    let variation = puzzles(game);
+    let seed = |index: u64| Seed::from_text("length").child("level", index);
+    let searched: Vec<(usize, usize)> =
+        (0..9).map(|index| proved(&analysis, &variation.create(seed(index)).unwrap())).collect();
+    let ticks = median(searched.iter().map(|(ticks, _)| *ticks).collect());
+    let pushes = median(searched.iter().map(|(_, pushes)| *pushes).collect());
+    let config = LevelConfig { columns: (8, 8), rows: (8, 8), difficulty: 0.5 };
+    let constructive = ConstructiveLevels::new(game, config).unwrap();
+    let plain: Vec<usize> =
+        (0..9).map(|index| proved(&analysis, &constructive.generate(seed(index)).unwrap()).0).collect();
+    assert!(pushes >= 20 && ticks >= 45, "{pushes} pushes, {ticks} ticks: {searched:?}");
+    assert!(ticks >= 2 * median(plain.clone()), "{ticks} ticks against {plain:?}");
+}
+
+#[test]
+fn puzzles_are_long() {
+    check_length(&sink());
+    check_length(&place());
+}
+
+#[test]
+fn puzzles_of_a_public_game_are_long() {
+    let folder = public_folder().join("sokoban");
+    if crate::levels::tests::folders(&folder).is_empty() {
+        return;
+    }
+    check_length(&game_in(&folder).expect("a game that the engine plays"));
+}

@@ -1,0 +1,62 @@
+//! What varies the levels of a game in a search: puzzles where the game is one, small edits everywhere else.
+
+use super::config::LevelConfig;
+use super::constructive::ConstructiveLevels;
+use super::puzzles::{PuzzleConfig, PuzzleVariation};
+use super::variation::LevelVariation;
+use crate::{GenerateError, Variation};
+use engine::{Game, Level, Sampler, Seed};
+
+/// The way to vary levels that suits a game.
+pub enum LevelSearch<'a> {
+    /// The game is won by pushing alone: floor plans are varied, and each is searched backwards for its farthest position.
+    Puzzles(PuzzleVariation<'a>),
+    /// Any other game: levels are edited.
+    Edits(LevelVariation<'a>),
+}
+
+impl<'a> LevelSearch<'a> {
+    /// Puzzles, if they suit the game and the sizes asked for, else edits.
+    ///
+    /// # Errors
+    /// As [`LevelVariation::new`].
+    pub fn new(game: &'a Game, config: LevelConfig, puzzle: PuzzleConfig) -> Result<Self, GenerateError> {
+        match PuzzleVariation::new(game, config.clone(), puzzle) {
+            Ok(puzzles) => Ok(LevelSearch::Puzzles(puzzles)),
+            Err(_) => LevelVariation::new(game, config).map(LevelSearch::Edits),
+        }
+    }
+
+    /// The constructive generator for the game, with its analysis.
+    pub fn constructive(&self) -> &ConstructiveLevels<'a> {
+        match self {
+            LevelSearch::Puzzles(puzzles) => puzzles.constructive(),
+            LevelSearch::Edits(edits) => edits.constructive(),
+        }
+    }
+}
+
+impl Variation for LevelSearch<'_> {
+    type Candidate = Level;
+
+    fn create(&self, seed: Seed) -> Option<Level> {
+        match self {
+            LevelSearch::Puzzles(puzzles) => puzzles.create(seed),
+            LevelSearch::Edits(edits) => edits.create(seed),
+        }
+    }
+
+    fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
+        match self {
+            LevelSearch::Puzzles(puzzles) => puzzles.mutate(parent, sampler),
+            LevelSearch::Edits(edits) => edits.mutate(parent, sampler),
+        }
+    }
+
+    fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
+        match self {
+            LevelSearch::Puzzles(puzzles) => puzzles.cross(one, two, sampler),
+            LevelSearch::Edits(edits) => edits.cross(one, two, sampler),
+        }
+    }
+}
