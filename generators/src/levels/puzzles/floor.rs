@@ -8,7 +8,7 @@ use crate::{Evaluation, Variation};
 use engine::{Sampler, Seed};
 
 /// Positions looked at for the rating of a floor plan.
-const MOST_POSITIONS: usize = 40_000;
+const MOST_POSITIONS: usize = 60_000;
 /// How far apart targets of a group are at most, in cells.
 const GROUP: usize = 2;
 /// A rating of 1.0 stands for so many pushes.
@@ -33,11 +33,23 @@ impl FloorPlans<'_> {
         if self.rules.target.is_some() { self.counts[0] } else { 0 }
     }
 
+    /// Open cells at least: room for all things, and not a closet in a block of wall.
+    fn least(&self) -> usize {
+        let things: usize = self.counts.iter().sum();
+        let share = (self.grid.columns - 2) * (self.grid.rows - 2) * 2 / 5;
+        (3 * things + 5).max(share.min(self.most()))
+    }
+
+    /// Open cells at first, at most: where things meet anywhere, there are too many positions in a large yard.
+    fn most(&self) -> usize {
+        if self.rules.home == Home::Partner { 20 } else { usize::MAX }
+    }
+
     /// Rooms and corridors that hang together, and targets in a group.
     fn draw(&self, sampler: &mut Sampler) -> Option<Yard> {
         let (columns, rows) = (self.grid.columns - 2, self.grid.rows - 2);
         let mut open: Cells = 0;
-        let wanted = columns * rows * sampler.between(52, 72) / 100;
+        let wanted = (columns * rows * sampler.between(52, 72) / 100).min(self.most());
         for _ in 0..60 {
             if open.count_ones() as usize >= wanted {
                 break;
@@ -80,13 +92,12 @@ impl FloorPlans<'_> {
     fn is_fair(&self, yard: &Yard) -> bool {
         let pushing = Pushing { yard, rules: self.rules };
         let open = pushing.stands(&Position::default());
-        let things: usize = self.counts.iter().sum();
         let first = open & open.wrapping_neg();
         let grouped = each(yard.targets).all(|cell| {
             let others = Yard { targets: yard.targets & !bit(cell), ..yard.clone() };
             self.joins(&others, cell)
         });
-        open.count_ones() as usize >= 3 * things + 5
+        open.count_ones() as usize >= self.least()
             && yard.targets & yard.wall == 0
             && yard.targets.count_ones() as usize == self.homes()
             && grouped
