@@ -52,15 +52,21 @@ const FUTURES: u64 = 3;
 const MOMENTS: usize = 60;
 
 impl Measures {
-    /// Measures a level that was judged; none if the report has no witness. The same arguments give the same numbers on every
-    /// machine. Cost: the witness is played again; at 60 of its ticks at most, every action is tried once for branching, and
+    /// Measures a level that was judged, and on which a ladder may have played; none if the report has no witness. The same
+    /// arguments give the same numbers on every machine. Cost: the witness is played again; at 60 of its ticks at most, every action is tried once for branching, and
     /// three times for up to [`FORESIGHT`] ticks for pressure: with five actions at most 7,500 forward-model calls.
-    pub fn of(analysis: &Analysis, level: &Level, report: &Report, seed: Seed) -> Option<Measures> {
+    pub fn of(
+        analysis: &Analysis,
+        level: &Level,
+        report: &Report,
+        ladder: Option<&Ladder>,
+        seed: Seed,
+    ) -> Option<Measures> {
         let witness = report.witness.as_ref()?;
         let shortest = report.finding("winnable").and_then(|finding| finding.optimal);
         Some(Measures {
             shortest,
-            skill: report.ladder().and_then(SkillGap::of),
+            skill: ladder.and_then(SkillGap::of),
             ..Measures::of_episode(analysis, level, witness, seed)
         })
     }

@@ -19,7 +19,7 @@ const LIGHT: [f64; 3] = [214.0, 232.0, 238.0];
 
 /// A share from 0 to 1 as a bar, with its interval as a line.
 pub(super) fn bar(share: f64, [low, high]: [f64; 2]) -> String {
-    const LENGTH: f64 = 140.0;
+    const LENGTH: f64 = 90.0;
     let at = |share: f64| number(LENGTH * share.clamp(0.0, 1.0));
     let (end, low, high) = (at(share), at(low), at(high));
     format!(
@@ -164,6 +164,6 @@ mod tests {
     #[test]
     fn bars_stay_within_their_track() {
         let text = bar(0.5, [-0.1, 1.2]);
-        assert!(text.contains("<rect width=\"70\"") && text.contains("M0 6H140"), "{text}");
+        assert!(text.contains("<rect width=\"45\"") && text.contains("M0 6H90"), "{text}");
     }
 }

@@ -3,7 +3,8 @@
 use super::{plots, words};
 use serde::Serialize;
 use snapshots::levels::report::{
-    Control, Cost, Diversity, Estimate, Hits, LevelSetReport, NEAR, Novelty, Quantiles, Rules, Share, Skill,
+    Control, Diversity, Estimate, Expense, Hits, LevelSetReport, NEAR, Novelty, Quantiles, Rules, Share,
+    Skill,
 };
 
 /// A question with its answers.
@@ -115,10 +116,8 @@ fn validity(report: &LevelSetReport) -> Section {
     }
     for fit in &validity.fit {
         let [low, high] = fit.examples.map(words::short);
-        facts.push(Fact::share(
-            format!("{} within {low} to {high}, as the game's own", fit.measure),
-            &fit.within,
-        ));
+        let range = if low == high { format!("= {low}") } else { format!("from {low} to {high}") };
+        facts.push(Fact::share(format!("{} {range}, as the game's own", fit.measure), &fit.within));
     }
     section("Are they levels?", "What each criterion asks is in docs/validate.md.", facts)
 }
@@ -238,13 +237,17 @@ fn hits(control: &Control) -> Section {
     section("Are they as hard as asked?", note, facts)
 }
 
-fn price(cost: &Cost) -> Section {
+fn price(cost: &Expense) -> Section {
     let each = cost.calls.checked_div(cost.accepted).map_or(words::NONE.to_owned(), words::grouped);
-    let facts = vec![
+    let mut facts = vec![
         Fact::plain("forward-model calls", words::grouped(cost.calls)),
-        Fact::plain("candidates judged", words::grouped(cost.candidates)),
+        Fact::plain("candidates that a search looked at", words::grouped(cost.looks)),
+        Fact::plain("candidates before the panel", words::grouped(cost.judged)),
         Fact::plain("accepted", words::grouped(cost.accepted)),
         Fact::plain("calls for each that was accepted", each),
     ];
-    section("What did they cost?", "", facts)
+    for (why, count) in &cost.rejections {
+        facts.push(Fact::plain(format!("turned down: {why}"), words::grouped(*count)));
+    }
+    section("What did they cost?", "Judging them for this report apart.", facts)
 }

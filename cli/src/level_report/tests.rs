@@ -1,25 +1,10 @@
 use super::*;
 use crate::input;
-use engine::{Game, Seed};
-use snapshots::levels::report::{Cost, Judged, LevelSet, Likeness};
-use validators::{Criteria, Difficulty, Measures, Panel};
+use engine::Seed;
+use snapshots::levels::report::{Expense, Judged, Sample, Survey};
+use validators::{Criteria, Difficulty};
 
 /// The corpus game's own levels as a set, judged in earnest; every other one asked to be hard.
-fn judged(game: &Game, analysis: &Analysis, levels: &[Level], criteria: &Criteria) -> Vec<Judged> {
-    let panel = Panel::new(criteria);
-    let judge = |(at, level): (usize, &Level)| {
-        let seed = Seed::from_text("level report").child("level", at as u64);
-        let report = panel.judge(game, level, seed);
-        let measures = Measures::of(analysis, level, &report, seed);
-        let free = level.cells().iter().filter(|symbol| **symbol == b'.' || **symbol == b' ').count();
-        let openness = free as f64 / level.cells().len() as f64;
-        let layout = vec![("openness".to_owned(), openness), ("cover".to_owned(), 1.0 - openness)];
-        let asked = if at % 2 == 0 { Difficulty::Hard } else { Difficulty::Easy };
-        Judged { layout, asked: Some(asked), ..Judged::new(level.clone(), report, measures) }
-    };
-    levels.iter().enumerate().map(judge).collect()
-}
-
 fn write(name: &str, dir: &Path) -> LevelSetReport {
     let input = input::game(name).unwrap();
     let game = input.compile(false).unwrap();
@@ -35,19 +20,18 @@ fn write(name: &str, dir: &Path) -> LevelSetReport {
         ask: Criteria::full().ask,
         ..Criteria::default()
     };
-    let set = judged(&game, &analysis, &levels, &criteria);
-    let differ = |one: &Level, two: &Level| f64::from(u8::from(one != two));
-    let likeness = Likeness { canonical: &Level::digest, distance: &differ };
-    let cost = Cost { calls: 123_456, candidates: 40, accepted: levels.len() as u64 };
-    let (pool, examples) = ([Difficulty::Easy, Difficulty::Hard, Difficulty::Hard], &set[..1]);
-    let report = LevelSetReport::of(&LevelSet {
-        game: &game,
+    let asked = |at| Some(if at % 2 == 0 { Difficulty::Hard } else { Difficulty::Easy });
+    let asked: Vec<_> = levels.iter().cloned().enumerate().map(|(at, level)| (level, asked(at))).collect();
+    let survey = Survey::new(&analysis, &criteria, Seed::from_text("survey")).unwrap();
+    let set: Vec<Judged> = survey.judge(&asked);
+    let cost = Expense { calls: 123_456, looks: 40, accepted: levels.len() as u64, ..Expense::default() };
+    let report = LevelSetReport::of(&Sample {
+        analysis: &analysis,
         method: "constructive",
         levels: &set,
-        examples,
-        pool: &pool,
-        likeness,
-        cost,
+        examples: &set[..1],
+        pool: &[Difficulty::Easy, Difficulty::Hard, Difficulty::Hard],
+        cost: &cost,
     });
     let pictures = Pictures {
         title: name,

@@ -9,44 +9,48 @@ mod likeness;
 mod play;
 mod range;
 mod row;
+mod survey;
 
 pub use control::{Control, Hits};
 pub use figures::{Estimate, Quantiles, Share};
-pub use likeness::{Diversity, Likeness, NEAR, Novelty};
+pub use likeness::{Diversity, NEAR, Novelty};
 pub use play::{Fit, Lengths, LineUse, PlayerRate, Rules, Skill, Solvability, Triviality, Validity};
 pub use range::{Axis, BINS, PAIRS, Range};
 pub use row::LevelRow;
+pub use survey::Survey;
 
+use super::make::Cost;
 use crate::canonical::{CanonicalError, to_canonical_json};
-use engine::{Digest, Game, Level};
+use engine::{Analysis, Digest, Level};
+use generators::levels::Likeness;
 use serde::{Deserialize, Serialize};
-use validators::{Difficulty, Measures, Report};
+use std::collections::BTreeMap;
+use validators::{Difficulty, Ladder, Measures, Report};
 
 /// The version of the report's form.
 pub const REPORT_FORMAT: u32 = 1;
 
-/// A level and all that is known of it.
+/// A level and all that is known of it; see [`Survey`].
 #[derive(Clone, Debug)]
 pub struct Judged {
     /// The level.
     pub level: Level,
     /// What the judges found.
     pub report: Report,
+    /// How a ladder of players fared on it, and how hard that makes it; with seeds that no search was guided by.
+    pub ladder: Option<Ladder>,
     /// What its witness is like; none without a witness.
     pub measures: Option<Measures>,
     /// Measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1; the same names for all levels.
     pub layout: Vec<(String, f64)>,
     /// The difficulty that was asked for.
     pub asked: Option<Difficulty>,
-    /// The difficulty that was measured, with seeds that no search was guided by.
-    pub label: Option<Difficulty>,
 }
 
 impl Judged {
-    /// A level whose label is that of its report.
-    pub fn new(level: Level, report: Report, measures: Option<Measures>) -> Judged {
-        let label = report.ladder().map(|ladder| ladder.difficulty);
-        Judged { level, report, measures, layout: Vec::new(), asked: None, label }
+    /// The difficulty that was measured.
+    pub fn label(&self) -> Option<Difficulty> {
+        self.ladder.as_ref().map(|ladder| ladder.difficulty)
     }
 
     /// A measure by name: `ticks`, `pushes`, `branching`, `mechanics`, `pressure`, `skill`, or one of the layout.
@@ -64,23 +68,35 @@ impl Judged {
     }
 }
 
-/// What making the levels cost. Time is no part of it: it differs from run to run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// What making the levels cost. Time is no part of it: it differs from run to run. Nor is judging them for the report.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Cost {
-    /// Forward-model calls of all judges and measures, of rejected candidates too.
+pub struct Expense {
+    /// Forward-model calls of all that looked and judged, on what was turned down too.
     pub calls: u64,
-    /// Candidates that were judged.
-    pub candidates: u64,
-    /// Candidates that were accepted.
+    /// Candidates that a search looked at.
+    pub looks: u64,
+    /// Candidates that came before the panel.
+    pub judged: u64,
+    /// Levels that were accepted.
     pub accepted: u64,
+    /// How often each criterion of the panel, or the generator, said no.
+    pub rejections: BTreeMap<String, u64>,
+}
+
+impl Expense {
+    /// What so many accepted levels cost.
+    pub fn of(cost: &Cost, accepted: usize) -> Expense {
+        let Cost { looks, judged, calls, rejections } = cost.clone();
+        Expense { calls, looks, judged, accepted: accepted as u64, rejections }
+    }
 }
 
 /// What a report is made from.
 #[derive(Clone, Copy)]
-pub struct LevelSet<'a> {
-    /// The game.
-    pub game: &'a Game,
+pub struct Sample<'a> {
+    /// The game, and what its rules mean.
+    pub analysis: &'a Analysis,
     /// Who made the levels: `constructive`, `search`, `evolutionary`.
     pub method: &'a str,
     /// The levels, in the order of their making.
@@ -89,10 +105,8 @@ pub struct LevelSet<'a> {
     pub examples: &'a [Judged],
     /// The labels of levels that were made with no difficulty asked for: what picking at random would give.
     pub pool: &'a [Difficulty],
-    /// How alike two levels are.
-    pub likeness: Likeness<'a>,
     /// What it cost.
-    pub cost: Cost,
+    pub cost: &'a Expense,
 }
 
 /// What the levels of a set are like. Intervals of shares are Wilson's, those of means are bootstrapped over levels; both 95 %.
@@ -134,16 +148,17 @@ pub struct LevelSetReport {
     /// What lies where, in pairs of measures.
     pub ranges: Vec<Range>,
     /// What it cost.
-    pub cost: Cost,
+    pub cost: Expense,
     /// A row for each level.
     pub levels: Vec<LevelRow>,
 }
 
 impl LevelSetReport {
     /// The report on a set. Cost: a comparison for each pair of levels, on all threads; the rest is summing up.
-    pub fn of(set: &LevelSet<'_>) -> LevelSetReport {
-        let LevelSet { game, method, levels, examples, pool, likeness, cost } = *set;
-        let (diversity, nearest) = Diversity::of(levels, likeness);
+    pub fn of(sample: &Sample<'_>) -> LevelSetReport {
+        let Sample { analysis, method, levels, examples, pool, cost } = *sample;
+        let (game, likeness) = (analysis.game(), Likeness::of(analysis));
+        let (diversity, nearest) = Diversity::of(levels, &likeness);
         LevelSetReport {
             format: REPORT_FORMAT,
             semantics: engine::SEMANTICS,
@@ -159,10 +174,10 @@ impl LevelSetReport {
             skill: Skill::of(levels),
             rules: Rules::of(game, levels),
             diversity,
-            novelty: Novelty::of(levels, examples, likeness),
+            novelty: Novelty::of(levels, examples, &likeness),
             control: Control::of(levels, pool),
             ranges: Range::all(levels, examples),
-            cost,
+            cost: cost.clone(),
             levels: levels
                 .iter()
                 .zip(nearest)

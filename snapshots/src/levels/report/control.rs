@@ -54,7 +54,7 @@ pub struct Hits {
 impl Control {
     pub(super) fn of(levels: &[Judged], pool: &[Difficulty]) -> Option<Control> {
         let pairs: Vec<(usize, usize)> =
-            levels.iter().filter_map(|judged| Some((rank(judged.asked?), rank(judged.label?)))).collect();
+            levels.iter().filter_map(|judged| Some((rank(judged.asked?), rank(judged.label()?)))).collect();
         if pairs.is_empty() {
             return None;
         }

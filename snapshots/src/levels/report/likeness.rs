@@ -2,22 +2,14 @@
 
 use super::Judged;
 use super::figures::{Estimate, Quantiles, Share};
-use engine::{Digest, Level};
+use engine::Digest;
+use generators::levels::Likeness;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 /// Levels at most this far apart are near-duplicates.
 pub const NEAR: f64 = 0.05;
-
-/// How alike two levels are.
-#[derive(Clone, Copy)]
-pub struct Likeness<'a> {
-    /// Equal for levels that are the same up to a symmetry of the board that the rules respect.
-    pub canonical: &'a (dyn Fn(&Level) -> Digest + Sync),
-    /// From 0 for the same level to 1; symmetric.
-    pub distance: &'a (dyn Fn(&Level, &Level) -> f64 + Sync),
-}
 
 /// How different are they from each other?
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,18 +28,17 @@ pub struct Diversity {
 
 impl Diversity {
     /// Also the distance of each level to its nearest neighbour.
-    pub(super) fn of(levels: &[Judged], likeness: Likeness<'_>) -> (Diversity, Vec<Option<f64>>) {
+    pub(super) fn of(levels: &[Judged], likeness: &Likeness) -> (Diversity, Vec<Option<f64>>) {
         let row = |at: usize| -> Vec<f64> {
             let others = levels.iter().enumerate().filter(|(other, _)| *other != at);
-            others.map(|(_, other)| (likeness.distance)(&levels[at].level, &other.level)).collect()
+            others.map(|(_, other)| likeness.distance(&levels[at].level, &other.level)).collect()
         };
         let rows: Vec<Vec<f64>> = (0..levels.len()).into_par_iter().map(row).collect();
         let compared = || rows.iter().filter(|row| !row.is_empty());
         let means: Vec<f64> = compared().map(|row| row.iter().sum::<f64>() / row.len() as f64).collect();
         let nearest: Vec<Option<f64>> = rows.iter().map(|row| least(row)).collect();
         let known: Vec<f64> = nearest.iter().flatten().copied().collect();
-        let forms: BTreeSet<Digest> =
-            levels.iter().map(|judged| (likeness.canonical)(&judged.level)).collect();
+        let forms: BTreeSet<Digest> = levels.iter().map(|judged| likeness.digest(&judged.level)).collect();
         let diversity = Diversity {
             unique: Share::new(forms.len() as u64, levels.len() as u64),
             distance: Estimate::of(&means),
@@ -73,19 +64,19 @@ pub struct Novelty {
 }
 
 impl Novelty {
-    pub(super) fn of(levels: &[Judged], examples: &[Judged], likeness: Likeness<'_>) -> Option<Novelty> {
+    pub(super) fn of(levels: &[Judged], examples: &[Judged], likeness: &Likeness) -> Option<Novelty> {
         if examples.is_empty() {
             return None;
         }
         let to_examples = |judged: &Judged| {
-            let to = |example: &Judged| (likeness.distance)(&judged.level, &example.level);
+            let to = |example: &Judged| likeness.distance(&judged.level, &example.level);
             least(&examples.iter().map(to).collect::<Vec<f64>>())
         };
         let nearest: Vec<f64> =
             levels.par_iter().map(to_examples).collect::<Vec<Option<f64>>>().into_iter().flatten().collect();
         let forms: BTreeSet<Digest> =
-            examples.iter().map(|example| (likeness.canonical)(&example.level)).collect();
-        let copied = |judged: &Judged| forms.contains(&(likeness.canonical)(&judged.level));
+            examples.iter().map(|example| likeness.digest(&example.level)).collect();
+        let copied = |judged: &Judged| forms.contains(&likeness.digest(&judged.level));
         Some(Novelty {
             nearest: Quantiles::of(&nearest),
             near_duplicates: Share::yes(nearest.iter().map(|distance| *distance <= NEAR)),

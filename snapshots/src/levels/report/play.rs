@@ -214,7 +214,7 @@ impl Skill {
         let gaps = || levels.iter().filter_map(|judged| judged.measures.as_ref()?.skill);
         let wins: Vec<f64> = gaps().map(|gap| gap.wins).collect();
         let reward: Vec<f64> = gaps().filter_map(|gap| gap.reward).collect();
-        let ladders: Vec<&Ladder> = levels.iter().filter_map(|judged| judged.report.ladder()).collect();
+        let ladders: Vec<&Ladder> = levels.iter().filter_map(|judged| judged.ladder.as_ref()).collect();
         let order: Vec<f64> = ladders.iter().filter_map(|ladder| order(&ladder.rungs)).collect();
         let mut players: Vec<PlayerRate> = Vec::new();
         for fared in ladders.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out)) {

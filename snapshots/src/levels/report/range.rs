@@ -5,12 +5,13 @@ use super::Judged;
 use serde::{Deserialize, Serialize};
 
 /// The pairs of measures that are told, chosen before any level was made: across and up.
-pub const PAIRS: [(&str, &str); 5] = [
+pub const PAIRS: [(&str, &str); 6] = [
     ("openness", "ticks"),
     ("cover", "pressure"),
     ("ticks", "branching"),
     ("ticks", "pushes"),
     ("mechanics", "skill"),
+    ("goal things", "enemy pressure"),
 ];
 
 /// Cells of an axis.

@@ -41,7 +41,7 @@ const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressu
 
 impl LevelRow {
     pub(super) fn of(judged: &Judged, nearest: Option<f64>) -> LevelRow {
-        let Judged { level, report, measures, layout, asked, label } = judged;
+        let Judged { level, report, ladder, measures, layout, asked } = judged;
         let winnable = report.finding("winnable").map(|found| &found.verdict);
         let solved = match (&report.witness, winnable) {
             (Some(_), _) => "solved",
@@ -58,8 +58,8 @@ impl LevelRow {
             obstacle: report.first_obstacle().map(|obstacle| obstacle.criterion.to_owned()),
             solved: solved.to_owned(),
             asked: *asked,
-            label: *label,
-            ease: report.ladder().and_then(|ladder| ladder.ease),
+            label: judged.label(),
+            ease: ladder.as_ref().and_then(|ladder| ladder.ease),
             shortest: measures.as_ref().and_then(|measures| measures.shortest).map(|ticks| ticks as u64),
             measures: names.filter_map(named).collect(),
             nearest,
