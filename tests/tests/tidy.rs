@@ -37,6 +37,7 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("indicatif", &["cli"]),
     ("ratatui", &["cli"]),
     ("miette", &["cli"]),
+    ("minijinja", &["cli"]),
     ("anyhow", &["cli", "xtask"]),
 ];
 

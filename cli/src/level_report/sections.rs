@@ -3,7 +3,7 @@
 use super::{plots, words};
 use serde::Serialize;
 use snapshots::levels::report::{
-    Control, Diversity, Estimate, Expense, Hits, LevelSetReport, NEAR, Novelty, Quantiles, Rules, Share,
+    Control, Diversity, Estimate, Expense, Fit, Hits, LevelSetReport, NEAR, Novelty, Quantiles, Rules, Share,
     Skill,
 };
 
@@ -14,6 +14,7 @@ pub(super) struct Section {
     note: String,
     facts: Vec<Fact>,
     quantiles: Vec<Five>,
+    fits: Vec<Beside>,
 }
 
 /// A figure.
@@ -35,6 +36,32 @@ struct Five {
     name: String,
     five: [String; 5],
     count: u64,
+}
+
+/// What a measure spans, here and in the game's own levels.
+#[derive(Serialize)]
+struct Beside {
+    measure: String,
+    levels: String,
+    examples: String,
+    within: String,
+    of: String,
+}
+
+impl Beside {
+    fn of(fit: &Fit) -> Beside {
+        let span = |[low, high]: [f64; 2]| {
+            let [low, high] = [low, high].map(words::short);
+            if low == high { low } else { format!("{low} to {high}") }
+        };
+        Beside {
+            measure: fit.measure.clone(),
+            levels: span(fit.levels),
+            examples: span(fit.examples),
+            within: words::percent(&fit.within),
+            of: words::counted(&fit.within),
+        }
+    }
 }
 
 impl Fact {
@@ -72,7 +99,7 @@ fn five(name: impl Into<String>, quantiles: Option<&Quantiles>) -> Option<Five> 
 }
 
 fn section(title: &'static str, note: impl Into<String>, facts: Vec<Fact>) -> Section {
-    Section { title, note: note.into(), facts, quantiles: Vec::new() }
+    Section { title, note: note.into(), facts, quantiles: Vec::new(), fits: Vec::new() }
 }
 
 /// What is looked at first.
@@ -114,12 +141,8 @@ fn validity(report: &LevelSetReport) -> Section {
     for (criterion, count) in &validity.obstacles {
         facts.push(Fact::share(format!("fail first: {criterion}"), &Share::new(*count, report.count)));
     }
-    for fit in &validity.fit {
-        let [low, high] = fit.examples.map(words::short);
-        let range = if low == high { format!("= {low}") } else { format!("from {low} to {high}") };
-        facts.push(Fact::share(format!("{} {range}, as the game's own", fit.measure), &fit.within));
-    }
-    section("Are they levels?", "What each criterion asks is in docs/validate.md.", facts)
+    let fits = validity.fit.iter().map(Beside::of).collect();
+    Section { fits, ..section("Are they levels?", "What each criterion asks is in docs/validate.md.", facts) }
 }
 
 fn solvability(report: &LevelSetReport) -> Section {
