@@ -44,8 +44,10 @@ impl Builder<'_> {
         let mut tries = 0;
         while self.board.count(self.analysis, wish.stype) < before + wish.count && tries < wish.count {
             tries += 1;
-            if self.place(wish.stype, wish.role).is_none() {
-                return;
+            let Some(cell) = self.place(wish.stype, wish.role) else { return };
+            let left = before + wish.count > self.board.count(self.analysis, wish.stype);
+            if let Some(twin) = self.twin(cell, wish.stype).filter(|_| left) {
+                self.put(twin, wish.stype);
             }
         }
     }

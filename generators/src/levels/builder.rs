@@ -2,12 +2,16 @@
 
 use super::board::Board;
 use super::config::LevelConfig;
-use super::examples::{Examples, Target, USUAL};
+use super::examples::{Examples, Target};
 use super::grid::{FAR, WAYS};
 use super::palette::{Palette, Walk};
 use super::plan::{self, Wish};
+use super::stance::USUAL;
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, Sampler, SpriteType};
+
+/// How much better a cell is beside what such a sprite is hardly ever seen without.
+const COMPANY: u32 = 40;
 
 /// A level in the making, with everything that a decision about it needs.
 pub(crate) struct Builder<'a> {
@@ -70,7 +74,9 @@ impl Builder<'_> {
         let suits =
             |cell: usize| grid.on_border(cell) && self.board.wall[cell] && grid.beside(cell).any(open);
         let cells: Vec<usize> = (0..grid.len()).filter(|&cell| suits(cell)).collect();
-        let weights: Vec<u32> = cells.iter().map(|&cell| self.habit(cell, stype)).collect();
+        let sides =
+            |cell: usize| self.examples().map_or(0, |examples| examples.stance(stype).on_border(grid, cell));
+        let weights: Vec<u32> = cells.iter().map(|&cell| sides(cell) * self.habit(cell, stype)).collect();
         let cell = cells[self.sampler.weighted(&weights)?];
         self.board.wall[cell] = false;
         self.put(cell, stype);
@@ -84,8 +90,31 @@ impl Builder<'_> {
 
     /// How well a cell agrees with where examples have such sprites.
     pub(crate) fn habit(&self, cell: usize, stype: SpriteType) -> u32 {
-        let usual = if self.config.like.is_some() { USUAL } else { 1 };
-        self.examples().map_or(usual, |examples| examples.stance(stype).weigh(self.board.grid, cell))
+        let Some(examples) = self.examples() else { return 1 };
+        let grid = self.board.grid;
+        let stance = examples.stance(stype);
+        let mut weight = stance.weigh(grid, &self.board.wall, cell, examples.nooks());
+        for (way, other) in stance.companions() {
+            if grid.shift(cell, way).is_some_and(|next| self.log.contains(&(next, other))) {
+                weight = weight.saturating_mul(COMPANY);
+            }
+        }
+        if stance.is_lined_up() {
+            let in_row =
+                |&(other, kind): &(usize, SpriteType)| kind == stype && grid.y(other) == grid.y(cell);
+            if self.log.iter().any(in_row) {
+                weight = weight.saturating_mul(COMPANY);
+            }
+        }
+        weight.min(USUAL * 10_000)
+    }
+
+    /// The cell on the other side, left and right, if examples have such sprites in pairs and there is room.
+    pub(crate) fn twin(&self, cell: usize, stype: SpriteType) -> Option<usize> {
+        self.examples().filter(|examples| examples.stance(stype).is_mirrored())?;
+        let grid = self.board.grid;
+        let twin = grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
+        (self.board.is_free(twin) && !self.cuts(twin, stype)).then_some(twin)
     }
 
     /// How many of which type the level is to hold: by their roles, or as in examples, and as the configuration says.

@@ -76,7 +76,12 @@ impl<'a> ConstructiveLevels<'a> {
             return Err(GenerateError::Unsuitable(problem));
         }
         let analysis = Analysis::of(game);
-        let Some(palette) = Palette::of(&analysis) else {
+        let base = config.like.as_ref().and_then(|examples| examples.base());
+        let palette = match base {
+            Some(base) => Palette::on(&analysis, base),
+            None => Palette::of(&analysis),
+        };
+        let Some(palette) = palette else {
             let problem = "no level character places exactly one avatar".to_owned();
             return Err(GenerateError::Unsuitable(problem));
         };
@@ -220,7 +225,7 @@ impl<'a> ConstructiveLevels<'a> {
         let patterns = self.config.like.as_deref().map(|examples| examples.patterns());
         let patterns = patterns.filter(|patterns| patterns.has_structure());
         let draw = |layout: &mut Sampler| {
-            let learnt = patterns.filter(|_| layout.ratio(2, 3));
+            let learnt = patterns.filter(|_| layout.ratio(3, 4));
             let learnt = learnt.and_then(|patterns| layout::learnt(patterns, grid, layout));
             learnt.unwrap_or_else(|| {
                 let family = match self.family(layout) {
@@ -231,13 +236,19 @@ impl<'a> ConstructiveLevels<'a> {
                 layout::walls(family, grid, ring, loops, layout)
             })
         };
+        // As many walls as asked for, and such as the examples might have.
         let off = |wall: &Vec<bool>| {
+            let strange = patterns.map_or(0.0, |patterns| 1.0 - patterns.familiar(grid, wall));
             let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
             let wanted = (target.walls * inner().count() as f64) as usize;
-            inner().filter(|&cell| wall[cell]).count().abs_diff(wanted)
+            let off = inner().filter(|&cell| wall[cell]).count().abs_diff(wanted) as f64;
+            ((strange + 0.5 * off / inner().count().max(1) as f64) * 1e6) as u64
         };
         let drawn = (0..LAYOUTS).map(|_| draw(layout)).collect::<Vec<_>>();
         let mut wall = drawn.into_iter().min_by_key(off).expect("at least one layout is drawn");
+        if self.config.like.as_deref().is_some_and(|examples| examples.draw_mirrored(layout)) {
+            layout::mirror(grid, &mut wall);
+        }
         if self.palette.wall.is_some() {
             layout::adjust(grid, target.walls, layout, &mut wall);
         }

@@ -3,13 +3,9 @@
 use super::grid::Grid;
 use super::layout::Patterns;
 use super::palette::Palette;
-use engine::analysis::Role;
+use super::stance::{NOOKS, Scene, Stance, nook};
+use engine::analysis::{Motion, Role};
 use engine::{Analysis, Game, Level, Sampler, SpriteType};
-
-/// Parts into which a board is divided each way for [`Stance`].
-const BANDS: usize = 5;
-/// The weight of a cell to which nothing speaks for or against; see [`Stance::weigh`].
-pub(crate) const USUAL: u32 = 16;
 
 /// What a game's own levels are like.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +17,14 @@ pub struct Examples {
     patterns: Patterns,
     /// The border is wall.
     closed: bool,
+    /// How many of them have walls that are the same on the left and on the right.
+    mirrored: usize,
+    /// The character of empty cells, where it is not what the rules alone suggest.
+    base: Option<u8>,
+    /// How many open cells have walls beside them in which way; see [`nook`].
+    nooks: [usize; NOOKS],
+    /// Types that mean nothing to the rules and are seen nevertheless.
+    decor: Vec<SpriteType>,
 }
 
 /// One example in numbers.
@@ -34,16 +38,8 @@ struct Sketch {
     walls: f64,
     /// By type: how many sprites.
     counts: Vec<usize>,
-}
-
-/// Where sprites of a type stand, as shares of their number in bands of the board.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Stance {
-    seen: usize,
-    across: [usize; BANDS],
-    down: [usize; BANDS],
-    /// How many of them stand on the border of a closed board.
-    on_border: usize,
+    /// How much there is of each type of [`Examples::decor`].
+    decor: Vec<usize>,
 }
 
 /// What one new level is to be like: something between two examples.
@@ -52,8 +48,10 @@ pub(crate) struct Target {
     pub(crate) grid: Grid,
     /// Share of the cells inside the border that are wall.
     pub(crate) walls: f64,
-    /// By type: how many sprites, with the fewest and the most of all examples.
-    pub(crate) counts: Vec<(usize, usize, usize)>,
+    /// By type: how many sprites; then the fewest, the median and the most of all examples.
+    pub(crate) counts: Vec<(usize, [usize; 3])>,
+    /// What lies about without a meaning, and how much of it.
+    pub(crate) decor: Vec<(SpriteType, usize)>,
 }
 
 impl Examples {
@@ -62,14 +60,21 @@ impl Examples {
     /// Cost: one analysis, and O(cells) for each level.
     pub fn of(game: &Game, levels: &[Level]) -> Option<Examples> {
         let analysis = Analysis::of(game);
-        let palette = Palette::of(&analysis)?;
+        let mut palette = Palette::of(&analysis)?;
         if levels.is_empty() {
             return None;
         }
+        let known = levels.iter().any(|level| level.cells().contains(&palette.base));
+        let base = if known { None } else { commonest(&analysis, levels) };
+        if let Some(base) = base {
+            palette = Palette::on(&analysis, base)?;
+        }
+        let decor = decor(&analysis, &palette, levels);
         let mut stances = vec![Stance::default(); game.sprite_types().count()];
         let mut patterns = Patterns::default();
         let mut boards = Vec::new();
-        let (mut edge, mut edge_walls) = (0, 0);
+        let (mut edge, mut edge_walls, mut mirrored) = (0, 0, 0);
+        let mut nooks = [0; NOOKS];
         for level in levels {
             let grid = Grid { columns: level.columns(), rows: level.rows() };
             let wall: Vec<bool> =
@@ -81,12 +86,19 @@ impl Examples {
             edge += border().count();
             edge_walls += walls_there;
             let mut counts = vec![0; stances.len()];
-            for (cell, &symbol) in level.cells().iter().enumerate() {
-                for &stype in game.places(symbol) {
-                    counts[stype.index()] += 1;
-                    stances[stype.index()].see(grid, cell, closed);
-                }
+            for &stype in level.cells().iter().flat_map(|&symbol| game.places(symbol)) {
+                counts[stype.index()] += 1;
             }
+            for cell in (0..grid.len()).filter(|&cell| !wall[cell]) {
+                nooks[nook(grid, &wall, cell)] += 1;
+            }
+            let scene = Scene { grid, wall: &wall, closed, game, cells: level.cells() };
+            for stype in game.sprite_types().filter(|stype| counts[stype.index()] > 0) {
+                stances[stype.index()].see(&scene, stype);
+            }
+            let turned = |cell: usize| grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
+            let alike = (0..grid.len()).filter(|&cell| wall[cell] == wall[turned(cell)]).count();
+            mirrored += usize::from(alike * 20 >= grid.len() * 19);
             let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
             boards.push(Sketch {
                 columns: grid.columns,
@@ -94,10 +106,23 @@ impl Examples {
                 cover: cover(&analysis, level),
                 walls: inner().filter(|&cell| wall[cell]).count() as f64 / inner().count().max(1) as f64,
                 counts,
+                decor: decor
+                    .iter()
+                    .map(|(symbol, _)| level.cells().iter().filter(|&other| other == symbol).count())
+                    .collect(),
             });
         }
         let closed = palette.wall.is_some() && edge_walls * 10 >= edge * 8;
-        Some(Examples { boards, stances, patterns, closed })
+        let cells: usize = levels.iter().map(|level| level.cells().len()).sum();
+        let total = |stype: SpriteType| boards.iter().map(|board| board.counts[stype.index()]).sum::<usize>();
+        for stance in &mut stances {
+            stance.conclude(cells, &total, |stype| {
+                let still = analysis.facts(stype).motion == Motion::Still;
+                !still || palette.ground.contains(&stype) || analysis.role(stype) == Role::Wall
+            });
+        }
+        let decor = decor.into_iter().map(|(_, stype)| stype).collect();
+        Some(Examples { boards, stances, patterns, closed, mirrored, base, nooks, decor })
     }
 
     /// Columns, from and to.
@@ -135,8 +160,23 @@ impl Examples {
         self.closed
     }
 
+    /// The character of empty cells, where it is not what the rules alone suggest.
+    pub(crate) fn base(&self) -> Option<u8> {
+        self.base
+    }
+
+    /// Draws whether walls are to be the same on the left and on the right, as often as in the examples.
+    pub(crate) fn draw_mirrored(&self, sampler: &mut Sampler) -> bool {
+        sampler.ratio(self.mirrored, self.boards.len())
+    }
+
     pub(crate) fn stance(&self, stype: SpriteType) -> &Stance {
         &self.stances[stype.index()]
+    }
+
+    /// How many open cells have walls beside them in which way.
+    pub(crate) fn nooks(&self) -> &[usize; NOOKS] {
+        &self.nooks
     }
 
     pub(crate) fn patterns(&self) -> &Patterns {
@@ -165,47 +205,51 @@ impl Examples {
         let scaled = |count: usize| (count as f64 * scale + 0.5) as usize;
         let counts = (0..self.stances.len()).map(|at| {
             let count = nearest(one.counts[at], two.counts[at]);
-            let (least, _, most) = self.count(SpriteType(at as u16));
+            let (least, usual, most) = self.count(SpriteType(at as u16));
             let drawn = scaled(count).max(usize::from(count > 0));
-            (drawn, scaled(least), scaled(most).max(drawn))
+            (drawn, [scaled(least), scaled(usual), scaled(most).max(drawn)])
         });
-        Target { grid, walls: between(one.walls, two.walls), counts: counts.collect() }
-    }
-}
-
-impl Stance {
-    fn see(&mut self, grid: Grid, cell: usize, closed: bool) {
-        self.seen += 1;
-        self.across[band(grid.x(cell), grid.columns)] += 1;
-        self.down[band(grid.y(cell), grid.rows)] += 1;
-        self.on_border += usize::from(closed && grid.on_border(cell));
-    }
-
-    /// How well a cell agrees with where the examples have such sprites; [`USUAL`] on the mean. Never 0: examples are few.
-    pub(crate) fn weigh(&self, grid: Grid, cell: usize) -> u32 {
-        if self.seen == 0 {
-            return USUAL;
+        let decor = self.decor.iter().enumerate();
+        let decor = decor.map(|(at, &stype)| (stype, scaled(nearest(one.decor[at], two.decor[at]))));
+        Target {
+            grid,
+            walls: between(one.walls, two.walls),
+            counts: counts.collect(),
+            decor: decor.collect(),
         }
-        let share = |counts: &[usize; BANDS], at: usize| {
-            (counts[at] as f64 + 0.3) * BANDS as f64 / (self.seen as f64 + 0.3 * BANDS as f64)
-        };
-        let across = share(&self.across, band(grid.x(cell), grid.columns));
-        let down = share(&self.down, band(grid.y(cell), grid.rows));
-        ((f64::from(USUAL) * across * down) as u32).max(1)
     }
-
-    /// Whether such sprites are let into the walls around the board.
-    pub(crate) fn is_on_border(&self) -> bool {
-        self.on_border * 2 > self.seen
-    }
-}
-
-fn band(at: usize, of: usize) -> usize {
-    (at * BANDS / of.max(1)).min(BANDS - 1)
 }
 
 fn range(values: impl Iterator<Item = usize> + Clone) -> (usize, usize) {
     (values.clone().min().unwrap_or(0), values.max().unwrap_or(0))
+}
+
+/// The commonest character that the avatar can walk over without any gain.
+fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
+    let mut counts = [0usize; 128];
+    for &symbol in levels.iter().flat_map(|level| level.cells()) {
+        counts[usize::from(symbol) % 128] += 1;
+    }
+    let suits = |symbol: &u8| Palette::is_bearable(analysis, *symbol);
+    let symbols = (b' '..=b'~').filter(|symbol| counts[usize::from(*symbol)] > 0).filter(suits);
+    symbols.max_by_key(|&symbol| (counts[usize::from(symbol)], std::cmp::Reverse(symbol)))
+}
+
+/// Characters that place nothing but floor that players see, other than the empty cell's; each with the rarest of its types.
+fn decor(analysis: &Analysis, palette: &Palette, levels: &[Level]) -> Vec<(u8, SpriteType)> {
+    let game = analysis.game();
+    let seen = |symbol: &u8| levels.iter().any(|level| level.cells().contains(symbol));
+    let symbols = (b'!'..=b'~').filter(|&symbol| symbol != palette.base).filter(seen);
+    let decor = symbols.filter_map(|symbol| {
+        let places = game.places(symbol);
+        let plain = places
+            .iter()
+            .all(|&stype| analysis.role(stype) == Role::Floor && !palette.ground.contains(&stype));
+        let rarity = |stype: &&SpriteType| analysis.facts(**stype).symbols.len();
+        let stype = *places.iter().min_by_key(rarity)?;
+        (plain && !analysis.facts(stype).hidden).then_some((symbol, stype))
+    });
+    decor.collect()
 }
 
 /// The share of a level's cells that hold more than floor. Cost: O(cells).

@@ -24,6 +24,7 @@ mod settle;
 mod symmetry;
 mod search;
 mod variation;
+mod stance;
 mod vault;
 mod warehouse;
 

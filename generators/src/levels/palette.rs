@@ -44,7 +44,13 @@ impl Palette {
     pub(crate) fn of(analysis: &Analysis) -> Option<Palette> {
         let avatars = avatars(analysis)?;
         let start = avatars[0].0;
-        let base = base(analysis, start, avatars[0].1);
+        Palette::on(analysis, base(analysis, start, avatars[0].1))
+    }
+
+    /// The same with this character for the empty cell.
+    pub(crate) fn on(analysis: &Analysis, base: u8) -> Option<Palette> {
+        let avatars = avatars(analysis)?;
+        let start = avatars[0].0;
         let ground = analysis.game().places(base).to_vec();
         let symbols: Vec<Option<u8>> =
             analysis.game().sprite_types().map(|stype| best(analysis, stype, &ground)).collect();
@@ -59,6 +65,24 @@ impl Palette {
             avatars,
             symbols,
             walk,
+        })
+    }
+
+    /// Whether a character can stand for the empty cell, as far as the avatar is concerned: nothing is to be had there, nothing
+    /// hurts, and nothing is in the way.
+    pub(crate) fn is_bearable(analysis: &Analysis, symbol: u8) -> bool {
+        let places = analysis.game().places(symbol);
+        let plain = |stype: &SpriteType| match analysis.role(*stype) {
+            Role::Floor | Role::Refuge | Role::Neutral | Role::Cover => true,
+            Role::Ward => !analysis.aims().protect.contains(stype),
+            _ => false,
+        };
+        let goals = |stype: &SpriteType| analysis.aims().remove.contains(stype);
+        analysis.avatars().first().is_some_and(|avatar| {
+            let free = |stype: &SpriteType| bearable(analysis, avatar.stype, *stype);
+            !places.is_empty()
+                && !holds_avatar(analysis, symbol)
+                && places.iter().all(|stype| free(stype) && plain(stype) && !goals(stype))
         })
     }
 
@@ -115,13 +139,7 @@ fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
         return symbol;
     }
     let dot = game.places(b'.');
-    let bearable = |stype: &SpriteType| {
-        let touch = analysis.touch(avatar, *stype);
-        let still = analysis.facts(*stype).motion == Motion::Still;
-        let harmless = touch.harm <= Harm::Conditional && !touch.blocks && !touch.pushes;
-        let role = analysis.role(*stype);
-        still && harmless && !matches!(role, Role::Exit | Role::Key | Role::Spawner | Role::Soil)
-    };
+    let bearable = |stype: &SpriteType| bearable(analysis, avatar, *stype);
     if !under.is_empty() && !dot.is_empty() && dot.iter().all(bearable) {
         return b'.';
     }
@@ -133,6 +151,15 @@ fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
         types == wanted && types.iter().all(bearable)
     };
     symbols.iter().find(same).copied().unwrap_or(b' ')
+}
+
+/// Whether a type may lie everywhere.
+fn bearable(analysis: &Analysis, avatar: SpriteType, stype: SpriteType) -> bool {
+    let touch = analysis.touch(avatar, stype);
+    let still = analysis.facts(stype).motion == Motion::Still;
+    let harmless = touch.harm <= Harm::Conditional && !touch.blocks && !touch.pushes;
+    let role = analysis.role(stype);
+    still && harmless && !matches!(role, Role::Exit | Role::Key | Role::Spawner | Role::Soil)
 }
 
 pub(crate) fn holds_avatar(analysis: &Analysis, symbol: u8) -> bool {

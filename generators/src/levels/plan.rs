@@ -50,7 +50,7 @@ pub(crate) fn wishes_like(
     let mut wishes: Vec<Wish> = Vec::new();
     for role in ROLES {
         for stype in furnishable(analysis, palette, role) {
-            let (drawn, least, most) = target.counts[stype.index()];
+            let (drawn, [least, usual, most]) = target.counts[stype.index()];
             let wanted = analysis.aims().remove.contains(&stype);
             // What harms, or is asked for, follows the difficulty; so does, the other way round, what helps.
             let share = match role {
@@ -62,12 +62,23 @@ pub(crate) fn wishes_like(
             };
             let count = match share {
                 Some(share) => {
-                    let asked = least as f64 + (most - least) as f64 * share;
+                    // The median at half difficulty: the examples may hold an extreme.
+                    let (from, to, share) = if share < 0.5 {
+                        (least, usual, 2.0 * share)
+                    } else {
+                        (usual, most, 2.0 * share - 1.0)
+                    };
+                    let asked = from as f64 + (to - from) as f64 * share;
                     round(0.5 * (asked + drawn as f64), sampler).clamp(least, most)
                 }
                 None => drawn,
             };
             wishes.push(Wish { stype, role, count });
+        }
+    }
+    for &(stype, count) in &target.decor {
+        if palette.symbol(stype).is_some() && wishes.iter().all(|wish| wish.stype != stype) {
+            wishes.push(Wish { stype, role: Role::Neutral, count });
         }
     }
     settle(analysis, area, &mut wishes);

@@ -178,7 +178,14 @@ impl Builder<'_> {
         let roam = pulls.roam();
         let weight = |cell: usize| {
             let free = pulls.partners[cell].is_none() && self.board.placed[cell].is_none() && !behind(cell);
-            if roam[cell] == FAR || !free { 0 } else { 1 + roam[cell].min(12) }
+            match roam[cell] {
+                steps if steps == FAR || !free => 0,
+                // As in examples; from there on, far rather than near.
+                steps if self.target.is_some() => {
+                    (1 + steps * steps).saturating_mul(self.habit(cell, self.palette.avatars[0].0))
+                }
+                steps => 1 + steps.min(12),
+            }
         };
         let weights: Vec<u32> = (0..roam.len()).map(weight).collect();
         // Without any free step, where the last pull ended.

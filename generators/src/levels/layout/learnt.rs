@@ -1,11 +1,12 @@
 //! Walls that run as in examples: every window of three by three cells is one that occurs in some example.
 //!
 //! This is the overlapping model of wave function collapse: Karth and Smith 2017, "WaveFunctionCollapse is Constraint
-//! Solving in the Wild". Here the cells of the border are classes of their own, so that windows learnt at an edge stay there.
+//! Solving in the Wild". Here the cells of the border are classes of their own, so that windows learnt at an edge stay there,
+//! and the last decisions are taken back before a board is begun anew.
 
 use crate::levels::grid::Grid;
 use engine::Sampler;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 /// Side of a window, cells.
 const SIDE: usize = 3;
@@ -14,13 +15,13 @@ const CELLS: usize = SIDE * SIDE;
 /// Different windows at most, the most frequent ones: time and memory grow with their square.
 const MOST: usize = 320;
 /// Boards begun at most.
-const RESTARTS: usize = 3;
-/// Windows ruled out and looked at, at most, on one board.
-const WORK: usize = 3_000_000;
+const RESTARTS: usize = 2;
+/// Windows looked at, at most, on one board.
+const WORK: usize = 500_000;
+/// Decisions on one board that are remembered to be taken back.
+const MEMORY: usize = 24;
 
-/// Cells inside, then cells of the border; open, then wall.
-const CLASSES: usize = 4;
-
+/// Each cell's class: 0 open, 1 wall, 2 and 3 the same on the border.
 type Window = [u8; CELLS];
 
 /// Windows of examples, with how often each occurs.
@@ -54,6 +55,15 @@ impl Patterns {
         self.0.keys().filter(|window| window.contains(&1)).count() >= 8
     }
 
+    /// The share of a board's windows that are known.
+    pub(crate) fn familiar(&self, grid: Grid, wall: &[bool]) -> f64 {
+        let mut own = Patterns::default();
+        own.learn(grid, wall);
+        let all: u32 = own.0.values().sum();
+        let known = own.0.iter().filter(|(window, _)| self.0.contains_key(*window));
+        f64::from(known.map(|(_, count)| count).sum::<u32>()) / f64::from(all.max(1))
+    }
+
     /// Walls for a board; None if no board was found within the limits.
     pub(crate) fn assemble(&self, grid: Grid, sampler: &mut Sampler) -> Option<Vec<bool>> {
         if grid.columns <= SIDE || grid.rows <= SIDE {
@@ -74,6 +84,8 @@ type Set = Vec<u64>;
 /// Which windows may overlap.
 struct Model {
     windows: Vec<(u32, Window)>,
+    /// By window: its frequency times the logarithm of that.
+    logs: Vec<f64>,
     /// By window: those that fit one cell to the right of it, one cell down, to the left, up.
     fits: [Vec<Set>; 4],
 }
@@ -103,7 +115,9 @@ impl Model {
             };
             windows.iter().map(fitting).collect()
         });
-        Model { windows, fits }
+        let log = |&(count, _): &(u32, Window)| f64::from(count) * libm::log(f64::from(count));
+        let logs = windows.iter().map(log).collect();
+        Model { windows, logs, fits }
     }
 }
 
@@ -115,6 +129,8 @@ struct Wave<'a> {
     /// The places of windows, by their upper left cells.
     places: Grid,
     possible: Vec<Set>,
+    /// By place: how much choice there is.
+    entropy: Vec<u64>,
     work: usize,
 }
 
@@ -145,7 +161,14 @@ impl<'a> Wave<'a> {
             }
             set
         });
-        let mut wave = Wave { model, grid, places, possible: possible.collect(), work: 0 };
+        let mut wave = Wave {
+            model,
+            grid,
+            places,
+            possible: possible.collect(),
+            entropy: vec![0; places.len()],
+            work: 0,
+        };
         let all: Vec<usize> = (0..places.len()).collect();
         wave.propagate(all)?;
         Some(wave)
@@ -156,36 +179,52 @@ impl<'a> Wave<'a> {
         // Among equals, by an order that is drawn.
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         sampler.shuffle(&mut order);
+        // What was possible before a decision, and what was decided.
+        let mut before: VecDeque<(Vec<Set>, usize, usize)> = VecDeque::new();
         loop {
-            let open = order.iter().copied().filter(|&place| size(&self.possible[place]) > 1);
-            let Some(place) = open.min_by_key(|&place| self.entropy(place)) else { break };
+            let open = order.iter().copied().filter(|&place| self.entropy[place] > 0);
+            let Some(place) = open.min_by_key(|&place| self.entropy[place]) else { break };
             let options: Vec<usize> = members(&self.possible[place]).collect();
             let weights: Vec<u32> = options.iter().map(|&at| self.model.windows[at].0).collect();
             let chosen = options[sampler.weighted(&weights)?];
+            before.push_back((self.possible.clone(), place, chosen));
+            if before.len() > MEMORY {
+                before.pop_front();
+            }
             self.possible[place].fill(0);
             self.possible[place][chosen / 64] = 1 << (chosen % 64);
-            self.propagate(vec![place])?;
+            let mut done = self.propagate(vec![place]);
+            while done.is_none() {
+                if self.work > WORK {
+                    return None;
+                }
+                let (possible, place, wrong) = before.pop_back()?;
+                self.possible = possible;
+                self.possible[place][wrong / 64] &= !(1 << (wrong % 64));
+                self.entropy = (0..self.places.len()).map(|place| self.measure(place)).collect();
+                done = if size(&self.possible[place]) == 0 { None } else { self.propagate(vec![place]) };
+            }
         }
         let mut wall = vec![false; self.grid.len()];
         for place in 0..self.places.len() {
             let window = self.model.windows[members(&self.possible[place]).next()?].1;
             for (at, class) in window.into_iter().enumerate() {
                 let (x, y) = (self.places.x(place) + at % SIDE, self.places.y(place) + at / SIDE);
-                wall[self.grid.at(x, y)] = usize::from(class) % CLASSES % 2 == 1;
+                wall[self.grid.at(x, y)] = class % 2 == 1;
             }
         }
         Some(wall)
     }
 
-    /// How much choice a place leaves: Shannon's entropy of the frequencies, in thousandths of a nat.
-    fn entropy(&self, place: usize) -> u64 {
-        let (mut sum, mut logs) = (0.0, 0.0);
+    /// How much choice a place leaves: Shannon's entropy of the frequencies, in thousandths of a nat; 0 if there is none.
+    fn measure(&self, place: usize) -> u64 {
+        let (mut sum, mut logs, mut options) = (0.0, 0.0, 0);
         for at in members(&self.possible[place]) {
-            let count = f64::from(self.model.windows[at].0);
-            sum += count;
-            logs += count * libm::log(count);
+            sum += f64::from(self.model.windows[at].0);
+            logs += self.model.logs[at];
+            options += 1;
         }
-        ((libm::log(sum) - logs / sum) * 1000.0) as u64
+        if options < 2 { 0 } else { ((libm::log(sum) - logs / sum) * 1000.0) as u64 + 1 }
     }
 
     /// Rules out, from these places on, what no neighbour allows. None: a place is left without a window.
@@ -196,6 +235,7 @@ impl<'a> Wave<'a> {
         }
         while let Some(place) = changed.pop() {
             waiting[place] = false;
+            self.entropy[place] = self.measure(place);
             for (fits, step) in self.model.fits.iter().zip(STEPS) {
                 let Some(next) = self.places.shift(place, step) else { continue };
                 let mut allowed = vec![0u64; self.possible[place].len()];

@@ -59,6 +59,18 @@ pub(crate) fn learnt(patterns: &Patterns, grid: Grid, sampler: &mut Sampler) -> 
     Some(wall)
 }
 
+/// Makes the right half of a board the reflection of the left one. All cells without wall hang together.
+pub(crate) fn mirror(grid: Grid, wall: &mut [bool]) {
+    for cell in 0..grid.len() {
+        let twin = grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
+        if grid.x(twin) > grid.x(cell) {
+            wall[twin] = wall[cell];
+        }
+    }
+    join(grid, wall);
+    keep_largest(grid, wall);
+}
+
 /// The smallest region that is worth a way to it, cells.
 const ROOM: usize = 4;
 
