@@ -99,13 +99,21 @@ impl Builder<'_> {
                 if zone != wanted || !(far || zone > 0) { 0 } else { (1 + walls) * share / 10 }
             }
             Role::Enemy | Role::Boulder if from_start < self.respect(stype) => 0,
-            Role::Enemy | Role::Prey | Role::Spawner if self.apart_from(cell, Role::Ward) < 4 => 0,
+            Role::Enemy | Role::Prey | Role::Spawner if self.apart_from(cell, Role::Ward) < self.guard() => 0,
             Role::Enemy if self.is_on_prey(cell, stype) => 0,
             Role::Enemy => self.weigh_mover(cell, stype, share),
             Role::Prey if from_start < 3 => 0,
             Role::Prey => own_kind * (2 + share / 20),
             Role::Spawner => self.weigh_spawner(cell, stype, walls),
             Role::Hazard if from_start < 3 || self.apart_from(cell, Role::Exit) < 2 => 0,
+            // What is deadly and sends out what is deadly.
+            Role::Hazard
+                if self.target.is_some()
+                    && self.analysis.makes_harm(stype)
+                    && from_start < self.spawn_respect(stype) =>
+            {
+                0
+            }
             Role::Hazard | Role::Cover | Role::Refuge | Role::Breakable => {
                 if from_start < 2 {
                     0
@@ -144,6 +152,12 @@ impl Builder<'_> {
             }
             _ => u32::from(from_start >= 2) * own_kind,
         }
+    }
+
+    /// How far from what is to be protected anything that might threaten it should stand, in cells.
+    fn guard(&self) -> usize {
+        let grid = self.board.grid;
+        if self.target.is_some() { ((grid.columns + grid.rows) / 5).max(4) } else { 4 }
     }
 
     /// Close to what it chases, if that is not the avatar: there should be time to step in.

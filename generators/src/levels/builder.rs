@@ -6,12 +6,13 @@ use super::examples::{Examples, Target};
 use super::grid::{FAR, WAYS};
 use super::palette::{Palette, Walk};
 use super::plan::{self, Wish};
-use super::stance::USUAL;
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, Sampler, SpriteType};
 
 /// How much better a cell is beside what such a sprite is hardly ever seen without.
-const COMPANY: u32 = 40;
+const COMPANY: u32 = 1000;
+/// How much better a cell is in a row with others of the kind, where those stand in rows.
+const LINE: u32 = 40;
 
 /// A level in the making, with everything that a decision about it needs.
 pub(crate) struct Builder<'a> {
@@ -103,10 +104,10 @@ impl Builder<'_> {
             let in_row =
                 |&(other, kind): &(usize, SpriteType)| kind == stype && grid.y(other) == grid.y(cell);
             if self.log.iter().any(in_row) {
-                weight = weight.saturating_mul(COMPANY);
+                weight = weight.saturating_mul(LINE);
             }
         }
-        weight.min(USUAL * 10_000)
+        weight
     }
 
     /// The cell on the other side, left and right, if examples have such sprites in pairs and there is room.

@@ -22,7 +22,7 @@ const COVERS: u64 = 10;
 const PUZZLES: u64 = 30;
 
 /// Layouts drawn, of which the one whose walls are nearest to the examples' in number is taken.
-const LAYOUTS: usize = 3;
+const LAYOUTS: usize = 2;
 /// Boards with a smaller share of walls inside have none on purpose.
 const BARE: f64 = 0.02;
 
@@ -172,6 +172,7 @@ impl<'a> ConstructiveLevels<'a> {
             }
         }
         if grid.rows >= 6
+            && self.crosses()
             && let Some(traffic) = crossing::traffic(&self.analysis, &self.palette)
         {
             let closed = self.palette.wall.is_some();
@@ -210,6 +211,16 @@ impl<'a> ConstructiveLevels<'a> {
         builder.adventure();
         builder.settle();
         Some(Made::plain(builder.board))
+    }
+
+    /// Whether the avatar has its aim above it, as far as examples tell.
+    fn crosses(&self) -> bool {
+        let exits = furnishable(&self.analysis, &self.palette, Role::Exit);
+        let avatar = self.palette.avatars[0].0;
+        self.config
+            .like
+            .as_ref()
+            .is_none_or(|examples| exits.iter().all(|&exit| examples.is_below(avatar, exit)))
     }
 
     fn size(&self, layout: &mut Sampler) -> Grid {

@@ -79,10 +79,14 @@ impl Examples {
             let grid = Grid { columns: level.columns(), rows: level.rows() };
             let wall: Vec<bool> =
                 level.cells().iter().map(|&symbol| is_wall(&analysis, &palette, symbol)).collect();
-            patterns.learn(grid, &wall);
             let border = || (0..grid.len()).filter(|&cell| grid.on_border(cell));
             let walls_there = border().filter(|&cell| wall[cell]).count();
             let closed = walls_there * 10 >= border().count() * 8;
+            // What is let into the wall around a board makes no hole in it.
+            let whole = (0..grid.len()).map(|cell| {
+                wall[cell] || closed && grid.on_border(cell) && level.cells()[cell] != palette.base
+            });
+            patterns.learn(grid, &whole.collect::<Vec<bool>>());
             edge += border().count();
             edge_walls += walls_there;
             let mut counts = vec![0; stances.len()];
@@ -112,6 +116,7 @@ impl Examples {
                     .collect(),
             });
         }
+        patterns.conclude();
         let closed = palette.wall.is_some() && edge_walls * 10 >= edge * 8;
         let cells: usize = levels.iter().map(|level| level.cells().len()).sum();
         let total = |stype: SpriteType| boards.iter().map(|board| board.counts[stype.index()]).sum::<usize>();
@@ -158,6 +163,15 @@ impl Examples {
     /// Whether the border is wall.
     pub(crate) fn is_closed(&self) -> bool {
         self.closed
+    }
+
+    /// Whether sprites of the one type stand lower than those of the other, by a third of the board on the mean. Unknown
+    /// types are taken to.
+    pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
+        match (self.stance(one).height(), self.stance(two).height()) {
+            (Some(one), Some(two)) => one > two + 1.0 / 3.0,
+            _ => true,
+        }
     }
 
     /// The character of empty cells, where it is not what the rules alone suggest.

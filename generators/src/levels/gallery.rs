@@ -95,10 +95,18 @@ impl Builder<'_> {
         let mut left = wish.count;
         let width = self.sampler.between(2, 4);
         let pitch = width + self.sampler.between(2, 3);
-        let offset = self.sampler.below(pitch);
+        let mut offset = self.sampler.below(pitch);
         let thick = if left > field.length { 2 } else { 1 };
+        if self.target.is_some() {
+            // From the middle to both sides, so that few bases stand in the middle and none is cut off.
+            offset = (width / 2 + pitch * field.length - (field.length - 1) / 2) % pitch;
+        }
         for row in 0..thick {
-            for along in 0..field.length {
+            let mut line: Vec<usize> = (0..field.length).collect();
+            if self.target.is_some() {
+                line.sort_by_key(|along| along.abs_diff((field.length - 1) / 2));
+            }
+            for along in line {
                 let mirrored = along.min(field.length - 1 - along);
                 let cell = field.cell(self, along, band - row);
                 if left > 0 && (mirrored + offset) % pitch < width && self.board.is_free(cell) {

@@ -119,6 +119,12 @@ impl Stance {
         ((f64::from(USUAL) * across * down * lift) as u32).max(1)
     }
 
+    /// Where they stand on the mean, from the top at 0.0 to the bottom at 1.0; None if there are none.
+    pub(crate) fn height(&self) -> Option<f64> {
+        let sum: usize = self.down.iter().enumerate().map(|(band, count)| band * count).sum();
+        (self.seen > 0).then(|| sum as f64 / (self.seen * (BANDS - 1)) as f64)
+    }
+
     /// How often such sprites are let into the walls on the side of the board that a cell is on.
     pub(crate) fn on_border(&self, grid: Grid, cell: usize) -> u32 {
         side(grid, cell).map_or(0, |side| self.sides[side] as u32)

@@ -17,16 +17,21 @@ const MOST: usize = 320;
 /// Boards begun at most.
 const RESTARTS: usize = 2;
 /// Windows looked at, at most, on one board.
-const WORK: usize = 500_000;
+const WORK: usize = 1_500_000;
 /// Decisions on one board that are remembered to be taken back.
 const MEMORY: usize = 24;
 
 /// Each cell's class: 0 open, 1 wall, 2 and 3 the same on the border.
 type Window = [u8; CELLS];
 
-/// Windows of examples, with how often each occurs.
+/// Windows of examples.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Patterns(BTreeMap<Window, u32>);
+pub(crate) struct Patterns {
+    /// With how often each occurs.
+    seen: BTreeMap<Window, u32>,
+    /// Of the most frequent ones; see [`Patterns::conclude`].
+    model: Model,
+}
 
 /// A cell's class.
 fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
@@ -44,7 +49,7 @@ impl Patterns {
                         let cell = grid.at(x + if mirrored { SIDE - 1 - dx } else { dx }, y + dy);
                         class(grid, cell, wall[cell])
                     });
-                    *self.0.entry(window).or_default() += 1;
+                    *self.seen.entry(window).or_default() += 1;
                 }
             }
         }
@@ -52,15 +57,24 @@ impl Patterns {
 
     /// Whether there is a structure to learn: walls inside, in some variety.
     pub(crate) fn has_structure(&self) -> bool {
-        self.0.keys().filter(|window| window.contains(&1)).count() >= 8
+        self.seen.keys().filter(|window| window.contains(&1)).count() >= 8
+    }
+
+    /// After the last board: which windows may overlap. Cost: the square of [`MOST`].
+    pub(crate) fn conclude(&mut self) {
+        let mut windows: Vec<(u32, Window)> =
+            self.seen.iter().map(|(window, &count)| (count, *window)).collect();
+        windows.sort_by_key(|&(count, window)| (std::cmp::Reverse(count), window));
+        windows.truncate(MOST);
+        self.model = Model::new(windows);
     }
 
     /// The share of a board's windows that are known.
     pub(crate) fn familiar(&self, grid: Grid, wall: &[bool]) -> f64 {
         let mut own = Patterns::default();
         own.learn(grid, wall);
-        let all: u32 = own.0.values().sum();
-        let known = own.0.iter().filter(|(window, _)| self.0.contains_key(*window));
+        let all: u32 = own.seen.values().sum();
+        let known = own.seen.iter().filter(|(window, _)| self.seen.contains_key(*window));
         f64::from(known.map(|(_, count)| count).sum::<u32>()) / f64::from(all.max(1))
     }
 
@@ -69,25 +83,19 @@ impl Patterns {
         if grid.columns <= SIDE || grid.rows <= SIDE {
             return None;
         }
-        let mut windows: Vec<(u32, Window)> =
-            self.0.iter().map(|(window, &count)| (count, *window)).collect();
-        windows.sort_by_key(|&(count, window)| (std::cmp::Reverse(count), window));
-        windows.truncate(MOST);
-        let model = Model::new(windows);
-        (0..RESTARTS).find_map(|_| Wave::new(&model, grid)?.collapse(sampler))
+        let wave = Wave::new(&self.model, grid)?;
+        (0..RESTARTS).find_map(|_| wave.clone().collapse(sampler))
     }
 }
 
-/// A set of windows by index.
-type Set = Vec<u64>;
-
 /// Which windows may overlap.
+#[derive(Clone, Debug, Default, PartialEq)]
 struct Model {
     windows: Vec<(u32, Window)>,
     /// By window: its frequency times the logarithm of that.
     logs: Vec<f64>,
     /// By window: those that fit one cell to the right of it, one cell down, to the left, up.
-    fits: [Vec<Set>; 4],
+    fits: [Vec<Vec<u64>>; 4],
 }
 
 /// Steps from a window to its neighbours, in the order of [`Model::fits`].
@@ -122,25 +130,28 @@ impl Model {
 }
 
 /// A board of which not every window is known yet: for each place, the windows that are still possible there.
+#[derive(Clone)]
 struct Wave<'a> {
     model: &'a Model,
     /// The board.
     grid: Grid,
     /// The places of windows, by their upper left cells.
     places: Grid,
-    possible: Vec<Set>,
+    possible: Vec<u64>,
+    /// Words of a set of windows.
+    words: usize,
     /// By place: how much choice there is.
     entropy: Vec<u64>,
     work: usize,
 }
 
-fn members(set: &Set) -> impl Iterator<Item = usize> + '_ {
+fn members(set: &[u64]) -> impl Iterator<Item = usize> + '_ {
     set.iter().enumerate().flat_map(|(word, &bits)| {
         (0..64).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| word * 64 + bit)
     })
 }
 
-fn size(set: &Set) -> u32 {
+fn size(set: &[u64]) -> u32 {
     set.iter().map(|bits| bits.count_ones()).sum()
 }
 
@@ -154,21 +165,15 @@ impl<'a> Wave<'a> {
                 (window[at] >= 2) == grid.on_border(cell)
             })
         };
-        let possible = (0..places.len()).map(|place| {
-            let mut set = vec![0u64; model.windows.len().div_ceil(64)];
+        let words = model.windows.len().div_ceil(64);
+        let mut possible = vec![0; places.len() * words];
+        for place in 0..places.len() {
             for (at, (_, window)) in model.windows.iter().enumerate() {
-                set[at / 64] |= u64::from(suits(place, window)) << (at % 64);
+                possible[place * words + at / 64] |= u64::from(suits(place, window)) << (at % 64);
             }
-            set
-        });
-        let mut wave = Wave {
-            model,
-            grid,
-            places,
-            possible: possible.collect(),
-            entropy: vec![0; places.len()],
-            work: 0,
-        };
+        }
+        let entropy = vec![0; places.len()];
+        let mut wave = Wave { model, grid, places, possible, words, entropy, work: 0 };
         let all: Vec<usize> = (0..places.len()).collect();
         wave.propagate(all)?;
         Some(wave)
@@ -180,19 +185,20 @@ impl<'a> Wave<'a> {
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         sampler.shuffle(&mut order);
         // What was possible before a decision, and what was decided.
-        let mut before: VecDeque<(Vec<Set>, usize, usize)> = VecDeque::new();
+        let mut before: VecDeque<(Vec<u64>, usize, usize)> = VecDeque::new();
         loop {
             let open = order.iter().copied().filter(|&place| self.entropy[place] > 0);
             let Some(place) = open.min_by_key(|&place| self.entropy[place]) else { break };
-            let options: Vec<usize> = members(&self.possible[place]).collect();
+            let options: Vec<usize> = members(self.set(place)).collect();
             let weights: Vec<u32> = options.iter().map(|&at| self.model.windows[at].0).collect();
             let chosen = options[sampler.weighted(&weights)?];
             before.push_back((self.possible.clone(), place, chosen));
             if before.len() > MEMORY {
                 before.pop_front();
             }
-            self.possible[place].fill(0);
-            self.possible[place][chosen / 64] = 1 << (chosen % 64);
+            let first = place * self.words;
+            self.possible[first..first + self.words].fill(0);
+            self.possible[first + chosen / 64] = 1 << (chosen % 64);
             let mut done = self.propagate(vec![place]);
             while done.is_none() {
                 if self.work > WORK {
@@ -200,14 +206,14 @@ impl<'a> Wave<'a> {
                 }
                 let (possible, place, wrong) = before.pop_back()?;
                 self.possible = possible;
-                self.possible[place][wrong / 64] &= !(1 << (wrong % 64));
+                self.possible[place * self.words + wrong / 64] &= !(1 << (wrong % 64));
                 self.entropy = (0..self.places.len()).map(|place| self.measure(place)).collect();
-                done = if size(&self.possible[place]) == 0 { None } else { self.propagate(vec![place]) };
+                done = if size(self.set(place)) == 0 { None } else { self.propagate(vec![place]) };
             }
         }
         let mut wall = vec![false; self.grid.len()];
         for place in 0..self.places.len() {
-            let window = self.model.windows[members(&self.possible[place]).next()?].1;
+            let window = self.model.windows[members(self.set(place)).next()?].1;
             for (at, class) in window.into_iter().enumerate() {
                 let (x, y) = (self.places.x(place) + at % SIDE, self.places.y(place) + at / SIDE);
                 wall[self.grid.at(x, y)] = class % 2 == 1;
@@ -216,10 +222,15 @@ impl<'a> Wave<'a> {
         Some(wall)
     }
 
+    /// The windows that are possible at a place.
+    fn set(&self, place: usize) -> &[u64] {
+        &self.possible[place * self.words..][..self.words]
+    }
+
     /// How much choice a place leaves: Shannon's entropy of the frequencies, in thousandths of a nat; 0 if there is none.
     fn measure(&self, place: usize) -> u64 {
         let (mut sum, mut logs, mut options) = (0.0, 0.0, 0);
-        for at in members(&self.possible[place]) {
+        for at in members(self.set(place)) {
             sum += f64::from(self.model.windows[at].0);
             logs += self.model.logs[at];
             options += 1;
@@ -238,25 +249,35 @@ impl<'a> Wave<'a> {
             self.entropy[place] = self.measure(place);
             for (fits, step) in self.model.fits.iter().zip(STEPS) {
                 let Some(next) = self.places.shift(place, step) else { continue };
-                let mut allowed = vec![0u64; self.possible[place].len()];
-                for at in members(&self.possible[place]) {
-                    for (word, fit) in allowed.iter_mut().zip(&fits[at]) {
+                let mut allowed = vec![0u64; self.words];
+                let mut work = 0;
+                for at in members(self.set(place)) {
+                    work += 1;
+                    let mut missing = 0;
+                    for ((word, fit), possible) in allowed.iter_mut().zip(&fits[at]).zip(self.set(next)) {
                         *word |= fit;
+                        missing |= possible & !*word;
                     }
-                    self.work += 1;
+                    // Mostly, a few windows allow all that is possible.
+                    if missing == 0 {
+                        break;
+                    }
                 }
+                self.work += work;
                 if self.work > WORK {
                     return None;
                 }
                 let mut fewer = false;
-                for (word, allowed) in self.possible[next].iter_mut().zip(&allowed) {
+                for (word, allowed) in
+                    self.possible[next * self.words..][..self.words].iter_mut().zip(&allowed)
+                {
                     fewer |= *word & !allowed != 0;
                     *word &= allowed;
                 }
                 if !fewer {
                     continue;
                 }
-                if size(&self.possible[next]) == 0 {
+                if size(self.set(next)) == 0 {
                     return None;
                 }
                 if !std::mem::replace(&mut waiting[next], true) {
@@ -283,20 +304,26 @@ mod tests {
     fn windows(grid: Grid, wall: &[bool]) -> BTreeSet<Window> {
         let mut patterns = Patterns::default();
         patterns.learn(grid, wall);
-        patterns.0.into_keys().collect()
+        patterns.seen.into_keys().collect()
     }
 
     /// Every window of what is assembled occurs in the example.
     #[test]
     fn what_is_assembled_is_made_of_the_example() {
-        let (grid, wall) = board(
-            "############\n#....#.....#\n#.##.#.###.#\n#.#....#...#\n#.#.####.#.#\n#......#.#.#\n#.####...#.#\n#....#.###.#\n\
+        let boards = [
+            "############\n#....#.....#\n#..........#\n#....#..##.#\n##.###..##.#\n#.......##.#\n#..##......#\n#..##..#...#\n\
              ############\n",
-        );
+            "##########\n#........#\n#.##..##.#\n#.#....#.#\n#........#\n#.#....#.#\n#.##..##.#\n#........#\n##########\n",
+            "###########\n#.........#\n#.###.###.#\n#.#.....#.#\n#.........#\n#.........#\n###########\n",
+        ];
         let mut patterns = Patterns::default();
-        patterns.learn(grid, &wall);
+        let mut known = BTreeSet::new();
+        for (grid, wall) in boards.map(board) {
+            patterns.learn(grid, &wall);
+            known.extend(windows(grid, &wall));
+        }
+        patterns.conclude();
         assert!(patterns.has_structure());
-        let known = windows(grid, &wall);
         let mut made = 0;
         for index in 0..20 {
             let mut sampler = Seed::from_text("learnt").child("board", index).sampler();
@@ -304,6 +331,7 @@ mod tests {
             if let Some(wall) = patterns.assemble(size, &mut sampler) {
                 made += 1;
                 assert!(windows(size, &wall).is_subset(&known));
+                assert_eq!(patterns.familiar(size, &wall), 1.0);
             }
         }
         assert!(made >= 10, "{made}");
