@@ -2,7 +2,7 @@
 
 use super::*;
 use engine::{Action, Episode, Game, Seed};
-use validators::{Fared, Finding, Judgement, Ladder, Rate, Reason, Verdict};
+use validators::{Criteria, Fared, Finding, Judgement, Ladder, Rate, Reason, Verdict};
 
 const GAME: &str = "BasicGame\n  SpriteSet\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n";
 
@@ -161,4 +161,32 @@ fn ranges_bin_the_levels_that_have_both_measures() {
     assert_eq!((range.levels.len(), range.examples.len(), range.occupied), (2, 1, 2));
     assert_eq!((range.x.high, range.y.high), (1.0, 10.0));
     assert_eq!(range.cells.iter().flatten().sum::<u64>(), 2);
+}
+
+#[test]
+fn a_survey_is_the_same_on_any_number_of_threads_and_for_a_level_alone() {
+    let game = Game::from_source(GAME).unwrap();
+    let analysis = Analysis::of(&game);
+    let texts = ["wwwwwwwww\nwA   w  w\nw wp wp w\nw  w   gw\nwwwwwwwww\n", "wwwwww\nwA  gw\nwwwwww\n"];
+    let levels = texts.map(|text| (game.level(text).unwrap(), Some(Difficulty::Easy)));
+    let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
+    let criteria = Criteria {
+        budget: 20_000,
+        ladder: names(&["do-nothing", "random", "mcts:20"]),
+        ladder_plays: 2,
+        most_ticks: 60,
+        ..Criteria::full()
+    };
+    let survey = Survey::new(&analysis, &criteria, Seed::from_text("survey")).unwrap();
+    let judge = |threads: usize, levels: &[(Level, Option<Difficulty>)]| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| report(&survey.judge(levels), &[], &[]))
+    };
+    let both = judge(1, &levels);
+    assert_eq!(both.to_json(), judge(3, &levels).to_json());
+    let alone = judge(2, &levels[..1]);
+    assert_eq!(LevelRow { nearest: None, ..both.levels[0].clone() }, alone.levels[0]);
+    // A level that fails a criterion is asked the others all the same, and the ladder tells its label.
+    assert!(both.levels[0].passes && !both.levels[1].passes && both.levels[1].solved == "solved");
+    assert!(both.control.is_some() && both.levels[0].measures.contains_key("openness"));
 }
