@@ -6,7 +6,6 @@ mod embedded;
 mod episodes;
 mod failure;
 mod input;
-#[cfg_attr(not(test), expect(dead_code, reason = "the verb that writes it is to come"))]
 mod level_report;
 mod play;
 mod render;

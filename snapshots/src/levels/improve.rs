@@ -1,10 +1,13 @@
 //! Searches under the eyes of judges: each level by itself, or an archive of levels that differ.
 
 use super::accept::Gate;
-use super::aim::{Aim, axes};
+use super::aim::Aim;
+use super::axes::Axes;
 use super::look::{Look, Looker};
 use super::make::{Attempt, Cost, LevelSet, Maker, TWICE, made};
 use engine::{Digest, Level};
+use generators::Variation;
+use generators::levels::LevelSearch;
 use generators::{
     Annealing, AnnealingConfig, Archive, Evaluation, Judged, MapElites, MapElitesConfig, Search,
 };
@@ -13,10 +16,17 @@ use std::collections::BTreeSet;
 
 /// Levels that come before the panel after a search, at most.
 const FINALISTS: usize = 3;
+/// Levels that are made from nothing to see in what those of a game differ.
+const SAMPLE: u64 = 16;
 
 impl Maker<'_> {
     /// Anneals a level until the panel lets one in: each round is a search of its own.
-    pub(super) fn searched(&self, number: u32, refused: &BTreeSet<Digest>) -> Attempt {
+    pub(super) fn searched(
+        &self,
+        variation: &LevelSearch<'_>,
+        number: u32,
+        refused: &BTreeSet<Digest>,
+    ) -> Attempt {
         let seed = self.level_seed(number);
         let aim = Aim::new(self.analysis, self.order);
         let looker = Looker::new(self.analysis, self.order, aim, seed.child("look", 0));
@@ -25,7 +35,7 @@ impl Maker<'_> {
         let mut cost = Cost::default();
         for round in 0..u64::from(self.order.effort.rounds) {
             let config = AnnealingConfig::of(looks);
-            let mut search = Annealing::new(&self.variation, config, seed.child("round", round));
+            let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::default();
             self.strive(&mut search, looks, &looker, &mut cost, |level, evaluation| {
                 best.note(level, evaluation)
@@ -46,20 +56,27 @@ impl Maker<'_> {
     }
 
     /// Fills an archive and picks levels that differ from it, until enough have passed the panel.
-    pub(super) fn evolved(&self) -> LevelSet {
+    pub(super) fn evolved(&self, variation: &LevelSearch<'_>) -> LevelSet {
         let aim = Aim::new(self.analysis, self.order);
         let looker = Looker::new(self.analysis, self.order, aim, self.seed.child("look", 0));
         let gate = Gate::new(self.analysis, self.order, self.seed.child("gate", 0));
-        let looks = self.order.effort.looks as usize * self.order.count as usize;
-        let config = MapElitesConfig { initial: (looks / 4).max(1), ..MapElitesConfig::default() };
-        let key = |level: &Level| self.likeness.digest(level);
-        let mut search = MapElites::new(&self.variation, key, axes(), config, self.seed.child("archive", 0));
+        let wanted = self.order.count as usize;
+        let looks = self.order.effort.looks as usize * wanted;
         let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };
+        let mut sample = self.sample(variation, &looker, &mut set.cost);
+        let axes =
+            Axes::of(&sample.iter().map(|(_, told)| told.measures.clone()).collect::<Vec<_>>(), wanted);
+        sample.iter_mut().for_each(|(_, told)| told.measures = axes.pick(&told.measures));
+        let config = MapElitesConfig { initial: (looks / 5).max(1), ..MapElitesConfig::default() };
+        let key = |level: &Level| self.likeness.digest(level);
+        let seed = self.seed.child("archive", 0);
+        let mut search = MapElites::new(variation, key, axes.axes.clone(), config, seed);
+        search.tell(sample);
         let mut shown = BTreeSet::new();
         for _ in 0..self.order.effort.rounds {
-            self.strive(&mut search, looks, &looker, &mut set.cost, |_, _| ());
-            let wanted = self.order.count as usize - set.levels.len();
-            let picked = spread(search.archive(), wanted, &mut shown, key);
+            let told = |_: &Level, told: &mut Evaluation| told.measures = axes.pick(&told.measures);
+            self.strive(&mut search, looks, &looker, &mut set.cost, told);
+            let picked = spread(search.archive(), wanted - set.levels.len(), &mut shown, key);
             let judged: Vec<_> = picked.par_iter().map(|level| gate.judge(level)).collect();
             for (level, judged) in picked.into_iter().zip(judged) {
                 set.cost.judged(&judged);
@@ -69,11 +86,25 @@ impl Maker<'_> {
                     set.levels.push(made(number, level, judged));
                 }
             }
-            if set.levels.len() == self.order.count as usize {
+            if set.levels.len() == wanted {
                 break;
             }
         }
         set
+    }
+
+    /// Levels from nothing, to see what levels of the game are like.
+    fn sample(
+        &self,
+        variation: &LevelSearch<'_>,
+        looker: &Looker<'_>,
+        cost: &mut Cost,
+    ) -> Vec<(Level, Evaluation)> {
+        let levels = (0..SAMPLE).into_par_iter();
+        let levels = levels.filter_map(|at| variation.create(self.seed.child("sample", at)));
+        let looked = levels.map(|level| (looker.look(&level), level)).collect::<Vec<(Look, Level)>>();
+        looked.iter().for_each(|(look, _)| cost.looked(look));
+        looked.into_iter().map(|(look, level)| (level, look.evaluation)).collect()
     }
 
     /// Lets a search ask, looks at what it proposes on all threads, and tells it.
@@ -83,7 +114,7 @@ impl Maker<'_> {
         looks: usize,
         looker: &Looker<'_>,
         cost: &mut Cost,
-        mut note: impl FnMut(&Level, &Evaluation),
+        mut note: impl FnMut(&Level, &mut Evaluation),
     ) {
         let mut asked = 0;
         while asked < looks {
@@ -100,11 +131,10 @@ impl Maker<'_> {
                     look
                 })
                 .collect();
-            cost.looks += looks.len() as u64;
-            cost.calls += looks.iter().map(|look| look.calls).sum::<u64>();
+            looks.iter().for_each(|look| cost.looked(look));
             let told = levels.into_iter().zip(looks).map(|(level, look)| (level, look.evaluation));
-            let told: Vec<(Level, Evaluation)> = told.collect();
-            told.iter().for_each(|(level, evaluation)| note(level, evaluation));
+            let mut told: Vec<(Level, Evaluation)> = told.collect();
+            told.iter_mut().for_each(|(level, evaluation)| note(level, evaluation));
             search.tell(told);
         }
     }

@@ -10,7 +10,7 @@ use validators::{Case, Criteria, Finding, NoEarlyDeath, NotIdle, NotRandom, Vali
 /// Episodes of doing nothing, where chance plays a part.
 const IDLE_PLAYS: u32 = 2;
 /// Episodes of random play.
-const RANDOM_PLAYS: u32 = 10;
+const RANDOM_PLAYS: u32 = 16;
 /// Games of chance in which the first ticks are lived through.
 const CHANCES: u32 = 4;
 /// The share of a look's calls that each of those may take.
@@ -73,9 +73,9 @@ impl<'a> Looker<'a> {
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
         let mut calls = 0;
         let won = self.constrain(level, seed, &mut constraints, &mut calls);
-        let measures = self.aim.measures(level, won.as_ref());
-        let objective = won.map_or(0.0, |witness| {
-            let told = self.aim.tell(self.case(level, seed, Some(&witness)));
+        let told = won.map(|witness| self.aim.tell(self.case(level, seed, Some(&witness))));
+        let measures = self.aim.measures(level, told.as_ref().map(|told| &told.measures));
+        let objective = told.map_or(0.0, |told| {
             calls += told.calls;
             constraints.note(told.constraint);
             told.objective

@@ -1,10 +1,11 @@
 //! How levels of each method are made.
 
 use super::accept::{Gate, Judged};
+use super::look::Look;
 use super::order::{LevelOrder, Method};
 use crate::mint::reasons;
 use engine::{Analysis, Digest, Game, Level, Seed};
-use generators::levels::{ConstructiveLevels, LevelVariation, Likeness};
+use generators::levels::{ConstructiveLevels, LevelConfig, LevelSearch, Likeness};
 use generators::{GenerateError, Generator};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -38,6 +39,11 @@ pub struct Cost {
 }
 
 impl Cost {
+    pub(super) fn looked(&mut self, look: &Look) {
+        self.looks += 1;
+        self.calls += look.calls;
+    }
+
     pub(super) fn judged(&mut self, judged: &Judged) {
         self.judged += 1;
         self.calls += judged.calls;
@@ -117,15 +123,20 @@ pub fn make_levels(
     progress: &dyn Progress,
 ) -> Result<LevelSet, LevelsError> {
     order.criteria.check()?;
-    let variation = LevelVariation::new(game, order.config())?;
+    let generator = ConstructiveLevels::new(game, order.config())?;
     let analysis = Analysis::of(game);
     let likeness = Likeness::of(&analysis);
-    let maker = Maker { analysis: &analysis, order, variation, likeness, seed, progress };
+    let maker = Maker { analysis: &analysis, order, generator, likeness, seed, progress };
     let set = match order.method {
         Method::Constructive if !order.has_to_be_measured() => maker.drawn(),
         Method::Constructive => maker.each(|number, refused| maker.drawn_and_judged(number, refused)),
-        Method::Search => maker.each(|number, refused| maker.searched(number, refused)),
-        Method::Evolutionary => maker.evolved(),
+        Method::Search => {
+            let variation = LevelSearch::new(game, order.config(), order.puzzle(&analysis))?;
+            maker.each(|number, refused| maker.searched(&variation, number, refused))
+        }
+        Method::Evolutionary => {
+            maker.evolved(&LevelSearch::new(game, order.config(), order.puzzle(&analysis))?)
+        }
     };
     if set.levels.is_empty() && order.count > 0 {
         return Err(LevelsError::NoneAccepted { judged: set.cost.judged, why: set.cost.reasons() });
@@ -139,23 +150,19 @@ pub(super) type Attempt = (Option<MadeLevel>, Cost);
 pub(super) struct Maker<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) order: &'a LevelOrder,
-    pub(super) variation: LevelVariation<'a>,
+    generator: ConstructiveLevels<'a>,
     pub(super) likeness: Likeness,
     pub(super) seed: Seed,
     pub(super) progress: &'a dyn Progress,
 }
 
-impl<'a> Maker<'a> {
-    fn generator(&self) -> &ConstructiveLevels<'a> {
-        self.variation.constructive()
-    }
-
+impl Maker<'_> {
     /// Levels as they are drawn, judged by nobody.
     fn drawn(&self) -> LevelSet {
         self.each(|number, refused| {
             let mut cost = Cost::default();
             for candidate in 0..DRAWS {
-                match self.generator().generate(self.level_seed(number).child("candidate", candidate)) {
+                match self.generator.generate(self.level_seed(number).child("candidate", candidate)) {
                     Ok(level) if refused.contains(&self.likeness.digest(&level)) => cost.reject(TWICE),
                     Ok(level) => {
                         return (Some(MadeLevel { number, level, report: None, ladder: None }), cost);
@@ -173,7 +180,7 @@ impl<'a> Maker<'a> {
         let seed = self.level_seed(number);
         let gate = Gate::new(self.analysis, self.order, seed.child("gate", 0));
         for candidate in 0..u64::from(self.order.effort.looks * self.order.effort.rounds) {
-            match self.generator().generate(seed.child("candidate", candidate)) {
+            match self.generator.generate(seed.child("candidate", candidate)) {
                 Ok(level) if refused.contains(&self.likeness.digest(&level)) => cost.reject(TWICE),
                 Ok(level) => {
                     let judged = gate.judge(&level);
@@ -230,4 +237,24 @@ const NO_BOARD: &str = "level generator";
 
 pub(super) fn made(number: u32, level: Level, judged: Judged) -> MadeLevel {
     MadeLevel { number, level, report: Some(judged.report), ladder: judged.ladder }
+}
+
+/// Levels of a game with no difficulty asked for, from the easiest that the constructive generator aims at to the hardest: what
+/// one would pick from who cannot ask. Those that cannot be made are left out. Cost: about a millisecond each.
+///
+/// # Errors
+/// The game is none for the generator.
+pub fn unconstrained_pool(
+    game: &Game,
+    config: &LevelConfig,
+    count: u32,
+    seed: Seed,
+) -> Result<Vec<Level>, GenerateError> {
+    let draw = |number: u32| {
+        let difficulty = f64::from(number) / f64::from(count.max(2) - 1);
+        let generator = ConstructiveLevels::new(game, LevelConfig { difficulty, ..config.clone() })?;
+        Ok(generator.generate(seed.child("pool", u64::from(number))).ok())
+    };
+    let drawn: Result<Vec<Option<Level>>, GenerateError> = (0..count).into_par_iter().map(draw).collect();
+    Ok(drawn?.into_iter().flatten().collect())
 }

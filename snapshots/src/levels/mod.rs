@@ -6,11 +6,12 @@
 
 mod accept;
 mod aim;
+mod axes;
 mod improve;
 mod look;
 mod make;
 mod order;
 pub mod report;
 
-pub use make::{Cost, LevelSet, LevelsError, MadeLevel, Progress, make_levels};
+pub use make::{Cost, LevelSet, LevelsError, MadeLevel, Progress, make_levels, unconstrained_pool};
 pub use order::{Effort, LevelOrder, Method};

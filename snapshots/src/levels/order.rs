@@ -1,6 +1,7 @@
 //! What is asked of a set of levels.
 
-use generators::levels::LevelConfig;
+use engine::{Analysis, SpriteType};
+use generators::levels::{LevelConfig, PuzzleConfig};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -121,6 +122,19 @@ impl LevelOrder {
         let place = self.difficulty.and_then(|asked| labels.clone().position(|label| *label == asked));
         let difficulty = place.map_or(self.config.difficulty, |place| place as f64 / 4.0);
         LevelConfig { difficulty, ..self.config.clone() }
+    }
+
+    /// What is told to the makers of puzzles: as many things to push as the configuration counts; and an archive sees to it
+    /// itself that its levels get better, one by one.
+    pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
+        let pushed =
+            |stype: &SpriteType| analysis.pushables().iter().any(|pushable| pushable.stype == *stype);
+        let counts = self.config.counts.iter().filter(|(stype, _)| pushed(stype));
+        let things = counts.map(|(_, count)| *count).reduce(|one, two| one + two);
+        match self.method {
+            Method::Evolutionary => PuzzleConfig { things, floor_plans: 40 },
+            Method::Constructive | Method::Search => PuzzleConfig { things, ..PuzzleConfig::default() },
+        }
     }
 
     /// Whether something is asked that only playing can tell.

@@ -2,17 +2,23 @@
 
 use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
-use crate::input::{self, GameInput};
+use crate::input::{self, GameInput, Named};
+use crate::level_report::{Pictures, write_level_report};
+use crate::render;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
-use engine::{Analysis, Game, Level, Seed};
-use generators::levels::LevelConfig;
+use engine::{Analysis, Game, Level, Seed, SpriteType};
+use generators::levels::{Examples, LevelConfig};
 use indicatif::ProgressBar;
 use serde_json::json;
 use snapshots::Draft;
-use snapshots::levels::{LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels};
+use snapshots::levels::report::{Expense, LevelSetReport, Sample, Survey};
+use snapshots::levels::{
+    LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels, unconstrained_pool,
+};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use validators::{Difficulty, RuleRef};
 
 /// Makes new levels for a game. The same flags give the same bytes, on any number of threads.
@@ -52,6 +58,12 @@ pub(crate) struct Args {
     /// InteractionSet, from 1. May be given again
     #[arg(long, value_name = "RULE")]
     uses: Vec<String>,
+    /// Exactly so many sprites of a type: `box=3`. May be given again
+    #[arg(long, value_name = "TYPE=N", value_parser = count)]
+    with: Vec<(String, usize)>,
+    /// Write a report on the levels here, judged afresh: report.html, report.json, sheet.png. The folder must be absent or empty
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
@@ -70,11 +82,28 @@ fn size(text: &str) -> Result<(usize, usize), String> {
     sides.ok_or_else(|| "columns and rows with an x between them are wanted, such as 12x9".to_owned())
 }
 
+/// Reads `box=3`.
+fn count(text: &str) -> Result<(String, usize), String> {
+    let parts = text
+        .split_once('=')
+        .and_then(|(name, count)| Some((name.trim().to_owned(), count.trim().parse().ok()?)));
+    parts.ok_or_else(|| "a sprite type and a number are wanted, such as box=3".to_owned())
+}
+
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
     let game = input.compile(args.as_reference)?;
-    let order = order(args, &input, &game)?;
+    let examples = examples(&input, &game)?;
+    let order = order(args, &examples, &game)?;
     // Before minutes of work: is there a place to write to?
+    if let Some(dir) =
+        args.report.as_deref().filter(|dir| dir.read_dir().is_ok_and(|mut dir| dir.next().is_some()))
+    {
+        return Err(Failure::malformed(format!(
+            "--report: {} is not empty; name another folder",
+            dir.display()
+        )));
+    }
     let draft = Draft::create(&args.out).map_err(failure)?;
     let bar = Bar(console.progress(u64::from(args.count), "levels"));
     let started = Stopwatch::start();
@@ -92,13 +121,29 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     write(&draft, &input, &set)?;
     draft.write("levels.json", &pretty(&document(args, &game, &set))?).map_err(failure)?;
     draft.commit().map_err(failure)?;
+    let seconds = started.seconds();
+    if let Some(dir) = &args.report {
+        let bar = console.progress(0, "report");
+        in_pool(args.jobs, || report(args, dir, &game, &order, &examples, &set, seconds))??;
+        bar.finish_and_clear();
+    }
     console.document(&document(args, &game, &set))?;
-    console.say(summary(args, &set, started.seconds()).trim_end());
+    console.say(summary(args, &set, seconds).trim_end());
     Ok(set.levels.len() == args.count as usize)
 }
 
-fn order(args: &Args, input: &GameInput, game: &Game) -> Result<LevelOrder, Failure> {
-    let config = LevelConfig::default();
+/// The levels that the game comes with.
+fn examples(input: &GameInput, game: &Game) -> Result<Vec<Level>, Failure> {
+    let check = |named: Named| {
+        let level = game.level(&named.text);
+        level.map_err(|problems| Failure::malformed(render::problems(&named, &problems.0)))
+    };
+    input.levels()?.into_iter().map(check).collect()
+}
+
+fn order(args: &Args, examples: &[Level], game: &Game) -> Result<LevelOrder, Failure> {
+    let config = Examples::of(game, examples)
+        .map_or_else(LevelConfig::default, |examples| LevelConfig::like(Arc::new(examples)));
     let config = match args.size {
         Some((columns, rows)) => LevelConfig { columns: (columns, columns), rows: (rows, rows), ..config },
         None => config,
@@ -107,13 +152,68 @@ fn order(args: &Args, input: &GameInput, game: &Game) -> Result<LevelOrder, Fail
     let rule = |text: &String| RuleRef::parse(&analysis, text);
     let uses = args.uses.iter().map(rule).collect::<Result<_, _>>();
     let uses = uses.map_err(|error| Failure::malformed(format!("--uses: {error}")))?;
-    let _ = input;
+    let counts = args.with.iter().map(|(name, count)| Ok((stype(game, name)?, *count)));
+    let counts = counts.collect::<Result<_, Failure>>()?;
     Ok(LevelOrder {
         difficulty: args.difficulty,
         min_solution: args.min_solution,
         uses,
-        ..LevelOrder::new(args.method, args.count, config)
+        ..LevelOrder::new(args.method, args.count, LevelConfig { counts, ..config })
     })
+}
+
+fn stype(game: &Game, name: &str) -> Result<SpriteType, Failure> {
+    game.sprite_type(name).ok_or_else(|| {
+        let near = engine::nearest(name, game.sprite_types().map(|stype| game.name(stype)));
+        let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        Failure::malformed(format!("--with: the game has no sprite type `{name}`{help}"))
+    })
+}
+
+/// Levels without a difficulty asked for, to compare control with.
+const POOL: u32 = 40;
+
+/// Judges the levels afresh and writes the report on them.
+fn report(
+    args: &Args,
+    dir: &Path,
+    game: &Game,
+    order: &LevelOrder,
+    examples: &[Level],
+    set: &LevelSet,
+    seconds: f64,
+) -> Result<(), Failure> {
+    let analysis = Analysis::of(game);
+    let seed = Seed::from_text(&args.seed).child("report", 0);
+    let survey =
+        Survey::new(&analysis, &order.criteria, seed.child("survey", 0)).map_err(Failure::malformed)?;
+    let plain = |levels: &[Level]| levels.iter().map(|level| (level.clone(), None)).collect::<Vec<_>>();
+    let levels: Vec<Level> = set.levels.iter().map(|made| made.level.clone()).collect();
+    let asked: Vec<_> = levels.iter().map(|level| (level.clone(), args.difficulty)).collect();
+    let pool = match args.difficulty {
+        Some(_) => unconstrained_pool(game, &order.config, POOL, seed.child("pool", 0))
+            .map_err(Failure::malformed)?,
+        None => Vec::new(),
+    };
+    let pool = survey.judge(&plain(&pool));
+    let pool: Vec<Difficulty> =
+        pool.iter().filter_map(|judged| judged.ladder.as_ref()).map(|ladder| ladder.difficulty).collect();
+    let report = LevelSetReport::of(&Sample {
+        analysis: &analysis,
+        method: args.method.name(),
+        levels: &survey.judge(&asked),
+        examples: &survey.judge(&plain(examples)),
+        pool: &pool,
+        cost: &Expense::of(&set.cost, levels.len()),
+    });
+    let pictures = Pictures {
+        title: &args.game,
+        analysis: &analysis,
+        levels: &levels,
+        examples,
+        seconds: Some(seconds),
+    };
+    write_level_report(dir, &report, &pictures)
 }
 
 struct Bar(ProgressBar);
@@ -162,6 +262,7 @@ fn document(args: &Args, game: &Game, set: &LevelSet) -> serde_json::Value {
             "size": args.size,
             "min_solution": args.min_solution,
             "uses": args.uses,
+            "with": args.with,
         },
         "generation": generators::GENERATION,
         "semantics": engine::SEMANTICS,
