@@ -160,8 +160,8 @@ fn triviality(report: &LevelSetReport) -> Section {
     let facts = vec![
         Fact::share("episodes won by doing nothing", &triviality.idle),
         Fact::share("episodes won by random keys", &triviality.random),
-        Fact::share("levels of which doing nothing wins at most 10 %", &triviality.idle_levels),
-        Fact::share("levels of which random keys win at most 10 %", &triviality.random_levels),
+        Fact::share("levels of which doing nothing wins at most 10\u{a0}%", &triviality.idle_levels),
+        Fact::share("levels of which random keys win at most 10\u{a0}%", &triviality.random_levels),
         Fact::share("both", &triviality.both_levels),
     ];
     section("Are they won for nothing?", "", facts)
@@ -233,9 +233,7 @@ fn news(novelty: &Novelty) -> Section {
 fn hits(control: &Control) -> Section {
     let of = |hits: &Hits, which: &str| {
         let random = |value: Option<f64>| {
-            value.map(|value| {
-                Fact::plain("— picking at random from the pool", format!("{:.0} %", 100.0 * value))
-            })
+            value.map(|value| Fact::plain("— picked at random", words::whole_percent(value)))
         };
         let exact = Fact::share(format!("measured as asked, {which}"), &hits.exact);
         let near = Fact::share(format!("within one label, {which}"), &hits.within_one);
@@ -254,7 +252,7 @@ fn hits(control: &Control) -> Section {
         )
     };
     let mut facts = of(&control.all, "all labels");
-    if control.of_expressible.exact.of != control.all.exact.of {
+    if (1..control.all.exact.of).contains(&control.of_expressible.exact.of) {
         facts.extend(of(&control.of_expressible, "labels that the game can express"));
     }
     section("Are they as hard as asked?", note, facts)

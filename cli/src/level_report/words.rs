@@ -3,9 +3,9 @@
 use snapshots::levels::report::{Estimate, Quantiles, Share};
 use validators::Difficulty;
 
-/// `95 %`; of nothing, a dash.
+/// `95 %`, which is not broken between lines; of nothing, a dash.
 pub(super) fn percent(share: &Share) -> String {
-    if share.of == 0 { NONE.to_owned() } else { rounded(100.0 * share.share(), " %") }
+    if share.of == 0 { NONE.to_owned() } else { whole_percent(share.share()) }
 }
 
 /// `19 of 20`.
@@ -16,7 +16,7 @@ pub(super) fn counted(share: &Share) -> String {
 /// `76 to 99 %`; of nothing, nothing.
 pub(super) fn band(share: &Share) -> String {
     let [low, high] = share.interval.map(|end| 100.0 * end);
-    if share.of == 0 { String::new() } else { format!("{low:.0} to {high:.0} %") }
+    if share.of == 0 { String::new() } else { format!("{low:.0} to {high:.0}\u{a0}%") }
 }
 
 /// `+0.31`.
@@ -51,7 +51,7 @@ pub(super) fn five(quantiles: &Quantiles) -> [String; 5] {
 pub(super) fn short(value: f64) -> String {
     let decimals = if value.fract() == 0.0 || value.abs() >= 100.0 {
         0
-    } else if value.abs() >= 10.0 {
+    } else if value.abs() >= 1.0 {
         1
     } else {
         2
@@ -76,8 +76,9 @@ pub(super) fn label(difficulty: Option<Difficulty>) -> String {
 /// What stands where there is nothing to tell.
 pub(super) const NONE: &str = "–";
 
-fn rounded(value: f64, unit: &str) -> String {
-    format!("{value:.0}{unit}")
+/// `95 %`.
+pub(super) fn whole_percent(share: f64) -> String {
+    format!("{:.0}\u{a0}%", 100.0 * share)
 }
 
 #[cfg(test)]
@@ -87,9 +88,12 @@ mod tests {
     #[test]
     fn figures_are_short() {
         let share = |count, of| Share { count, of, interval: [0.764, 0.991] };
-        assert_eq!((percent(&share(19, 20)), band(&share(19, 20))), ("95 %".into(), "76 to 99 %".into()));
+        assert_eq!(
+            (percent(&share(19, 20)), band(&share(19, 20))),
+            ("95\u{a0}%".into(), "76 to 99\u{a0}%".into())
+        );
         assert_eq!((percent(&share(0, 0)), band(&share(0, 0))), (NONE.into(), String::new()));
-        assert_eq!([3.0, 0.3333, 12.25, 123.4].map(short), ["3", "0.33", "12.2", "123"]);
+        assert_eq!([3.0, 0.3333, 9.5, 12.25, 123.4].map(short), ["3", "0.33", "9.5", "12.2", "123"]);
         assert_eq!([7, 1000, 12_345_678].map(grouped), ["7", "1\u{202f}000", "12\u{202f}345\u{202f}678"]);
     }
 }
