@@ -9,7 +9,8 @@ use base64::engine::general_purpose::STANDARD;
 use minijinja::Environment;
 use minijinja::value::{Serde, Value};
 use serde::Serialize;
-use snapshots::levels::report::{BINS, Control, LevelRow, LevelSetReport, Range};
+use snapshots::levels::report::{BINS, Control, LevelRow, LevelSetReport, OF_PLAY, Range};
+use std::collections::BTreeSet;
 
 const TEMPLATE: &str = include_str!("page.html");
 
@@ -39,7 +40,10 @@ struct Heat {
 #[derive(Serialize)]
 struct Confusion {
     labels: Vec<String>,
-    rows: Vec<(String, Vec<u64>)>,
+    /// Label, its levels by measured label, those without one.
+    rows: Vec<(String, Vec<u64>, u64)>,
+    /// Whether some are without one.
+    some_unmeasured: bool,
     pool: Vec<u64>,
 }
 
@@ -47,9 +51,13 @@ impl Confusion {
     /// The labels that were asked for, as rows.
     fn of(control: &Control) -> Confusion {
         let labels: Vec<String> = control.labels.iter().map(ToString::to_string).collect();
-        let asked = |row: &(String, Vec<u64>)| row.1.iter().sum::<u64>() > 0;
-        let rows = labels.iter().cloned().zip(control.table.iter().cloned()).filter(asked).collect();
-        Confusion { rows, pool: control.pool.clone(), labels }
+        let each = labels.iter().cloned().zip(&control.table).zip(&control.unmeasured);
+        let rows: Vec<(String, Vec<u64>, u64)> = each
+            .map(|((label, got), none)| (label, got.clone(), *none))
+            .filter(|(_, got, none)| got.iter().sum::<u64>() + none > 0)
+            .collect();
+        let some_unmeasured = rows.iter().any(|(_, _, none)| *none > 0);
+        Confusion { rows, some_unmeasured, pool: control.pool.clone(), labels }
     }
 }
 
@@ -62,19 +70,19 @@ struct Table {
 
 impl Table {
     fn of(rows: &[LevelRow]) -> Table {
-        let mut measures: Vec<&String> = Vec::new();
-        for name in rows.iter().flat_map(|row| row.measures.keys()) {
-            if !measures.contains(&name) {
-                measures.push(name);
-            }
-        }
+        // What is told of play comes first, then what is told of the board.
+        let of_play = |name: &str| OF_PLAY.contains(&name);
+        let known: BTreeSet<&str> =
+            rows.iter().flat_map(|row| row.measures.keys()).map(String::as_str).collect();
+        let play: Vec<&str> = OF_PLAY.into_iter().filter(|name| known.contains(name)).collect();
+        let board: Vec<&str> = known.into_iter().filter(|name| !of_play(name)).collect();
         let (some_asked, some_label) =
             (rows.iter().any(|row| row.asked.is_some()), rows.iter().any(|row| row.label.is_some()));
         let mut columns: Vec<String> = ["", "size", "verdict"].map(str::to_owned).to_vec();
         columns.extend(some_asked.then(|| "asked".to_owned()));
         columns.extend(some_label.then(|| "measured".to_owned()));
-        columns.extend(measures.iter().map(|name| (*name).clone()));
-        columns.extend(["shortest", "nearest", "digest"].map(str::to_owned));
+        let names = play.iter().chain(&["shortest", "nearest"]).chain(&board).chain(&["digest"]);
+        columns.extend(names.map(|&name| name.to_owned()));
         let row = |(at, row): (usize, &LevelRow)| {
             let verdict = match &row.obstacle {
                 None if row.passes => "passes".to_owned(),
@@ -86,13 +94,11 @@ impl Table {
             let mut cells = vec![at.to_string(), format!("{} × {}", row.columns, row.rows), verdict];
             cells.extend(some_asked.then(|| words::label(row.asked)));
             cells.extend(some_label.then(|| words::label(row.label)));
-            cells.extend(
-                measures
-                    .iter()
-                    .map(|name| row.measures.get(*name).map_or_else(none, |value| words::short(*value))),
-            );
+            let value = |name: &&str| row.measures.get(*name).map_or_else(none, |value| words::short(*value));
+            cells.extend(play.iter().map(value));
             cells.push(row.shortest.map_or_else(none, |ticks| ticks.to_string()));
             cells.push(row.nearest.map_or_else(none, words::short));
+            cells.extend(board.iter().map(value));
             cells.push(row.digest.short());
             cells
         };

@@ -16,7 +16,7 @@ pub use figures::{Estimate, Quantiles, Share};
 pub use likeness::{Diversity, NEAR, Novelty};
 pub use play::{Fit, Lengths, LineUse, PlayerRate, Rules, Skill, Solvability, Triviality, Validity};
 pub use range::{Axis, BINS, PAIRS, Range};
-pub use row::LevelRow;
+pub use row::{LevelRow, OF_PLAY};
 pub use survey::Survey;
 
 use super::make::Cost;

@@ -26,15 +26,21 @@ pub struct Control {
     pub labels: Vec<Difficulty>,
     /// `[asked][measured]`: levels.
     pub table: Vec<Vec<u64>>,
+    /// `[asked]`: levels that could not be measured, because nobody found a win. They count as misses.
+    pub unmeasured: Vec<u64>,
     /// Levels with each label in a pool for which nothing was asked; empty if there is none.
     pub pool: Vec<u64>,
-    /// Which labels the game can express: at least 5 % of the pool have them. All, if there is no pool.
+    /// Which labels that can be asked for the game can express: at least 5 % of the pool have them. All of these, if there is
+    /// no pool.
     pub expressible: Vec<Difficulty>,
     /// Over all levels.
     pub all: Hits,
     /// Over levels whose asked label the game can express.
     pub of_expressible: Hits,
 }
+
+/// The places of the labels that were asked for, and measured.
+type Asked = (usize, Option<usize>);
 
 /// How often the asked label was met.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,19 +59,24 @@ pub struct Hits {
 
 impl Control {
     pub(super) fn of(levels: &[Judged], pool: &[Difficulty]) -> Option<Control> {
-        let pairs: Vec<(usize, usize)> =
-            levels.iter().filter_map(|judged| Some((rank(judged.asked?), rank(judged.label()?)))).collect();
-        if pairs.is_empty() {
+        let asked = |judged: &Judged| Some((rank(judged.asked?), judged.label().map(rank)));
+        let pairs: Vec<Asked> = levels.iter().filter_map(asked).collect();
+        if pairs.iter().all(|(_, got)| got.is_none()) {
             return None;
         }
-        let mut table = vec![vec![0; LABELS.len()]; LABELS.len()];
+        let (mut table, mut unmeasured) = (vec![vec![0; LABELS.len()]; LABELS.len()], vec![0; LABELS.len()]);
         for &(asked, got) in &pairs {
-            table[asked][got] += 1;
+            match got {
+                Some(got) => table[asked][got] += 1,
+                None => unmeasured[asked] += 1,
+            }
         }
         let mut counts = vec![0u64; LABELS.len()];
         pool.iter().for_each(|label| counts[rank(*label)] += 1);
-        let can = |label: &usize| pool.is_empty() || counts[*label] as f64 >= EXPRESSIBLE * pool.len() as f64;
-        let asked_for: Vec<(usize, usize)> = pairs.iter().filter(|(asked, _)| can(asked)).copied().collect();
+        let can_be_asked = |label: usize| LABELS[label].eases().is_some();
+        let many = |label: usize| pool.is_empty() || counts[label] as f64 >= EXPRESSIBLE * pool.len() as f64;
+        let can = |label: &usize| can_be_asked(*label) && many(*label);
+        let asked_for: Vec<Asked> = pairs.iter().filter(|(asked, _)| can(asked)).copied().collect();
         Some(Control {
             all: Hits::of(&pairs, pool),
             of_expressible: Hits::of(&asked_for, pool),
@@ -73,14 +84,17 @@ impl Control {
             labels: LABELS.to_vec(),
             pool: if pool.is_empty() { Vec::new() } else { counts },
             table,
+            unmeasured,
         })
     }
 }
 
 impl Hits {
-    fn of(pairs: &[(usize, usize)], pool: &[Difficulty]) -> Hits {
+    fn of(pairs: &[Asked], pool: &[Difficulty]) -> Hits {
         let hits = |apart: usize| {
-            let share = Share::yes(pairs.iter().map(|(asked, got)| asked.abs_diff(*got) <= apart));
+            let share = Share::yes(
+                pairs.iter().map(|(asked, got)| got.is_some_and(|got| asked.abs_diff(got) <= apart)),
+            );
             let picked = |asked: usize| {
                 Share::yes(pool.iter().map(|label| rank(*label).abs_diff(asked) <= apart)).share()
             };

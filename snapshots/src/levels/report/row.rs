@@ -36,8 +36,8 @@ pub struct LevelRow {
     pub nearest: Option<f64>,
 }
 
-/// The measures of play, by the names that [`Judged::measure`] knows.
-const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
+/// The names of the measures of play, in the order of telling; those of the board follow.
+pub const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
 
 impl LevelRow {
     pub(super) fn of(judged: &Judged, nearest: Option<f64>) -> LevelRow {

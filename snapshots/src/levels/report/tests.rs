@@ -144,6 +144,21 @@ fn asked_labels_stand_beside_random_picking() {
 }
 
 #[test]
+fn a_level_that_nobody_could_measure_is_a_miss() {
+    let game = Game::from_source(GAME).unwrap();
+    let asked = |ladder: bool| {
+        let level = judged(&game, "wwwwww\nwA  gw\nwwwwww\n", 3, [1, 2, 4]);
+        let ladder = level.ladder.clone().filter(|_| ladder);
+        Judged { asked: Some(Difficulty::Easy), ladder, ..level }
+    };
+    let control = report(&[asked(true), asked(false)], &[], &[]).control.unwrap();
+    assert_eq!((control.all.exact.count, control.all.exact.of), (1, 2));
+    assert_eq!((control.table[1][1], control.unmeasured[1]), (1, 1));
+    assert_eq!(control.expressible.len(), 5, "nobody can ask for a level that is unbeaten");
+    assert_eq!(report(&[asked(false)], &[], &[]).control, None);
+}
+
+#[test]
 fn a_set_of_nothing_has_no_figures() {
     let report = report(&[], &[], &[]);
     assert_eq!((report.skill, report.novelty, report.control), (None, None, None));
