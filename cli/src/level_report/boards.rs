@@ -48,10 +48,9 @@ impl Boards {
         let mut entries = Vec::new();
         let mut levels = Vec::new();
         for ((at, row), level) in rows {
-            let (head, line) = (head(at, row), line(row));
             let picture = drawn(level)?;
-            levels.push(Board::of(&picture, head.clone(), line.clone())?);
-            entries.push((picture, format!("{head}: {line}")));
+            levels.push(Board::of(&picture, head(at, row), line(row, true))?);
+            entries.push((picture, caption(at, row)));
         }
         let mut examples = Vec::new();
         for (at, level) in pictures.examples.iter().enumerate() {
@@ -98,13 +97,19 @@ fn head(at: usize, row: &LevelRow) -> String {
     text
 }
 
-/// `34 ticks (shortest), 12 pushes`; why it fails, if it does.
-fn line(row: &LevelRow) -> String {
+/// What there is room for in the sheet: `7 medium, 34 ticks, 12 pushes`.
+fn caption(at: usize, row: &LevelRow) -> String {
+    let label = row.label.map_or(String::new(), |label| format!(" {label}"));
+    format!("{at}{label}, {}", line(row, false))
+}
+
+/// `34 ticks (shortest), 12 pushes`; why it fails, if it does. `proofs`: say what is proved.
+fn line(row: &LevelRow, proofs: bool) -> String {
     let mut parts = Vec::new();
     let value = |name: &str| row.measures.get(name).copied();
     match value("ticks") {
         Some(ticks) => {
-            let sure = if row.shortest.is_some() { " (shortest)" } else { "" };
+            let sure = if proofs && row.shortest.is_some() { " (shortest)" } else { "" };
             parts.push(format!("{} ticks{sure}", words::short(ticks)));
         }
         None => {
@@ -142,15 +147,16 @@ mod tests {
             nearest: None,
         };
         assert_eq!(head(7, &row), "7, medium (asked: hard)");
-        assert_eq!(line(&row), "34 ticks (shortest), 12 pushes");
+        assert_eq!(line(&row, true), "34 ticks (shortest), 12 pushes");
+        assert_eq!(caption(7, &row), "7 medium, 34 ticks, 12 pushes");
         row.asked = row.label;
         row.obstacle = Some("length".to_owned());
         assert_eq!(
-            (head(7, &row).as_str(), line(&row).as_str()),
+            (head(7, &row).as_str(), line(&row, true).as_str()),
             ("7, medium", "34 ticks (shortest), 12 pushes, not length")
         );
         row.measures.clear();
         (row.solved, row.obstacle) = ("impossible".to_owned(), Some("winnable".to_owned()));
-        assert_eq!(line(&row), "impossible!");
+        assert_eq!(line(&row, true), "impossible!");
     }
 }
