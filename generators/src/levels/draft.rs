@@ -1,6 +1,8 @@
 //! A level that is being edited: its characters, what they are for, and whether an edit has spoilt anything.
 
+use super::config::LevelConfig;
 use super::constructive::ConstructiveLevels;
+use super::examples::is_cover;
 use super::grid::{FAR, Grid, WAYS};
 use super::palette::holds_avatar;
 use crate::Generator;
@@ -37,11 +39,13 @@ pub(crate) struct Vocabulary {
     harmful: Vec<bool>,
     /// By character: at least and at most so many, where levels agree exactly so many.
     bounds: Vec<(usize, usize)>,
+    /// The share of cells with more than floor that is asked for.
+    cover: Option<(f64, f64)>,
 }
 
 impl Vocabulary {
     /// Cost: that of 16 levels.
-    pub(crate) fn of(levels: &ConstructiveLevels<'_>) -> Vocabulary {
+    pub(crate) fn of(levels: &ConstructiveLevels<'_>, config: &LevelConfig) -> Vocabulary {
         let (game, analysis, palette) = (levels.game, &levels.analysis, &levels.palette);
         let kind = |symbol: u8| {
             if holds_avatar(analysis, symbol) {
@@ -78,7 +82,17 @@ impl Vocabulary {
         for (low, high) in bounds.iter_mut().filter(|(low, high)| low < high) {
             (*low, *high) = (low.div_ceil(2), high.saturating_add(*high / 2));
         }
-        Vocabulary { kinds: (0..128).map(kind).collect(), harmful: (0..128).map(harmful).collect(), bounds }
+        for &(stype, count) in &config.counts {
+            if let Some(symbol) = palette.symbol(stype) {
+                bounds[usize::from(symbol)] = (count, count);
+            }
+        }
+        Vocabulary {
+            kinds: (0..128).map(kind).collect(),
+            harmful: (0..128).map(harmful).collect(),
+            bounds,
+            cover: config.cover,
+        }
     }
 
     pub(crate) fn kind(&self, symbol: u8) -> Kind {
@@ -107,6 +121,8 @@ pub(crate) struct Faults {
     pub(crate) crowded: usize,
     /// Blocks of wall by themselves, and gates that stand in the open.
     pub(crate) untidy: usize,
+    /// Cells with more than floor, too many or too few.
+    pub(crate) uncovered: usize,
 }
 
 impl Faults {
@@ -116,6 +132,7 @@ impl Faults {
             && self.stranded <= other.stranded
             && self.crowded <= other.crowded
             && self.untidy <= other.untidy
+            && self.uncovered <= other.uncovered
     }
 
     /// The worse of each.
@@ -125,6 +142,7 @@ impl Faults {
             stranded: self.stranded.max(other.stranded),
             crowded: self.crowded.max(other.crowded),
             untidy: self.untidy.max(other.untidy),
+            uncovered: self.uncovered.max(other.uncovered),
         }
     }
 }
@@ -213,6 +231,7 @@ impl<'v> Draft<'v> {
             stranded: self.stranded().len(),
             crowded: self.crowded(),
             untidy: self.untidy(),
+            uncovered: self.uncovered(),
         }
     }
 
@@ -283,6 +302,14 @@ impl<'v> Draft<'v> {
             _ => false,
         };
         (0..self.grid.len()).filter(untidy).count()
+    }
+
+    fn uncovered(&self) -> usize {
+        let Some((low, high)) = self.words.cover else { return 0 };
+        let covered = self.cells.iter().filter(|&&symbol| is_cover(&self.levels.analysis, symbol)).count();
+        let at = |share: f64| share * self.grid.len() as f64;
+        let over = (covered as f64 - at(high)).max(at(low) - covered as f64).max(0.0);
+        over.ceil() as usize
     }
 
     /// What is wall beside a cell, in the order of [`WAYS`]; so is what lies off the board.

@@ -16,7 +16,7 @@ const ATTEMPTS: usize = 12;
 /// meaning in the game (things move, come and go by role; lines of wall grow, shrink, open and shift).
 ///
 /// Whatever comes out is a level: one avatar, the size and the closed border of the parent, no termination that holds at the
-/// start, and no fault that its parents had not: what the game requires is there, numbers are as usual, no cell is cut off,
+/// start, and no fault that its parents had not: what the game requires is there, numbers and cover are as asked for and as usual, no cell is cut off,
 /// nothing that harms stands right beside the avatar, no gate in the open, no block of wall by itself. Walls that were symmetrical mostly stay so. Nothing is judged here:
 /// whether a level can be won is for others to say.
 ///
@@ -32,8 +32,8 @@ impl<'a> LevelVariation<'a> {
     /// # Errors
     /// As [`ConstructiveLevels::new`].
     pub fn new(game: &'a Game, config: LevelConfig) -> Result<LevelVariation<'a>, GenerateError> {
-        let levels = ConstructiveLevels::new(game, config)?;
-        Ok(LevelVariation { words: Vocabulary::of(&levels), levels })
+        let levels = ConstructiveLevels::new(game, config.clone())?;
+        Ok(LevelVariation { words: Vocabulary::of(&levels, &config), levels })
     }
 
     /// What makes the levels that a search starts from.

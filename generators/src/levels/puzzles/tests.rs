@@ -59,7 +59,7 @@ fn rules_of(game: &Game) -> Rules {
 
 /// The puzzles that the issue asks for: 8 by 8 cells, three things.
 fn puzzles(game: &Game) -> PuzzleVariation<'_> {
-    let config = LevelConfig { columns: (8, 8), rows: (8, 8), difficulty: 0.5, ..LevelConfig::default() };
+    let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
     let puzzle = PuzzleConfig { things: Some(3), ..PuzzleConfig::default() };
     PuzzleVariation::new(game, config, puzzle).unwrap()
 }
@@ -209,7 +209,7 @@ fn check_length(game: &Game) {
         (0..9).map(|index| proved(&analysis, &variation.create(seed(index)).unwrap())).collect();
     let ticks = median(searched.iter().map(|(ticks, _)| *ticks).collect());
     let pushes = median(searched.iter().map(|(_, pushes)| *pushes).collect());
-    let config = LevelConfig { columns: (8, 8), rows: (8, 8), difficulty: 0.5, ..LevelConfig::default() };
+    let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
     let constructive = ConstructiveLevels::new(game, config).unwrap();
     let plain: Vec<usize> =
         (0..9).map(|index| proved(&analysis, &constructive.generate(seed(index)).unwrap()).0).collect();

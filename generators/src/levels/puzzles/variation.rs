@@ -10,7 +10,7 @@ use crate::levels::constructive::{ConstructiveLevels, Solved};
 use crate::levels::grid::Grid;
 use crate::levels::jobs::Jobs;
 use crate::{Annealing, AnnealingConfig, GenerateError, Search, Variation};
-use engine::{Game, Level, Sampler, Seed};
+use engine::{Game, Level, Sampler, Seed, SpriteType};
 
 /// Positions of the avatar looked at to find the longest way.
 const MOST_POSITIONS: usize = 400_000;
@@ -26,7 +26,7 @@ const CHANGES: usize = 6;
 /// What is asked of puzzles.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PuzzleConfig {
-    /// Things to push; none: two to four, as difficulty and room allow.
+    /// Things to push; none: as many as [`LevelConfig::counts`] says, or two to four, as difficulty and room allow.
     pub things: Option<usize>,
     /// Floor plans looked at for a level, at most.
     pub floor_plans: usize,
@@ -109,7 +109,10 @@ impl<'a> PuzzleVariation<'a> {
         }
         let inner = (grid.columns - 2) * (grid.rows - 2);
         let usual = 2 + crate::levels::plan::round(0.2 + 2.0 * self.config.difficulty, &mut sampler);
-        let things = self.puzzle.things.unwrap_or(usual.min(inner / 10).max(2));
+        let of_kind = |(stype, _): &&(SpriteType, usize)| self.rules.kinds.contains(stype);
+        let asked: usize = self.config.counts.iter().filter(of_kind).map(|(_, count)| count).sum();
+        let asked = self.puzzle.things.or((asked > 0).then_some(asked));
+        let things = asked.unwrap_or(usual.min(inner / 10).max(2));
         let floors =
             FloorPlans { rules: &self.rules, grid, counts: FloorPlans::counts_of(&self.rules, things) };
         let yard = anneal(&floors, floor_plans, seed.child("floor plans", 0))?;
