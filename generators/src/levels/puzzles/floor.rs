@@ -8,7 +8,7 @@ use crate::{Evaluation, Variation};
 use engine::{Sampler, Seed};
 
 /// Positions looked at for the rating of a floor plan.
-const MOST_POSITIONS: usize = 60_000;
+const MOST_POSITIONS: usize = 100_000;
 /// How far apart targets of a group are at most, in cells.
 const GROUP: usize = 2;
 /// A rating of 1.0 stands for so many pushes.
@@ -42,7 +42,7 @@ impl FloorPlans<'_> {
 
     /// Open cells at first, at most: where things meet anywhere, there are too many positions in a large yard.
     fn most(&self) -> usize {
-        if self.rules.home == Home::Partner { 20 } else { usize::MAX }
+        if self.rules.home == Home::Partner { 22 } else { usize::MAX }
     }
 
     /// Rooms and corridors that hang together, and targets in a group.

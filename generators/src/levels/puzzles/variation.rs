@@ -15,7 +15,7 @@ use engine::{Game, Level, Sampler, Seed, SpriteType};
 /// Positions of the avatar looked at to find the longest way.
 const MOST_POSITIONS: usize = 400_000;
 /// Positions looked at in all for a level, about: where each floor plan has many, fewer of them are looked at.
-const POSITIONS: usize = 3_000_000;
+const POSITIONS: usize = 2_000_000;
 /// Floor plans asked for at once; they are rated one after the other.
 const BATCH: usize = 8;
 /// Floor plans drawn that lead to no level before a seed is given up.

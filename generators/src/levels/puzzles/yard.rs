@@ -121,8 +121,10 @@ impl Pushing<'_> {
 
     /// Cells where the push that led to a position may have ended.
     pub(crate) fn ends(&self, after: &Position) -> Cells {
+        let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.yard.counts[kind];
         let homes = match self.rules.home {
             Home::Place => 0,
+            _ if !more(0) => 0,
             Home::Sink | Home::Hole => self.yard.targets,
             Home::Partner => self.lies(after),
         };
