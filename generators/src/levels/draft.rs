@@ -6,7 +6,7 @@ use super::examples::is_cover;
 use super::grid::{FAR, Grid, WAYS};
 use super::palette::holds_avatar;
 use crate::Generator;
-use engine::analysis::{Harm, Reason, Role};
+use engine::analysis::{Harm, Reason, Role, Steering};
 use engine::{Level, Sampler, Seed, SpriteType};
 use std::collections::VecDeque;
 
@@ -39,6 +39,9 @@ pub(crate) struct Vocabulary {
     harmful: Vec<bool>,
     /// By character: at least and at most so many, where levels agree exactly so many.
     bounds: Vec<(usize, usize)>,
+    /// By character: from where to where it stands on the way across the line that the avatar keeps to, in thousandths;
+    /// empty if it goes anywhere.
+    bands: Vec<(usize, usize)>,
     /// The share of cells with more than floor that is asked for.
     cover: Option<(f64, f64)>,
 }
@@ -65,10 +68,22 @@ impl Vocabulary {
             matches!(kind(symbol), Kind::Thing(_)) && types().any(harms)
         };
         let mut bounds: Option<Vec<(usize, usize)>> = None;
+        let steering = analysis.start_avatar().map(|avatar| avatar.steering);
+        let mut bands = match steering {
+            Some(Steering::Horizontal | Steering::Vertical) => vec![(usize::MAX, 0); 128],
+            _ => Vec::new(),
+        };
         let seed = Seed::from_text("usual numbers");
         for level in (0..SAMPLES).filter_map(|index| levels.generate(seed.child("level", index)).ok()) {
             let mut counts = vec![0; 128];
-            level.cells().iter().for_each(|&symbol| counts[usize::from(symbol)] += 1);
+            let grid = Grid { columns: level.columns(), rows: level.rows() };
+            for (cell, &symbol) in level.cells().iter().enumerate() {
+                counts[usize::from(symbol)] += 1;
+                if let Some((low, high)) = bands.get_mut(usize::from(symbol)) {
+                    let place = across(levels, grid, cell);
+                    (*low, *high) = ((*low).min(place), (*high).max(place));
+                }
+            }
             match &mut bounds {
                 None => bounds = Some(counts.into_iter().map(|count| (count, count)).collect()),
                 Some(bounds) => {
@@ -91,6 +106,7 @@ impl Vocabulary {
             kinds: (0..128).map(kind).collect(),
             harmful: (0..128).map(harmful).collect(),
             bounds,
+            bands,
             cover: config.cover,
         }
     }
@@ -119,7 +135,7 @@ pub(crate) struct Faults {
     pub(crate) stranded: usize,
     /// How much too close what harms is to the avatar.
     pub(crate) crowded: usize,
-    /// Blocks of wall by themselves, and gates that stand in the open.
+    /// Blocks of wall by themselves, gates in the open, and things where they never are.
     pub(crate) untidy: usize,
     /// Cells with more than floor, too many or too few.
     pub(crate) uncovered: usize,
@@ -298,7 +314,7 @@ impl<'v> Draft<'v> {
         };
         let untidy = |&cell: &usize| match self.kind(cell) {
             Kind::Wall => lonely(cell),
-            Kind::Thing(Role::Gate) => !self.is_between(cell),
+            Kind::Thing(_) => !self.belongs(self.cells[cell], cell),
             _ => false,
         };
         (0..self.grid.len()).filter(untidy).count()
@@ -322,10 +338,19 @@ impl<'v> Draft<'v> {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// Whether a character may lie on that ground: gates want walls to both sides.
-    pub(crate) fn suits(&self, symbol: u8, cell: usize) -> bool {
+    /// Whether a character is at home in a cell: gates want walls to both sides, and where the avatar keeps to a line,
+    /// everything has its distance from that.
+    pub(crate) fn belongs(&self, symbol: u8, cell: usize) -> bool {
         let gate = self.words.kind(symbol) == Kind::Thing(Role::Gate);
-        self.is_ground(cell) && (!gate || self.is_between(cell))
+        let place = || across(self.levels, self.grid, cell);
+        let band = self.words.bands.get(usize::from(symbol));
+        let in_band = band.is_none_or(|&(low, high)| low > high || (low..=high).contains(&place()));
+        in_band && (!gate || self.is_between(cell))
+    }
+
+    /// Whether it is ground where a character is at home.
+    pub(crate) fn suits(&self, symbol: u8, cell: usize) -> bool {
+        self.is_ground(cell) && self.belongs(symbol, cell)
     }
 
     /// Opens walls to what cannot be reached, along the fewest walls, and fills small empty pockets.
@@ -408,4 +433,14 @@ impl<'v> Draft<'v> {
         let state = self.levels.game.start(&level, Seed::from_text("draft"));
         self.levels.analysis.goal_met(&state).is_none().then_some(level)
     }
+}
+
+/// How far across the line that the avatar keeps to a cell is, in thousandths of the board.
+fn across(levels: &ConstructiveLevels<'_>, grid: Grid, cell: usize) -> usize {
+    let steering = levels.analysis.start_avatar().map(|avatar| avatar.steering);
+    let (place, length) = match steering {
+        Some(Steering::Vertical) => (grid.x(cell), grid.columns),
+        _ => (grid.y(cell), grid.rows),
+    };
+    place * 1000 / (length - 1).max(1)
 }

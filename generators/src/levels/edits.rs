@@ -143,7 +143,16 @@ impl Draft<'_> {
 
     fn carry(&mut self, sampler: &mut Sampler) -> Option<()> {
         let thing = pick(&self.things(), sampler)?;
-        let cells = self.cells_where(|draft, cell| draft.suits(draft.cells[thing], cell));
+        let symbol = self.cells[thing];
+        // What gives shelter or is to be broken lies together.
+        let lies =
+            matches!(self.words.kind(symbol), Kind::Thing(Role::Cover | Role::Breakable | Role::Refuge));
+        let like: Vec<usize> =
+            self.cells_where(|draft, cell| lies && cell != thing && draft.cells[cell] == symbol);
+        let cells = self.cells_where(|draft, cell| {
+            let close = || like.iter().any(|&other| draft.grid.manhattan(other, cell) == 1);
+            draft.suits(symbol, cell) && (like.is_empty() || close())
+        });
         self.exchange(thing, pick(&cells, sampler)?);
         Some(())
     }
@@ -216,6 +225,8 @@ impl Draft<'_> {
         let one = pick(&things, sampler)?;
         let others: Vec<usize> =
             things.into_iter().filter(|&cell| self.cells[cell] != self.cells[one]).collect();
+        let fit = |&cell: &usize| self.belongs(self.cells[one], cell) && self.belongs(self.cells[cell], one);
+        let others: Vec<usize> = others.into_iter().filter(fit).collect();
         self.exchange(one, pick(&others, sampler)?);
         Some(())
     }
