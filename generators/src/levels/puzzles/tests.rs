@@ -57,7 +57,7 @@ fn rules_of(game: &Game) -> Rules {
     Rules::of(&levels.analysis, &levels.palette).unwrap()
 }
 
-/// The puzzles that the issue asks for: 8 by 8 cells, three things.
+/// Puzzles of 8 by 8 cells with three things.
 fn puzzles(game: &Game) -> PuzzleVariation<'_> {
     let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
     let puzzle = PuzzleConfig { things: Some(3), ..PuzzleConfig::default() };
