@@ -56,6 +56,25 @@ impl Builder<'_> {
     pub(crate) fn place(&mut self, stype: SpriteType, role: Role) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
+        if let Some(grouped) = self.draw_group(stype) {
+            let beside = |builder: &Self, cell: usize| {
+                builder.board.grid.beside(cell).any(|next| builder.log.contains(&(next, stype)))
+            };
+            let put = self.put_where(stype, |builder, cell| {
+                if beside(builder, cell) != grouped {
+                    0
+                } else if grouped {
+                    // What the role says of distances is said of groups.
+                    let from_start = builder.board.grid.manhattan(cell, builder.board.start);
+                    u32::from(steps[cell] != FAR && from_start > 2 && !builder.cuts(cell, stype))
+                } else {
+                    builder.ground(cell, role) * builder.weigh(cell, stype, role, &steps, radius)
+                }
+            });
+            if put.is_some() {
+                return put;
+            }
+        }
         let strict = self.put_where(stype, |builder, cell| {
             builder.ground(cell, role) * builder.weigh(cell, stype, role, &steps, radius)
         });

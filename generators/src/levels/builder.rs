@@ -91,10 +91,10 @@ impl Builder<'_> {
 
     /// How well a cell agrees with where examples have such sprites.
     pub(crate) fn habit(&self, cell: usize, stype: SpriteType) -> u32 {
-        let Some(examples) = self.examples() else { return 1 };
+        let (Some(examples), Some(target)) = (self.examples(), &self.target) else { return 1 };
         let grid = self.board.grid;
         let stance = examples.stance(stype);
-        let mut weight = stance.weigh(grid, &self.board.wall, cell, examples.nooks());
+        let mut weight = stance.weigh(grid, &self.board.wall, cell, examples.nooks(), target.model);
         for (way, other) in stance.companions() {
             if grid.shift(cell, way).is_some_and(|next| self.log.contains(&(next, other))) {
                 weight = weight.saturating_mul(COMPANY);
@@ -108,6 +108,19 @@ impl Builder<'_> {
             }
         }
         weight
+    }
+
+    /// The types that it should hold, if there are examples.
+    pub(crate) fn expected(&self) -> Vec<SpriteType> {
+        let Some(target) = &self.target else { return Vec::new() };
+        self.analysis.game().sprite_types().filter(|stype| target.counts[stype.index()].0 > 0).collect()
+    }
+
+    /// Draws whether a sprite is to stand beside another of its kind, as often as in the examples; None if it does not matter.
+    pub(crate) fn draw_group(&mut self, stype: SpriteType) -> Option<bool> {
+        let share = self.examples()?.stance(stype).grouped();
+        let first = self.log.iter().all(|(_, kind)| *kind != stype);
+        (!first).then(|| self.sampler.unit() < 0.8 * share)
     }
 
     /// The cell on the other side, left and right, if examples have such sprites in pairs and there is room.

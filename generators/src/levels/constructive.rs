@@ -12,12 +12,12 @@ use super::palette::Palette;
 use super::plan::furnishable;
 use crate::{GenerateError, Generator};
 use engine::analysis::{Deed, Motion, Reason, Role, Steering};
-use engine::{Action, Analysis, Game, Level, Sampler, Seed};
+use engine::{Action, Analysis, Game, Level, Sampler, Seed, SpriteType};
 
 /// Boards tried for one seed.
 const ATTEMPTS: u64 = 40;
-/// Boards tried for the cover that was asked for.
-const COVERS: u64 = 10;
+/// Boards tried for cover and company as in the examples.
+const COVERS: u64 = 5;
 /// Boards tried for a puzzle before it is furnished like any other level.
 const PUZZLES: u64 = 30;
 
@@ -38,7 +38,7 @@ pub struct ConstructiveLevels<'a> {
     pub(super) game: &'a Game,
     pub(super) analysis: Analysis,
     pub(super) palette: Palette,
-    config: LevelConfig,
+    pub(super) config: LevelConfig,
 }
 
 /// A level with the actions that win it, where the generator knows them.
@@ -57,11 +57,14 @@ pub(super) struct Made {
     solution: Option<Vec<Action>>,
     /// Its puzzle has been played through.
     pub(super) played: bool,
+    /// Types that it should hold, if there are examples.
+    pub(super) expected: Vec<SpriteType>,
 }
 
 impl Made {
-    fn plain(board: Board) -> Made {
-        Made { board, solution: None, played: false }
+    fn plain(builder: Builder<'_>) -> Made {
+        let expected = builder.expected();
+        Made { board: builder.board, solution: None, played: false, expected }
     }
 }
 
@@ -86,7 +89,7 @@ impl<'a> ConstructiveLevels<'a> {
             return Err(GenerateError::Unsuitable(problem));
         };
         for requirement in analysis.requirements() {
-            let placed = |stype: &engine::SpriteType| palette.symbol(*stype).is_some();
+            let placed = |stype: &SpriteType| palette.symbol(*stype).is_some();
             let met = requirement.at_least == 0 || requirement.types.iter().any(placed);
             let room = config.columns.1 * config.rows.1;
             let met = met && requirement.at_least as usize <= room;
@@ -123,15 +126,16 @@ impl<'a> ConstructiveLevels<'a> {
                         .config
                         .cover
                         .is_none_or(|(low, high)| (low..=high).contains(&cover(&self.analysis, &level)));
+                    let company = self.keeps_company(&made);
                     let solved = Solved { level, solution: made.solution };
-                    if survivable && covered {
+                    if survivable && covered && company {
                         return Ok(solved);
                     }
-                    let rank = 2 * u32::from(survivable) + u32::from(covered);
+                    let rank = 4 * u32::from(survivable) + 2 * u32::from(covered) + u32::from(company);
                     if second_best.as_ref().is_none_or(|(best, _)| rank > *best) {
                         second_best = Some((rank, solved));
                     }
-                    // A cover that was not met ten times will hardly be.
+                    // What was not met a few times will hardly be.
                     if survivable && attempt >= COVERS {
                         break;
                     }
@@ -159,7 +163,7 @@ impl<'a> ConstructiveLevels<'a> {
             let mut builder = self.builder(Board::new(grid, wall), sampler, target);
             builder.gallery(steering, ring);
             builder.settle();
-            return Some(Made::plain(builder.board));
+            return Some(Made::plain(builder));
         }
         if attempt < PUZZLES {
             let mut sampler = seed.child("puzzle", 0).sampler();
@@ -181,7 +185,7 @@ impl<'a> ConstructiveLevels<'a> {
             builder.board = Board::new(grid, Builder::lane_walls(grid, &rows, closed, &traffic));
             builder.crossing(&rows, &traffic);
             builder.settle();
-            return Some(Made::plain(builder.board));
+            return Some(Made::plain(builder));
         }
         let mut family = self.family(&mut layout);
         if family == Family::Maze && grid.columns.min(grid.rows) < 7 {
@@ -210,7 +214,7 @@ impl<'a> ConstructiveLevels<'a> {
         let mut builder = self.builder(Board::new(grid, wall), sampler, target);
         builder.adventure();
         builder.settle();
-        Some(Made::plain(builder.board))
+        Some(Made::plain(builder))
     }
 
     /// Whether the avatar has its aim above it, as far as examples tell.
@@ -235,8 +239,8 @@ impl<'a> ConstructiveLevels<'a> {
         let grid = target.grid;
         let patterns = self.config.like.as_deref().map(|examples| examples.patterns());
         let patterns = patterns.filter(|patterns| patterns.has_structure());
-        let draw = |layout: &mut Sampler| {
-            let learnt = patterns.filter(|_| layout.ratio(3, 4));
+        let draw = |at: usize, layout: &mut Sampler| {
+            let learnt = patterns.filter(|_| at == 0 || layout.ratio(1, 2));
             let learnt = learnt.and_then(|patterns| layout::learnt(patterns, grid, layout));
             learnt.unwrap_or_else(|| {
                 let family = match self.family(layout) {
@@ -255,7 +259,7 @@ impl<'a> ConstructiveLevels<'a> {
             let off = inner().filter(|&cell| wall[cell]).count().abs_diff(wanted) as f64;
             ((strange + 0.5 * off / inner().count().max(1) as f64) * 1e6) as u64
         };
-        let drawn = (0..LAYOUTS).map(|_| draw(layout)).collect::<Vec<_>>();
+        let drawn = (0..LAYOUTS).map(|at| draw(at, layout)).collect::<Vec<_>>();
         let mut wall = drawn.into_iter().min_by_key(off).expect("at least one layout is drawn");
         if self.config.like.as_deref().is_some_and(|examples| examples.draw_mirrored(layout)) {
             layout::mirror(grid, &mut wall);
@@ -304,8 +308,9 @@ impl<'a> ConstructiveLevels<'a> {
         let puzzle = builder.board.clone();
         builder.garnish(plan);
         builder.settle();
+        let expected = builder.expected();
         if !self.analysis.is_deterministic() {
-            return Some(Made { board: builder.board, solution: None, played: true });
+            return Some(Made { board: builder.board, solution: None, played: true, expected });
         }
         let garnished = self.play(&builder.board, &ways, plan.is_all, seed);
         // If what came after the puzzle is in its way, the level does without; unless it only spoils the timing.
@@ -313,7 +318,7 @@ impl<'a> ConstructiveLevels<'a> {
             None if self.analysis.is_turn_based() => (puzzle, Some(bare)),
             actions => (builder.board, actions),
         };
-        Some(Made { board, solution: actions.filter(|_| plan.is_all), played: true })
+        Some(Made { board, solution: actions.filter(|_| plan.is_all), played: true, expected })
     }
 
     fn builder(&self, board: Board, sampler: Sampler, target: Option<Target>) -> Builder<'_> {

@@ -46,6 +46,8 @@ struct Sketch {
 #[derive(Clone, Debug)]
 pub(crate) struct Target {
     pub(crate) grid: Grid,
+    /// The example that it takes after in where things stand.
+    pub(crate) model: usize,
     /// Share of the cells inside the border that are wall.
     pub(crate) walls: f64,
     /// By type: how many sprites; then the fewest, the median and the most of all examples.
@@ -97,7 +99,7 @@ impl Examples {
                 nooks[nook(grid, &wall, cell)] += 1;
             }
             let scene = Scene { grid, wall: &wall, closed, game, cells: level.cells() };
-            for stype in game.sprite_types().filter(|stype| counts[stype.index()] > 0) {
+            for stype in game.sprite_types() {
                 stances[stype.index()].see(&scene, stype);
             }
             let turned = |cell: usize| grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
@@ -204,7 +206,8 @@ impl Examples {
         rows: (usize, usize),
         sampler: &mut Sampler,
     ) -> Target {
-        let (one, two) = (sampler.choose(&self.boards), sampler.choose(&self.boards));
+        let (model, other) = (sampler.below(self.boards.len()), sampler.below(self.boards.len()));
+        let (one, two) = (&self.boards[model], &self.boards[other]);
         let share = sampler.unit();
         let between = |from: f64, to: f64| from + (to - from) * share;
         let nearest = |from: usize, to: usize| (between(from as f64, to as f64) + 0.5) as usize;
@@ -227,6 +230,7 @@ impl Examples {
         let decor = decor.map(|(at, &stype)| (stype, scaled(nearest(one.decor[at], two.decor[at]))));
         Target {
             grid,
+            model: if share < 0.5 { model } else { other },
             walls: between(one.walls, two.walls),
             counts: counts.collect(),
             decor: decor.collect(),

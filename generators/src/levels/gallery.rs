@@ -91,15 +91,17 @@ impl Builder<'_> {
             return;
         }
         let gap = if home >= 7 { 2 } else { 1 };
-        let band = home - gap - 1;
+        let deeper = if self.target.is_some() && home >= 9 { self.sampler.below(2) } else { 0 };
+        let band = home - gap - 1 - deeper;
         let mut left = wish.count;
         let width = self.sampler.between(2, 4);
         let pitch = width + self.sampler.between(2, 3);
         let mut offset = self.sampler.below(pitch);
         let thick = if left > field.length { 2 } else { 1 };
         if self.target.is_some() {
-            // From the middle to both sides, so that few bases stand in the middle and none is cut off.
-            offset = (width / 2 + pitch * field.length - (field.length - 1) / 2) % pitch;
+            // From the middle to both sides, with a base or a gap in the middle, so that few bases are not all on one side.
+            let middle = if self.sampler.ratio(1, 2) { width / 2 } else { (width + pitch) / 2 };
+            offset = (middle + pitch * field.length - (field.length - 1) / 2) % pitch;
         }
         for row in 0..thick {
             let mut line: Vec<usize> = (0..field.length).collect();

@@ -3,7 +3,7 @@
 use super::board::Board;
 use super::constructive::{ConstructiveLevels, Made};
 use engine::analysis::{Reason, Role, Steering};
-use engine::{Action, Level, Outcome, Seed, State};
+use engine::{Action, Level, Outcome, Seed, SpriteType, State};
 
 /// Ticks that a player who does nothing should live through.
 const GRACE: usize = 12;
@@ -34,7 +34,7 @@ impl ConstructiveLevels<'_> {
             return Err(format!("what is at row {} cannot be reached", board.grid.y(cell) + 1));
         }
         let short = self.analysis.requirements().iter().any(|requirement| {
-            let count = |stype: &engine::SpriteType| board.count(&self.analysis, *stype);
+            let count = |stype: &SpriteType| board.count(&self.analysis, *stype);
             let lock = match requirement.reason {
                 Reason::Lock(stype) => {
                     let locks = matches!(self.analysis.role(stype), Role::Gate | Role::Exit);
@@ -51,6 +51,30 @@ impl ConstructiveLevels<'_> {
             return Err("there are too few keys for a lock".to_owned());
         }
         Ok((level, self.is_survivable(&state, seed)))
+    }
+
+    /// Whether everything on a board, or expected there, has beside it what it is hardly ever without in the examples.
+    pub(super) fn keeps_company(&self, made: &Made) -> bool {
+        let Some(examples) = self.config.like.as_deref() else { return true };
+        let board = &made.board;
+        let holds = |cell: usize, stype: SpriteType| {
+            board.placed[cell].is_some_and(|symbol| self.game.places(symbol).contains(&stype))
+        };
+        let cells = || 0..board.grid.len();
+        self.game.sprite_types().all(|stype| {
+            let stance = examples.stance(stype);
+            if stance.companions().next().is_none() {
+                return true;
+            }
+            let own: Vec<usize> = cells().filter(|&cell| holds(cell, stype)).collect();
+            let kept = own.iter().filter(|&&cell| {
+                stance
+                    .companions()
+                    .all(|(way, other)| board.grid.shift(cell, way).is_some_and(|next| holds(next, other)))
+            });
+            let expected = made.expected.contains(&stype);
+            kept.count() * 5 >= own.len() * 4 && (!expected || !own.is_empty())
+        })
     }
 
     /// Whether a character places something that a win asks the avatar to touch.

@@ -15,9 +15,9 @@ pub(crate) const NOOKS: usize = 6;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Stance {
     seen: usize,
-    /// By band, from left to right and from top to bottom.
-    across: [usize; BANDS],
-    down: [usize; BANDS],
+    bands: Bands,
+    /// The same in each example by itself.
+    each: Vec<Bands>,
     /// On the border of closed boards, by its side, in the order of [`WAYS`].
     sides: [usize; 4],
     nooks: [usize; NOOKS],
@@ -27,9 +27,37 @@ pub(crate) struct Stance {
     companions: Vec<(usize, SpriteType)>,
     /// How many have another one in the same place on the other side, left and right.
     mirrored: usize,
-    /// Rows that they stand in, and sprites, on boards with at least three.
+    /// How many have another one right beside them.
+    grouped: usize,
+    /// Boards with at least three of them, and rows that they stand in there.
+    crowds: usize,
     rows: usize,
-    in_rows: usize,
+}
+
+/// How many stand in which part of the board.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Bands {
+    /// From left to right.
+    across: [usize; BANDS],
+    /// From top to bottom.
+    down: [usize; BANDS],
+}
+
+impl Bands {
+    fn see(&mut self, grid: Grid, cell: usize) {
+        self.across[band(grid.x(cell), grid.columns)] += 1;
+        self.down[band(grid.y(cell), grid.rows)] += 1;
+    }
+
+    /// How well a cell agrees; 1.0 on the mean.
+    fn weigh(&self, grid: Grid, cell: usize) -> f64 {
+        let share = |counts: &[usize; BANDS], at: usize| {
+            let seen: usize = counts.iter().sum();
+            (counts[at] as f64 + 0.3) * BANDS as f64 / (seen as f64 + 0.3 * BANDS as f64)
+        };
+        share(&self.across, band(grid.x(cell), grid.columns))
+            * share(&self.down, band(grid.y(cell), grid.rows))
+    }
 }
 
 /// An example.
@@ -52,16 +80,18 @@ impl Stance {
     pub(crate) fn see(&mut self, scene: &Scene<'_>, stype: SpriteType) {
         let grid = scene.grid;
         let cells: Vec<usize> = (0..grid.len()).filter(|&cell| scene.holds(cell, stype)).collect();
+        let mut own = Bands::default();
         let mut rows: Vec<usize> = cells.iter().map(|&cell| grid.y(cell)).collect();
         rows.dedup();
         if cells.len() >= 3 {
             self.rows += rows.len();
-            self.in_rows += cells.len();
+            self.crowds += 1;
         }
         for cell in cells {
             self.seen += 1;
-            self.across[band(grid.x(cell), grid.columns)] += 1;
-            self.down[band(grid.y(cell), grid.rows)] += 1;
+            self.bands.see(grid, cell);
+            own.see(grid, cell);
+            self.grouped += usize::from(grid.beside(cell).any(|next| scene.holds(next, stype)));
             if let Some(side) = side(grid, cell).filter(|_| scene.closed) {
                 self.sides[side] += 1;
             }
@@ -75,6 +105,7 @@ impl Stance {
             let across = grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
             self.mirrored += usize::from(scene.holds(across, stype) && across != cell);
         }
+        self.each.push(own);
     }
 
     /// After all examples: what is beside them for a reason. `total` counts sprites in all `cells`; `plain` are types that are
@@ -101,27 +132,33 @@ impl Stance {
     }
 
     /// How well a cell agrees with where the examples have such sprites; [`USUAL`] on the mean. Never 0: examples are few.
-    /// `nooks`: how common the nooks are among open cells.
-    pub(crate) fn weigh(&self, grid: Grid, wall: &[bool], cell: usize, nooks: &[usize; NOOKS]) -> u32 {
+    /// `nooks`: how common the nooks are among open cells; `model`: the example that the board takes after.
+    pub(crate) fn weigh(
+        &self,
+        grid: Grid,
+        wall: &[bool],
+        cell: usize,
+        nooks: &[usize; NOOKS],
+        model: usize,
+    ) -> u32 {
         if self.seen == 0 {
             return USUAL;
         }
-        let share = |counts: &[usize; BANDS], at: usize| {
-            (counts[at] as f64 + 0.3) * BANDS as f64 / (self.seen as f64 + 0.3 * BANDS as f64)
-        };
-        let across = share(&self.across, band(grid.x(cell), grid.columns));
-        let down = share(&self.down, band(grid.y(cell), grid.rows));
+        // Where one thing stands often says where another does: mostly as in the one example, a little as in all.
+        let own = self.each[model];
+        let place = if own == Bands::default() { self.bands } else { own }.weigh(grid, cell) * 0.7
+            + self.bands.weigh(grid, cell) * 0.3;
         let all: usize = nooks.iter().sum();
         let at = nook(grid, wall, cell);
         let own = (self.nooks[at] as f64 + 0.5) / (self.seen as f64 + 3.0);
         let usual = (nooks[at] as f64 + 0.5) / (all as f64 + 3.0);
         let lift = (own / usual).clamp(0.05, 10.0);
-        ((f64::from(USUAL) * across * down * lift) as u32).max(1)
+        ((f64::from(USUAL) * place * lift) as u32).max(1)
     }
 
     /// Where they stand on the mean, from the top at 0.0 to the bottom at 1.0; None if there are none.
     pub(crate) fn height(&self) -> Option<f64> {
-        let sum: usize = self.down.iter().enumerate().map(|(band, count)| band * count).sum();
+        let sum: usize = self.bands.down.iter().enumerate().map(|(band, count)| band * count).sum();
         (self.seen > 0).then(|| sum as f64 / (self.seen * (BANDS - 1)) as f64)
     }
 
@@ -140,9 +177,14 @@ impl Stance {
         self.mirrored >= 4 && self.mirrored * 10 >= self.seen * 7
     }
 
-    /// Whether such sprites stand in few rows, several to each.
+    /// Whether such sprites stand in one row or two.
     pub(crate) fn is_lined_up(&self) -> bool {
-        self.in_rows > 0 && self.in_rows * 2 >= self.rows * 5
+        self.crowds > 0 && self.rows <= 2 * self.crowds
+    }
+
+    /// The share of them that have another one right beside them.
+    pub(crate) fn grouped(&self) -> f64 {
+        self.grouped as f64 / self.seen.max(1) as f64
     }
 }
 
