@@ -21,7 +21,10 @@ impl Builder<'_> {
         let done: Vec<SpriteType> = self.log.iter().map(|(_, stype)| *stype).collect();
         let (exits, rest): (Vec<Wish>, Vec<Wish>) = wishes
             .into_iter()
-            .filter(|wish| !done.contains(&wish.stype))
+            .filter(|wish| {
+                !done.contains(&wish.stype)
+                    || self.config.counts.iter().any(|(asked, _)| *asked == wish.stype)
+            })
             .partition(|wish| wish.role == Role::Exit);
         for wish in exits {
             self.fulfil(wish);
@@ -40,7 +43,9 @@ impl Builder<'_> {
 
     /// Puts as many as it can of what is wished.
     pub(crate) fn fulfil(&mut self, wish: Wish) {
-        let before = self.board.count(self.analysis, wish.stype);
+        // Exact numbers include what is there already.
+        let exact = self.config.counts.iter().any(|(asked, _)| *asked == wish.stype);
+        let before = if exact { 0 } else { self.board.count(self.analysis, wish.stype) };
         let mut tries = 0;
         while self.board.count(self.analysis, wish.stype) < before + wish.count && tries < wish.count {
             tries += 1;

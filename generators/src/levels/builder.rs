@@ -6,6 +6,7 @@ use super::examples::{Examples, Target};
 use super::grid::{FAR, WAYS};
 use super::palette::{Palette, Walk};
 use super::plan::{self, Wish};
+use super::stance::{NICHE, nook};
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, Sampler, SpriteType};
 
@@ -55,6 +56,11 @@ impl Builder<'_> {
         {
             return Some(cell);
         }
+        if self.examples().is_some_and(|examples| examples.stance(stype).is_in_niches())
+            && let Some(cell) = self.put_in_niche(stype)
+        {
+            return Some(cell);
+        }
         let cells: Vec<usize> = self.board.free().collect();
         let weights: Vec<u32> = cells
             .iter()
@@ -78,6 +84,32 @@ impl Builder<'_> {
         let sides =
             |cell: usize| self.examples().map_or(0, |examples| examples.stance(stype).on_border(grid, cell));
         let weights: Vec<u32> = cells.iter().map(|&cell| sides(cell) * self.habit(cell, stype)).collect();
+        let cell = cells[self.sampler.weighted(&weights)?];
+        self.board.wall[cell] = false;
+        self.put(cell, stype);
+        Some(cell)
+    }
+
+    /// Puts a sprite into a niche, or hollows one out of a wall: far from the start, and not where somebody else is.
+    fn put_in_niche(&mut self, stype: SpriteType) -> Option<usize> {
+        self.palette.wall?;
+        let grid = self.board.grid;
+        let steps = self.steps();
+        let suits = |&cell: &usize| {
+            let hollow = self.board.wall[cell] && !grid.on_border(cell);
+            let reached = grid.beside(cell).any(|next| steps[next] != FAR && self.board.is_free(next));
+            (hollow || self.board.is_free(cell))
+                && nook(grid, &self.board.wall, cell) == NICHE
+                && reached
+                && grid.manhattan(cell, self.board.start) >= 3
+        };
+        let cells: Vec<usize> = (0..grid.len()).filter(suits).collect();
+        let weight = |&cell: &usize| {
+            let wards = self.apart_from(cell, Role::Ward) >= 4;
+            let apart = self.apart(cell, |other| other == stype).min(8) as u32;
+            if wards { self.habit(cell, stype).saturating_mul(apart) } else { 0 }
+        };
+        let weights: Vec<u32> = cells.iter().map(weight).collect();
         let cell = cells[self.sampler.weighted(&weights)?];
         self.board.wall[cell] = false;
         self.put(cell, stype);

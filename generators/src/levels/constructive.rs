@@ -17,7 +17,7 @@ use engine::{Action, Analysis, Game, Level, Sampler, Seed, SpriteType};
 /// Boards tried for one seed.
 const ATTEMPTS: u64 = 40;
 /// Boards tried for cover and company as in the examples.
-const COVERS: u64 = 5;
+const COVERS: u64 = 8;
 /// Boards tried for a puzzle before it is furnished like any other level.
 const PUZZLES: u64 = 30;
 
@@ -170,7 +170,14 @@ impl<'a> ConstructiveLevels<'a> {
             let border = if ring { 2 * (grid.columns + grid.rows) } else { 0 };
             let difficulty = self.config.difficulty;
             let inner = grid.len().saturating_sub(border);
-            if let Some(plan) = Jobs::draw(&self.analysis, &self.palette, inner, difficulty, &mut sampler) {
+            if let Some(plan) = Jobs::draw(
+                &self.analysis,
+                &self.palette,
+                inner,
+                difficulty,
+                &self.config.counts,
+                &mut sampler,
+            ) {
                 let board = self.puzzle_walls(&plan, grid, ring, target.as_ref(), &mut layout);
                 return self.puzzle(&plan, self.builder(board, sampler, target), seed);
             }
@@ -240,7 +247,7 @@ impl<'a> ConstructiveLevels<'a> {
         let patterns = self.config.like.as_deref().map(|examples| examples.patterns());
         let patterns = patterns.filter(|patterns| patterns.has_structure());
         let draw = |at: usize, layout: &mut Sampler| {
-            let learnt = patterns.filter(|_| at == 0 || layout.ratio(1, 2));
+            let learnt = patterns.filter(|_| at == 0);
             let learnt = learnt.and_then(|patterns| layout::learnt(patterns, grid, layout));
             learnt.unwrap_or_else(|| {
                 let family = match self.family(layout) {

@@ -59,77 +59,85 @@ pub(crate) struct Target {
 impl Examples {
     /// Looks at a game's own levels. None if there are none, or if the game has no character to start with.
     ///
-    /// Cost: one analysis, and O(cells) for each level.
+    /// Cost: one analysis, O(types × cells) for each level, and some milliseconds for how walls run.
     pub fn of(game: &Game, levels: &[Level]) -> Option<Examples> {
         let analysis = Analysis::of(game);
         let mut palette = Palette::of(&analysis)?;
-        if levels.is_empty() {
-            return None;
-        }
         let known = levels.iter().any(|level| level.cells().contains(&palette.base));
         let base = if known { None } else { commonest(&analysis, levels) };
         if let Some(base) = base {
             palette = Palette::on(&analysis, base)?;
         }
         let decor = decor(&analysis, &palette, levels);
-        let mut stances = vec![Stance::default(); game.sprite_types().count()];
-        let mut patterns = Patterns::default();
-        let mut boards = Vec::new();
-        let (mut edge, mut edge_walls, mut mirrored) = (0, 0, 0);
-        let mut nooks = [0; NOOKS];
-        for level in levels {
-            let grid = Grid { columns: level.columns(), rows: level.rows() };
-            let wall: Vec<bool> =
-                level.cells().iter().map(|&symbol| is_wall(&analysis, &palette, symbol)).collect();
-            let border = || (0..grid.len()).filter(|&cell| grid.on_border(cell));
-            let walls_there = border().filter(|&cell| wall[cell]).count();
-            let closed = walls_there * 10 >= border().count() * 8;
-            // What is let into the wall around a board makes no hole in it.
-            let whole = (0..grid.len()).map(|cell| {
-                wall[cell] || closed && grid.on_border(cell) && level.cells()[cell] != palette.base
-            });
-            patterns.learn(grid, &whole.collect::<Vec<bool>>());
-            edge += border().count();
-            edge_walls += walls_there;
-            let mut counts = vec![0; stances.len()];
-            for &stype in level.cells().iter().flat_map(|&symbol| game.places(symbol)) {
-                counts[stype.index()] += 1;
-            }
-            for cell in (0..grid.len()).filter(|&cell| !wall[cell]) {
-                nooks[nook(grid, &wall, cell)] += 1;
-            }
-            let scene = Scene { grid, wall: &wall, closed, game, cells: level.cells() };
-            for stype in game.sprite_types() {
-                stances[stype.index()].see(&scene, stype);
-            }
-            let turned = |cell: usize| grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
-            let alike = (0..grid.len()).filter(|&cell| wall[cell] == wall[turned(cell)]).count();
-            mirrored += usize::from(alike * 20 >= grid.len() * 19);
-            let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
-            boards.push(Sketch {
-                columns: grid.columns,
-                rows: grid.rows,
-                cover: cover(&analysis, level),
-                walls: inner().filter(|&cell| wall[cell]).count() as f64 / inner().count().max(1) as f64,
-                counts,
-                decor: decor
-                    .iter()
-                    .map(|(symbol, _)| level.cells().iter().filter(|&other| other == symbol).count())
-                    .collect(),
-            });
-        }
-        patterns.conclude();
-        let closed = palette.wall.is_some() && edge_walls * 10 >= edge * 8;
+        let mut examples = Examples {
+            boards: Vec::new(),
+            stances: vec![Stance::default(); game.sprite_types().count()],
+            patterns: Patterns::default(),
+            closed: false,
+            mirrored: 0,
+            base,
+            nooks: [0; NOOKS],
+            decor: decor.iter().map(|(_, stype)| *stype).collect(),
+        };
+        let closed = levels.iter().filter(|level| examples.add(&analysis, &palette, &decor, level)).count();
+        examples.closed = 2 * closed > levels.len();
+        examples.patterns.conclude();
         let cells: usize = levels.iter().map(|level| level.cells().len()).sum();
+        let boards = &examples.boards;
         let total = |stype: SpriteType| boards.iter().map(|board| board.counts[stype.index()]).sum::<usize>();
-        for stance in &mut stances {
+        for stance in &mut examples.stances {
             stance.conclude(cells, &total, |stype| {
                 let still = analysis.facts(stype).motion == Motion::Still;
                 !still || palette.ground.contains(&stype) || analysis.role(stype) == Role::Wall
             });
         }
-        let decor = decor.into_iter().map(|(_, stype)| stype).collect();
-        Some(Examples { boards, stances, patterns, closed, mirrored, base, nooks, decor })
+        (!levels.is_empty()).then_some(examples)
+    }
+
+    /// Looks at one level; whether its border is wall, but for a few cells.
+    fn add(
+        &mut self,
+        analysis: &Analysis,
+        palette: &Palette,
+        decor: &[(u8, SpriteType)],
+        level: &Level,
+    ) -> bool {
+        let game = analysis.game();
+        let grid = Grid { columns: level.columns(), rows: level.rows() };
+        let cells = level.cells();
+        let wall: Vec<bool> = cells.iter().map(|&symbol| is_wall(analysis, palette, symbol)).collect();
+        let border = || (0..grid.len()).filter(|&cell| grid.on_border(cell));
+        let closed = palette.wall.is_some()
+            && border().filter(|&cell| wall[cell]).count() * 10 >= border().count() * 8;
+        // What is let into the wall around a board makes no hole in it.
+        let let_in = |cell: usize| closed && grid.on_border(cell) && cells[cell] != palette.base;
+        let whole: Vec<bool> = (0..grid.len()).map(|cell| wall[cell] || let_in(cell)).collect();
+        self.patterns.learn(grid, &whole);
+        for cell in (0..grid.len()).filter(|&cell| !wall[cell]) {
+            self.nooks[nook(grid, &wall, cell)] += 1;
+        }
+        let scene = Scene { grid, wall: &wall, closed, game, cells };
+        for stype in game.sprite_types() {
+            self.stances[stype.index()].see(&scene, stype);
+        }
+        let turned = |cell: usize| grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
+        let alike = (0..grid.len()).filter(|&cell| wall[cell] == wall[turned(cell)]).count();
+        self.mirrored += usize::from(alike * 20 >= grid.len() * 19);
+        let mut counts = vec![0; self.stances.len()];
+        for &stype in cells.iter().flat_map(|&symbol| game.places(symbol)) {
+            counts[stype.index()] += 1;
+        }
+        let number = |symbol: u8| cells.iter().filter(|&&other| other == symbol).count();
+        let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
+        self.boards.push(Sketch {
+            columns: grid.columns,
+            rows: grid.rows,
+            cover: cover(analysis, level),
+            walls: inner().filter(|&cell| wall[cell]).count() as f64 / inner().count().max(1) as f64,
+            counts,
+            decor: decor.iter().map(|&(symbol, _)| number(symbol)).collect(),
+        });
+        closed
     }
 
     /// Columns, from and to.

@@ -20,6 +20,13 @@ impl ConstructiveLevels<'_> {
         if let Some(goal) = self.analysis.goal_met(&state) {
             return Err(format!("termination {} holds at the start", goal.line + 1));
         }
+        for &(stype, asked) in &self.config.counts {
+            let there = board.count(&self.analysis, stype);
+            if there != asked {
+                let name = self.game.name(stype);
+                return Err(format!("{asked} of {name} are asked for, and {there} are there"));
+            }
+        }
         if made.played {
             return Ok((level, self.is_survivable(&state, seed)));
         }

@@ -42,12 +42,13 @@ pub(crate) struct Jobs {
 }
 
 impl Jobs {
-    /// None if pushed things play no such part in the game.
+    /// None if pushed things play no such part in the game. `asked`: exact numbers of sprites, where any are asked for.
     pub(crate) fn draw(
         analysis: &Analysis,
         palette: &Palette,
         area: usize,
         difficulty: f64,
+        asked: &[(SpriteType, usize)],
         sampler: &mut Sampler,
     ) -> Option<Jobs> {
         let start = analysis.start_avatar()?;
@@ -66,6 +67,10 @@ impl Jobs {
         }
         let remove = &analysis.aims().remove;
         let counts = |job: &&Job| remove.contains(&job.pushed) || remove.contains(&job.partner);
+        let pushables =
+            asked.iter().filter(|(stype, _)| placed.iter().any(|pushable| pushable.stype == *stype));
+        let asked = pushables.map(|(_, count)| *count).reduce(|sum, count| sum.saturating_add(count));
+        let asked = asked.map(|count| count.min(area));
         let mut plan = Jobs::default();
         let wanted: Vec<Job> = options.iter().filter(counts).cloned().collect();
         let most = (area / 14).clamp(1, 6);
@@ -78,11 +83,14 @@ impl Jobs {
             let pushed: Vec<SpriteType> = placed.iter().map(|pushable| pushable.stype).collect();
             plan.bar(analysis, palette, &options, sampler, difficulty);
             let crowd = if plan.jobs.is_empty() { 0.1 + 0.08 * difficulty } else { 0.03 * difficulty };
-            for _ in 0..round(area as f64 * crowd, sampler) {
+            let crowd = round(area as f64 * crowd, sampler);
+            let crowd = asked.map_or(crowd, |count| count.saturating_sub(plan.jobs.len()));
+            for _ in 0..crowd {
                 plan.loose.push(*sampler.choose(&pushed));
             }
         } else {
             let count = (2 + round(0.3 + 2.4 * difficulty, sampler)).min(most.max(2));
+            let count = asked.unwrap_or(count);
             plan.removals(&wanted, remove, count, sampler);
             plan.visits = visits(analysis, palette);
         }

@@ -39,6 +39,20 @@ impl Builder<'_> {
 
     /// One more wall, or thing; whether there was room.
     fn add_cover(&mut self) -> bool {
+        // As long as walls are fewer than in the examples, walls; then other things; at last walls all the same.
+        let missing = self.target.as_ref().is_none_or(|target| self.inner_walls() < target.walls);
+        missing && self.add_wall() || self.add_thing() || !missing && self.add_wall()
+    }
+
+    /// The share of the cells inside the border that are wall.
+    fn inner_walls(&self) -> f64 {
+        let grid = self.board.grid;
+        let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
+        inner().filter(|&cell| self.board.wall[cell]).count() as f64 / inner().count().max(1) as f64
+    }
+
+    /// One more wall where it cuts off nothing.
+    fn add_wall(&mut self) -> bool {
         let grid = self.board.grid;
         let bare = self.target.as_ref().is_some_and(|target| target.walls <= 0.0);
         if self.palette.wall.is_some() && !bare {
@@ -64,6 +78,11 @@ impl Builder<'_> {
                 return true;
             }
         }
+        false
+    }
+
+    /// One more of what lies about.
+    fn add_thing(&mut self) -> bool {
         let lying = |stype: &engine::SpriteType| {
             matches!(
                 self.role(*stype),

@@ -172,6 +172,11 @@ impl Stance {
         self.sides.iter().sum::<usize>() * 2 > self.seen
     }
 
+    /// Whether such sprites stand in niches, walls on three sides.
+    pub(crate) fn is_in_niches(&self) -> bool {
+        self.nooks[NICHE] * 10 >= self.seen * 8 && self.seen > 0
+    }
+
     /// Whether such sprites stand in pairs, left and right.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.mirrored >= 4 && self.mirrored * 10 >= self.seen * 7
@@ -197,6 +202,9 @@ fn side(grid: Grid, cell: usize) -> Option<usize> {
     WAYS.into_iter().position(|way| grid.shift(cell, way).is_none())
 }
 
+/// The index of niches among nooks.
+pub(crate) const NICHE: usize = 4;
+
 /// How walls, or the edge, lie beside a cell: none, one, two opposite, two at a corner, three, all around.
 pub(crate) fn nook(grid: Grid, wall: &[bool], cell: usize) -> usize {
     let [up, left, down, right] = WAYS.map(|way| grid.shift(cell, way).is_none_or(|next| wall[next]));
@@ -205,7 +213,7 @@ pub(crate) fn nook(grid: Grid, wall: &[bool], cell: usize) -> usize {
         1 => 1,
         2 if up == down => 2,
         2 => 3,
-        3 => 4,
+        3 => NICHE,
         _ => 5,
     }
 }

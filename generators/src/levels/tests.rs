@@ -1,11 +1,12 @@
 //! What every level of every game must show, on our own games and, where they are at hand, on public ones.
 
-use super::{ConstructiveLevels, LevelConfig};
+use super::{ConstructiveLevels, Examples, LevelConfig, cover};
 use crate::{GenerateError, Generator};
 use engine::analysis::{Role, Steering};
 use engine::{Action, Analysis, Game, Level, Outcome, Seed};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Levels made for each game.
 const SEEDS: u64 = 50;
@@ -150,6 +151,58 @@ fn harder_levels_hold_more_that_harms() {
     };
     let (easy, middle, hard) = (harmful(0.0), harmful(0.5), harmful(1.0));
     assert!(easy < middle && middle < hard, "{easy} {middle} {hard}");
+}
+
+/// Levels that are like a game's own, for every game of ours.
+#[test]
+fn levels_are_like_examples() {
+    for folder in folders(&workspace().join("corpora")) {
+        let Some(game) = game_in(&folder) else { continue };
+        let name = name_of(&folder);
+        let own: Vec<Level> = (0..)
+            .map_while(|number| std::fs::read_to_string(folder.join(format!("lvl{number}.txt"))).ok())
+            .map(|text| game.level(&text).expect("a level of ours"))
+            .collect();
+        let examples = Arc::new(Examples::of(&game, &own).expect("games of ours have levels"));
+        let config = LevelConfig::like(examples.clone());
+        let levels = ConstructiveLevels::new(&game, config).unwrap();
+        let mut covered = 0;
+        for index in 0..10 {
+            let seed = Seed::from_text("like").child(&name, index);
+            let level = levels.generate(seed).unwrap_or_else(|error| panic!("{name} {index}: {error}"));
+            let (columns, rows) = (examples.columns(), examples.rows());
+            assert!((columns.0..=columns.1).contains(&level.columns()), "{name} {index}\n{level}");
+            assert!((rows.0..=rows.1).contains(&level.rows()), "{name} {index}\n{level}");
+            let (low, high) = examples.cover();
+            covered += u32::from((low..=high).contains(&cover(levels.analysis(), &level)));
+            assert!(own.iter().all(|own| own.cells() != level.cells()), "{name} {index}: nothing new");
+            goals_lie_open(&name, levels.analysis(), &level);
+        }
+        assert!(covered >= 9, "{name}: {covered} of 10");
+    }
+}
+
+/// Exact numbers are met, or the level is refused.
+#[test]
+fn as_many_are_placed_as_asked_for() {
+    let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    drain > Immovable\n    coin > Immovable\n    \
+                  crate > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    o > drain\n    c > crate\n    \
+                  $ > coin\n  InteractionSet\n    avatar wall > stepBack\n    coin avatar > killSprite\n    \
+                  crate avatar > bounceForward\n    crate wall crate > undoAll\n    crate drain > killSprite\n  \
+                  TerminationSet\n    SpriteCounter stype=crate win=True\n";
+    let game = Game::from_source(source).unwrap();
+    let named = |name: &str| game.sprite_types().find(|&stype| game.name(stype) == name).unwrap();
+    for (crates, coins) in [(1, 0), (3, 5), (4, 1)] {
+        let counts = vec![(named("crate"), crates), (named("coin"), coins)];
+        let config = LevelConfig { counts, ..LevelConfig::default() };
+        let levels = ConstructiveLevels::new(&game, config).unwrap();
+        let level = levels.generate(Seed::from_text("asked").child("crates", crates as u64)).unwrap();
+        let count = |symbol: u8| level.cells().iter().filter(|&&cell| cell == symbol).count();
+        assert_eq!((count(b'c'), count(b'$')), (crates, coins), "\n{level}");
+    }
+    let config = LevelConfig { counts: vec![(named("coin"), 900)], ..LevelConfig::default() };
+    let refused = ConstructiveLevels::new(&game, config).unwrap().generate(Seed::from_text("asked"));
+    assert!(matches!(refused, Err(GenerateError::Unlucky(why)) if why.contains("900 of coin")));
 }
 
 /// A golden vector: if it moves, GENERATION must be bumped.
