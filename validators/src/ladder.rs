@@ -58,7 +58,7 @@ pub struct Fared {
     pub rate: Rate,
     /// Mean ticks of the plays that were won, if any was.
     pub win_ticks: Option<f64>,
-    /// Mean score, from 0 for the least to 1 for the greatest of all plays of the ladder; none if all are equal.
+    /// Mean score, from 0 for the least to 1 for the greatest of all plays of the rungs, those held out apart; none if all are equal.
     pub reward: Option<f64>,
 }
 
@@ -209,9 +209,10 @@ impl Climb {
         Climbed { plays }
     }
 
-    /// What the plays of the players say of the level.
+    /// What the plays of the players say of the level. Those held out are measured by the others, so that difficulty does not
+    /// depend on whether they play.
     pub(crate) fn measure(&self, climbed: &Climbed) -> Ladder {
-        let all = || climbed.plays.iter().flatten().map(|play| &play.episode);
+        let all = || climbed.plays[..self.rungs.len()].iter().flatten().map(|play| &play.episode);
         let scores = || all().map(|episode| episode.score);
         let (least, greatest) =
             (scores().fold(f64::INFINITY, f64::min), scores().fold(f64::NEG_INFINITY, f64::max));
@@ -219,7 +220,8 @@ impl Climb {
         let fared = |(rung, plays): (&Rung, &Vec<Play>)| {
             let rate = Rate::of(plays);
             let won: Vec<f64> = plays.iter().filter_map(|play| won_in(&play.episode)).collect();
-            let reward = (least < greatest).then(|| (rate.mean_score - least) / (greatest - least));
+            let reward =
+                (least < greatest).then(|| ((rate.mean_score - least) / (greatest - least)).clamp(0.0, 1.0));
             Fared {
                 player: rung.name.clone(),
                 looks_ahead: rung.looks_ahead(),
@@ -229,12 +231,12 @@ impl Climb {
             }
         };
         let mut rungs: Vec<Fared> = self.players().zip(&climbed.plays).map(fared).collect();
+        let held_out = rungs.split_off(self.rungs.len());
         let eases: Vec<f64> =
             rungs.iter().filter(|fared| fared.looks_ahead).map(|fared| ease(fared, longest)).collect();
         let ease = statistics::Summary::of(&eases).map(|summary| summary.mean);
         let beaten = rungs.iter().any(|fared| fared.rate.wins > 0);
         let difficulty = if beaten { Difficulty::of(ease.unwrap_or_default()) } else { Difficulty::Unbeaten };
-        let held_out = rungs.split_off(self.rungs.len());
         Ladder { rungs, held_out, ease, difficulty }
     }
 }

@@ -1,6 +1,6 @@
 //! A quick look at a candidate: what a search is told of it.
 
-use super::aim::Aim;
+use super::aim::{Aim, Told};
 use super::order::LevelOrder;
 use agents::{PortfolioConfig, Solution, Solved, solve};
 use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
@@ -11,6 +11,8 @@ use validators::{Case, Criteria, Finding, NoEarlyDeath, NotIdle, NotRandom, Vali
 const IDLE_PLAYS: u32 = 2;
 /// Episodes of random play.
 const RANDOM_PLAYS: u32 = 16;
+/// The greatest share of them that may be won: one of them. The panel, with more of them, is stricter.
+const RANDOM_WINS: f64 = 0.07;
 /// Games of chance in which the first ticks are lived through.
 const CHANCES: u32 = 4;
 /// The share of a look's calls that each of those may take.
@@ -73,7 +75,11 @@ impl<'a> Looker<'a> {
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
         let mut calls = 0;
         let won = self.constrain(level, seed, &mut constraints, &mut calls);
-        let told = won.map(|witness| self.aim.tell(self.case(level, seed, Some(&witness))));
+        // A single win by random keys already speaks against a level.
+        let told = won.map(|(witness, luckless)| {
+            let told = self.aim.tell(self.case(level, seed, Some(&witness)));
+            Told { objective: told.objective * luckless * luckless, ..told }
+        });
         let measures = self.aim.measures(level, told.as_ref().map(|told| &told.measures));
         let objective = told.map_or(0.0, |told| {
             calls += told.calls;
@@ -83,14 +89,14 @@ impl<'a> Looker<'a> {
         Look { evaluation: Evaluation { feasibility: constraints.feasibility(), objective, measures }, calls }
     }
 
-    /// Asks the cheap judges, one after the other; a win, if all are content.
+    /// Asks the cheap judges, one after the other; a win, if all are content, and the share of random plays that did not win.
     fn constrain(
         &self,
         level: &Level,
         seed: Seed,
         constraints: &mut Constraints,
         calls: &mut u64,
-    ) -> Option<Episode> {
+    ) -> Option<(Episode, f64)> {
         let criteria = &self.order.criteria;
         let ask = |validator: &dyn Validator, calls: &mut u64| {
             let case = self.case(level, seed.child(validator.name(), 0), None);
@@ -103,7 +109,7 @@ impl<'a> Looker<'a> {
         }
         // A level that is won without skill is no better for being won with it.
         let idle = ask(&NotIdle { plays: IDLE_PLAYS }, calls);
-        let random = ask(&NotRandom { plays: RANDOM_PLAYS, most: criteria.random_wins }, calls);
+        let random = ask(&NotRandom { plays: RANDOM_PLAYS, most: RANDOM_WINS }, calls);
         let met = constraints.note(1.0 - win_share(&idle));
         let met =
             constraints.note(if random.verdict.is_pass() { 1.0 } else { 1.0 - win_share(&random) }) && met;
@@ -124,7 +130,7 @@ impl<'a> Looker<'a> {
         match solved.solution {
             Solution::Won { episode, .. } => {
                 constraints.note(1.0);
-                Some(*episode)
+                Some((*episode, 1.0 - win_share(&random)))
             }
             Solution::Impossible { .. } => None,
             Solution::Unknown => {
