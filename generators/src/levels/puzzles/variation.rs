@@ -234,14 +234,17 @@ impl Variation for PuzzleVariation<'_> {
         varied.unwrap_or_else(|| parent.clone())
     }
 
-    /// Half of one floor plan and half of the other, searched anew; a mutation of the first if they do not fit.
+    /// Half of one floor plan and half of the other, changed a little and searched anew; a mutation of the first if they do not fit.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.yard_of(one), self.yard_of(two));
         let fit = first
             .zip(second)
             .filter(|(first, second)| (first.grid, first.counts) == (second.grid, second.counts));
         let crossed = fit.and_then(|(first, second)| {
-            self.best(&first, sampler, |floors, sampler| floors.cross(&first, &second, sampler))
+            self.best(&first, sampler, |floors, sampler| {
+                let child = floors.cross(&first, &second, sampler);
+                floors.mutate(&child, sampler)
+            })
         });
         crossed.unwrap_or_else(|| self.mutate(one, sampler))
     }
