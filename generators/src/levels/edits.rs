@@ -117,14 +117,14 @@ impl Draft<'_> {
     fn nudge(&mut self, sampler: &mut Sampler) -> Option<()> {
         let thing = pick(&self.things(), sampler)?;
         let grid = self.grid;
-        let lane = self.lane(thing);
+        let (lane, flock) = (self.lane(thing), self.flock(thing));
         let cells = self.cells_where(|draft, cell| {
             let in_lane = match lane {
                 Some((_, 0)) => grid.y(cell) == grid.y(thing),
                 Some(_) => grid.x(cell) == grid.x(thing),
                 None => grid.manhattan(cell, thing) <= NEAR,
             };
-            in_lane && draft.suits(draft.cells[thing], cell)
+            in_lane && draft.suits(draft.cells[thing], cell) && draft.joins(&flock, cell)
         });
         self.exchange(thing, pick(&cells, sampler)?);
         Some(())
@@ -143,18 +143,24 @@ impl Draft<'_> {
 
     fn carry(&mut self, sampler: &mut Sampler) -> Option<()> {
         let thing = pick(&self.things(), sampler)?;
-        let symbol = self.cells[thing];
-        // What gives shelter or is to be broken lies together.
-        let lies =
-            matches!(self.words.kind(symbol), Kind::Thing(Role::Cover | Role::Breakable | Role::Refuge));
-        let like: Vec<usize> =
-            self.cells_where(|draft, cell| lies && cell != thing && draft.cells[cell] == symbol);
-        let cells = self.cells_where(|draft, cell| {
-            let close = || like.iter().any(|&other| draft.grid.manhattan(other, cell) == 1);
-            draft.suits(symbol, cell) && (like.is_empty() || close())
-        });
+        let flock = self.flock(thing);
+        let cells = self
+            .cells_where(|draft, cell| draft.suits(draft.cells[thing], cell) && draft.joins(&flock, cell));
         self.exchange(thing, pick(&cells, sampler)?);
         Some(())
+    }
+
+    /// What gives shelter or is to be broken lies together: the others of a thing's kind, if it is such a thing.
+    fn flock(&self, thing: usize) -> Vec<usize> {
+        let symbol = self.cells[thing];
+        let lies =
+            matches!(self.words.kind(symbol), Kind::Thing(Role::Cover | Role::Breakable | Role::Refuge));
+        self.cells_where(|draft, cell| lies && cell != thing && draft.cells[cell] == symbol)
+    }
+
+    /// Whether a cell is beside one of a flock, if there is any.
+    fn joins(&self, flock: &[usize], cell: usize) -> bool {
+        flock.is_empty() || flock.iter().any(|&other| self.grid.manhattan(other, cell) == 1)
     }
 
     fn add(&mut self, sampler: &mut Sampler) -> Option<()> {

@@ -12,10 +12,12 @@ use crate::levels::jobs::Jobs;
 use crate::{Annealing, AnnealingConfig, GenerateError, Search, Variation};
 use engine::{Game, Level, Sampler, Seed, SpriteType};
 
-/// Positions of the avatar looked at to find the longest way.
+/// Positions looked at for the level of a floor plan.
 const MOST_POSITIONS: usize = 400_000;
+/// Positions with the avatar in a certain cell looked at, to find the longest way; where there are more, any will do.
+const MOST_STEPS: usize = 250_000;
 /// Positions looked at in all for a level, about: where each floor plan has many, fewer of them are looked at.
-const POSITIONS: usize = 2_000_000;
+const POSITIONS: usize = 1_200_000;
 /// Floor plans asked for at once; they are rated one after the other.
 const BATCH: usize = 8;
 /// Floor plans drawn that lead to no level before a seed is given up.
@@ -128,7 +130,7 @@ impl<'a> PuzzleVariation<'a> {
         // Easy levels start on the way.
         let wanted = (most as f64 * (0.3 + 1.4 * self.config.difficulty).min(1.0)) as usize;
         let far = starts().filter(|(_, pushes)| *pushes == wanted);
-        let steps = pushing.by_steps(MOST_POSITIONS);
+        let steps = pushing.by_steps(MOST_STEPS);
         let stands = far.flat_map(|(position, _)| {
             let region = pushing.flood(bit(position.avatar.into()), pushing.stands(position));
             let clear = region & !position.targets;
