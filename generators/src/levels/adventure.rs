@@ -43,8 +43,9 @@ impl Builder<'_> {
 
     /// Puts as many as it can of what is wished.
     pub(crate) fn fulfil(&mut self, wish: Wish) {
-        // Exact numbers include what is there already.
-        let exact = self.config.counts.iter().any(|(asked, _)| *asked == wish.stype);
+        // Exact numbers include what is there already, and so do keys.
+        let exact =
+            wish.role == Role::Key || self.config.counts.iter().any(|(asked, _)| *asked == wish.stype);
         let before = if exact { 0 } else { self.board.count(self.analysis, wish.stype) };
         let mut tries = 0;
         while self.board.count(self.analysis, wish.stype) < before + wish.count && tries < wish.count {

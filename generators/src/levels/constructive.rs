@@ -11,7 +11,7 @@ use super::layout::{self, Family};
 use super::palette::Palette;
 use super::plan::furnishable;
 use crate::{GenerateError, Generator};
-use engine::analysis::{Deed, Motion, Reason, Role, Steering};
+use engine::analysis::{Condition, Deed, Goal, Motion, Reason, Role, Steering};
 use engine::{Action, Analysis, Game, Level, Sampler, Seed, SpriteType};
 
 /// Boards tried for one seed.
@@ -72,13 +72,24 @@ impl<'a> ConstructiveLevels<'a> {
     /// A generator for a game. Cost: one analysis.
     ///
     /// # Errors
-    /// [`GenerateError::Unsuitable`] if the configuration is not sensible, if no character places exactly one avatar, or
-    /// if a termination holds in every level that the LevelMapping can express.
+    /// [`GenerateError::Unsuitable`] if the configuration is not sensible, if no level can be won by play, if every level is
+    /// won by waiting, if no character places exactly one avatar, or if a termination holds in every level that the
+    /// LevelMapping can express.
     pub fn new(game: &'a Game, config: LevelConfig) -> Result<Self, GenerateError> {
         if let Some(problem) = config.problem() {
             return Err(GenerateError::Unsuitable(problem));
         }
         let analysis = Analysis::of(game);
+        if !analysis.can_win() {
+            let problem = "no termination that wins can ever hold in play, whatever the level".to_owned();
+            return Err(GenerateError::Unsuitable(problem));
+        }
+        let waits = |goal: &Goal| !goal.win || matches!(goal.condition, Condition::Tick(_));
+        if !analysis.can_lose() && analysis.goals().iter().all(waits) {
+            let problem =
+                "every level is won by waiting: nothing in the rules can keep the player from it".to_owned();
+            return Err(GenerateError::Unsuitable(problem));
+        }
         let base = config.like.as_ref().and_then(|examples| examples.base());
         let palette = match base {
             Some(base) => Palette::on(&analysis, base),

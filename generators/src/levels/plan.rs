@@ -76,6 +76,10 @@ pub(crate) fn wishes_like(
             wishes.push(Wish { stype, role, count });
         }
     }
+    // Beyond those that locks need.
+    for stype in furnishable(analysis, palette, Role::Key) {
+        wishes.push(Wish { stype, role: Role::Key, count: target.counts[stype.index()].0 });
+    }
     for &(stype, count) in &target.decor {
         if palette.symbol(stype).is_some() && wishes.iter().all(|wish| wish.stype != stype) {
             wishes.push(Wish { stype, role: Role::Neutral, count });

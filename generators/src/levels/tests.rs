@@ -108,6 +108,10 @@ fn what_no_level_can_serve_is_refused() {
     refuse(source("A > avatar avatar", "gem"), LevelConfig::default(), "exactly one avatar");
     refuse(source("g > gem", "ghost"), LevelConfig::default(), "termination 1");
     refuse(source("g > gem", "gem limit=2147483647"), LevelConfig::default(), "termination 1");
+    let waited = source("g > gem", "gem").replace("SpriteCounter stype=gem", "Timeout limit=50");
+    refuse(waited, LevelConfig::default(), "won by waiting");
+    let never = source("g > gem", "gem").replace("win=True", "win=False");
+    refuse(never, LevelConfig::default(), "no termination that wins");
     let narrow = LevelConfig { columns: (3, 9), ..LevelConfig::default() };
     refuse(source("g > gem", "gem"), narrow, "columns from 3 to 9");
     let hard = LevelConfig { difficulty: 1.5, ..LevelConfig::default() };
