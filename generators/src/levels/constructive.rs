@@ -21,6 +21,8 @@ const COVERS: u64 = 8;
 /// Boards tried for a puzzle before it is furnished like any other level.
 const PUZZLES: u64 = 30;
 
+/// The rank of a board that has all that was asked for.
+const ALL: u32 = 0b1111;
 /// Layouts drawn, of which the one whose walls are nearest to the examples' in number is taken.
 const LAYOUTS: usize = 2;
 /// Boards with a smaller share of walls inside have none on purpose.
@@ -127,6 +129,7 @@ impl<'a> ConstructiveLevels<'a> {
     pub fn generate_solved(&self, seed: Seed) -> Result<Solved, GenerateError> {
         // By how much of what was asked for it has.
         let mut second_best: Option<(u32, Solved)> = None;
+        let mut tried = 0;
         let mut fault = "no board could be furnished".to_owned();
         for attempt in 0..ATTEMPTS {
             let seed = seed.child("board", attempt);
@@ -138,16 +141,20 @@ impl<'a> ConstructiveLevels<'a> {
                         .cover
                         .is_none_or(|(low, high)| (low..=high).contains(&cover(&self.analysis, &level)));
                     let company = self.keeps_company(&made);
+                    let trivial = self.config.like.is_some() && self.is_trivial(&level, seed);
                     let solved = Solved { level, solution: made.solution };
-                    if survivable && covered && company {
+                    // In the order of what is worst to be missing.
+                    let rank = [survivable, covered, !trivial, company];
+                    let rank = rank.into_iter().fold(0, |rank, met| 2 * rank + u32::from(met));
+                    if rank == ALL {
                         return Ok(solved);
                     }
-                    let rank = 4 * u32::from(survivable) + 2 * u32::from(covered) + u32::from(company);
                     if second_best.as_ref().is_none_or(|(best, _)| rank > *best) {
                         second_best = Some((rank, solved));
                     }
                     // What was not met a few times will hardly be.
-                    if survivable && attempt >= COVERS {
+                    tried += u64::from(survivable);
+                    if tried > COVERS {
                         break;
                     }
                 }

@@ -9,6 +9,10 @@ use engine::{Action, Level, Outcome, Seed, SpriteType, State};
 const GRACE: usize = 12;
 /// Futures in which that is tried.
 const FUTURES: u64 = 4;
+/// Ticks in which a game should not be won by doing nothing.
+const PATIENCE: usize = 300;
+/// The same where staying alive wins, at most, and for random steps where chance plays no part.
+const ENDURANCE: usize = 1000;
 
 impl ConstructiveLevels<'_> {
     /// Whether a board makes a level; and whether the player has time to look around.
@@ -58,6 +62,30 @@ impl ConstructiveLevels<'_> {
             return Err("there are too few keys for a lock".to_owned());
         }
         Ok((level, self.is_survivable(&state, seed)))
+    }
+
+    /// Whether a level is won by doing nothing, or, where chance plays no part, by random steps.
+    pub(super) fn is_trivial(&self, level: &Level, seed: Seed) -> bool {
+        let start = self.game.start(level, seed);
+        let wins = |ticks: usize, seed: Seed, act: &mut dyn FnMut(&State) -> Action| {
+            let mut state = start.fork(seed);
+            (0..ticks).any(|_| {
+                let action = act(&state);
+                self.game.step(&mut state, action) == Outcome::Won
+            })
+        };
+        let survive = self.analysis.aims().survive.and_then(|tick| usize::try_from(tick).ok());
+        let patience = survive.map_or(PATIENCE, |tick| (tick + 1).min(ENDURANCE));
+        if wins(patience, seed.child("idle", 0), &mut |_| Action::Nil) {
+            return true;
+        }
+        let mut sampler = seed.child("steps", 0).sampler();
+        self.analysis.is_deterministic_from(&start)
+            && (0..2).any(|future| {
+                wins(ENDURANCE, seed.child("steps of", future), &mut |state| {
+                    *sampler.choose(self.game.actions(state))
+                })
+            })
     }
 
     /// Whether everything on a board, or expected there, has beside it what it is hardly ever without in the examples.

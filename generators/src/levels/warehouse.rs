@@ -180,9 +180,11 @@ impl Builder<'_> {
             let free = pulls.partners[cell].is_none() && self.board.placed[cell].is_none() && !behind(cell);
             match roam[cell] {
                 steps if steps == FAR || !free => 0,
-                // As in examples; from there on, far rather than near.
+                // As in examples; and far rather than near, from the last pull and from the exit.
                 steps if self.target.is_some() => {
-                    (1 + steps * steps).saturating_mul(self.habit(cell, self.palette.avatars[0].0))
+                    let exit = self.apart_from(cell, Role::Exit).min(12) as u32;
+                    let far = (1 + steps * steps).saturating_mul(1 + exit * exit);
+                    far.saturating_mul(self.habit(cell, self.palette.avatars[0].0))
                 }
                 steps => 1 + steps.min(12),
             }
