@@ -132,6 +132,15 @@ impl Builder<'_> {
                 weight = weight.saturating_mul(COMPANY);
             }
         }
+        // What is already there may want this one beside it.
+        for &(there, kind) in &self.log {
+            let wants = |&(way, other): &((i32, i32), SpriteType)| {
+                other == stype && grid.shift(there, way) == Some(cell)
+            };
+            if examples.stance(kind).companions().any(|companion| wants(&companion)) {
+                weight = weight.saturating_mul(COMPANY);
+            }
+        }
         if stance.is_lined_up() {
             let in_row =
                 |&(other, kind): &(usize, SpriteType)| kind == stype && grid.y(other) == grid.y(cell);

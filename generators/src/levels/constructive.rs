@@ -140,7 +140,8 @@ impl<'a> ConstructiveLevels<'a> {
                         .config
                         .cover
                         .is_none_or(|(low, high)| (low..=high).contains(&cover(&self.analysis, &level)));
-                    let company = self.keeps_company(&made);
+                    let company = self.keeps_company(&made)
+                        && (self.config.like.is_none() || self.is_served(&made.board));
                     let trivial = self.config.like.is_some() && self.is_trivial(&level, seed);
                     let solved = Solved { level, solution: made.solution };
                     // In the order of what is worst to be missing.

@@ -88,7 +88,8 @@ impl Examples {
         for stance in &mut examples.stances {
             stance.conclude(cells, &total, |stype| {
                 let still = analysis.facts(stype).motion == Motion::Still;
-                !still || palette.ground.contains(&stype) || analysis.role(stype) == Role::Wall
+                let plain = matches!(analysis.role(stype), Role::Wall | Role::Floor);
+                !still || plain || palette.ground.contains(&stype)
             });
         }
         (!levels.is_empty()).then_some(examples)

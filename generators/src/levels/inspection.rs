@@ -2,7 +2,7 @@
 
 use super::board::Board;
 use super::constructive::{ConstructiveLevels, Made};
-use engine::analysis::{Reason, Role, Steering};
+use engine::analysis::{Harm, Motion, Reason, Role, Steering};
 use engine::{Action, Level, Outcome, Seed, SpriteType, State};
 
 /// Ticks that a player who does nothing should live through.
@@ -110,6 +110,48 @@ impl ConstructiveLevels<'_> {
             let expected = made.expected.contains(&stype);
             kept.count() * 5 >= own.len() * 4 && (!expected || !own.is_empty())
         })
+    }
+
+    /// Whether what is sent out to chase something other than the avatar, and harms nobody, gets there: by steps that each bring
+    /// it nearer, since chasers know no others.
+    pub(super) fn is_served(&self, board: &Board) -> bool {
+        let grid = board.grid;
+        let types = |cell: usize| {
+            let symbol = if board.wall[cell] { self.palette.wall } else { board.placed[cell] };
+            symbol.map_or(&[][..], |symbol| self.game.places(symbol))
+        };
+        (0..grid.len()).all(|from| {
+            types(from).iter().flat_map(|&maker| &self.analysis.facts(maker).makes).all(|&sent| {
+                let Motion::Chasing(target) = self.analysis.facts(sent).motion else { return true };
+                let is_target = |&stype: &SpriteType| self.analysis.applies(target, stype);
+                let sought: Vec<usize> =
+                    (0..grid.len()).filter(|&cell| types(cell).iter().any(is_target)).collect();
+                let harmless =
+                    self.analysis.harm(sent) == Harm::None && self.analysis.role(sent) != Role::Enemy;
+                let Some(&aim) = sought.iter().min_by_key(|&&cell| grid.manhattan(cell, from)) else {
+                    return true;
+                };
+                !harmless
+                    || self.is_approached(board, from, aim, |cell| {
+                        cell == aim || !types(cell).iter().any(|&stype| self.analysis.blocks(stype, sent))
+                    })
+            })
+        })
+    }
+
+    /// Whether steps through open cells, each towards the aim, lead there.
+    fn is_approached(&self, board: &Board, from: usize, aim: usize, open: impl Fn(usize) -> bool) -> bool {
+        let grid = board.grid;
+        let mut reached = vec![from];
+        let mut at = 0;
+        while let Some(&cell) = reached.get(at) {
+            at += 1;
+            let nearer = |next: &usize| grid.manhattan(*next, aim) < grid.manhattan(cell, aim) && open(*next);
+            let next: Vec<usize> =
+                grid.beside(cell).filter(nearer).filter(|next| !reached.contains(next)).collect();
+            reached.extend(next);
+        }
+        reached.contains(&aim)
     }
 
     /// Whether a character places something that a win asks the avatar to touch.
