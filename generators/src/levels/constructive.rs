@@ -18,6 +18,8 @@ use engine::{Action, Analysis, Game, Level, Sampler, Seed, SpriteType};
 const ATTEMPTS: u64 = 40;
 /// Boards tried, beyond the first, for what is wished rather than needed: cover, company as in the examples, some difficulty.
 const COVERS: u64 = 6;
+/// The same in cells, of all these boards together: large ones take their time.
+const PATIENCE: u64 = 2600;
 /// Boards tried for a puzzle before it is furnished like any other level.
 const PUZZLES: u64 = 30;
 
@@ -140,6 +142,7 @@ impl<'a> ConstructiveLevels<'a> {
                         .config
                         .cover
                         .is_none_or(|(low, high)| (low..=high).contains(&cover(&self.analysis, &level)));
+                    let cells = level.cells().len() as u64;
                     let company = self.keeps_company(&made)
                         && (self.config.like.is_none() || self.is_served(&made.board));
                     let trivial = self.config.like.is_some() && self.is_trivial(&level, seed);
@@ -155,7 +158,7 @@ impl<'a> ConstructiveLevels<'a> {
                     }
                     // What was not met a few times will hardly be.
                     tried += u64::from(survivable);
-                    if tried > COVERS {
+                    if tried > COVERS || tried * cells > PATIENCE {
                         break;
                     }
                 }
