@@ -20,6 +20,8 @@ pub struct AnnealingConfig {
     pub warmest: f64,
     /// The same at the end; greater than 0.
     pub coldest: f64,
+    /// Candidates that a chain begins with: it goes on from the best of them.
+    pub starts: usize,
     /// A chain starts anew after so many candidates without one that is better than all since its start.
     pub patience: usize,
 }
@@ -29,7 +31,7 @@ impl AnnealingConfig {
     pub fn of(evaluations: usize) -> AnnealingConfig {
         let chains = (evaluations / 60).clamp(1, 4);
         let patience = (evaluations / chains / 3).max(20);
-        AnnealingConfig { evaluations, chains, warmest: 0.08, coldest: 0.004, patience }
+        AnnealingConfig { evaluations, chains, warmest: 0.08, coldest: 0.004, starts: 1, patience }
     }
 }
 
@@ -64,6 +66,8 @@ struct Chain<C> {
     /// For neighbours, and for what is accepted.
     sampler: Sampler,
     present: Option<(C, Evaluation)>,
+    /// Starts that are still to be asked for.
+    starts: usize,
     /// The best since the chain started.
     peak: Option<Evaluation>,
     /// Candidates since then.
@@ -76,6 +80,7 @@ impl<V: Variation> Annealing<V> {
         let chain = |at: u64| Chain {
             sampler: seed.child("chain", at).sampler(),
             present: None,
+            starts: config.starts,
             peak: None,
             stale: 0,
         };
@@ -134,8 +139,13 @@ impl<V: Variation> Search for Annealing<V> {
             let at = self.turn;
             let chain = &mut self.chains[at];
             let candidate = match &chain.present {
-                Some((present, _)) => Some(self.variation.mutate(present, &mut chain.sampler)),
-                None => self.start(),
+                Some((present, _)) if chain.starts == 0 => {
+                    Some(self.variation.mutate(present, &mut chain.sampler))
+                }
+                _ => {
+                    chain.starts = chain.starts.saturating_sub(1);
+                    self.start()
+                }
             };
             let Some(candidate) = candidate else { continue };
             self.pending.push_back(at);
@@ -154,14 +164,14 @@ impl<V: Variation> Search for Annealing<V> {
             if self.best.as_ref().is_none_or(|(_, best)| compare(&evaluation, best) == Ordering::Greater) {
                 self.best = Some((candidate.clone(), evaluation.clone()));
             }
-            self.chains[at].take(candidate, evaluation, temperature, self.config.patience);
+            self.chains[at].take(candidate, evaluation, temperature, &self.config);
         }
     }
 }
 
 impl<C> Chain<C> {
     /// Goes to the candidate, or stays.
-    fn take(&mut self, candidate: C, evaluation: Evaluation, temperature: f64, patience: usize) {
+    fn take(&mut self, candidate: C, evaluation: Evaluation, temperature: f64, config: &AnnealingConfig) {
         if self.peak.as_ref().is_none_or(|peak| compare(&evaluation, peak) == Ordering::Greater) {
             self.peak = Some(evaluation.clone());
             self.stale = 0;
@@ -172,13 +182,14 @@ impl<C> Chain<C> {
         let luck = self.sampler.unit();
         let goes = self.present.as_ref().is_none_or(|(_, present)| {
             compare(&evaluation, present) != Ordering::Less
-                || loss(&evaluation, present).is_some_and(|loss| luck < libm::exp(-loss / temperature))
+                || self.starts == 0
+                    && loss(&evaluation, present).is_some_and(|loss| luck < libm::exp(-loss / temperature))
         });
         if goes {
             self.present = Some((candidate, evaluation));
         }
-        if self.stale >= patience {
-            (self.present, self.peak, self.stale) = (None, None, 0);
+        if self.stale >= config.patience {
+            (self.present, self.peak, self.stale, self.starts) = (None, None, 0, config.starts);
         }
     }
 }

@@ -28,8 +28,8 @@ pub(super) struct Told {
 
 /// Plays of each player of the ladder in a look.
 const PLAYS: u64 = 6;
-/// So much of a label's eases, on either side, is not aimed at: another look may find the level beyond.
-pub(super) const MARGIN: f64 = 0.06;
+/// So much of a label's eases, on the side of another label, is not aimed at: another look may find the level beyond.
+const MARGIN: f64 = 0.08;
 /// A level is long enough if the avatar could cross the board so often in the ticks of the win.
 const CROSSINGS: f64 = 2.5;
 
@@ -101,11 +101,17 @@ impl<'a> Aim<'a> {
 
 /// From 1.0, well within the eases of the label, down to 0.0, as far off as can be.
 fn closeness(ladder: &Ladder, asked: Difficulty) -> f64 {
-    let (Some(ease), Some([low, high])) = (ladder.ease, asked.eases()) else { return 0.0 };
-    let beyond = (low + MARGIN - ease).max(ease - (high - MARGIN)).max(0.0);
+    let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, MARGIN)) else { return 0.0 };
+    let beyond = (low - ease).max(ease - high).max(0.0);
     // What is to be beaten seldom must be beaten by somebody.
     let beaten = if ladder.difficulty == Difficulty::Unbeaten { 0.8 } else { 1.0 };
     (1.0 - beyond).max(0.0) * beaten
+}
+
+/// The eases of a label that are farther than a margin from any other label.
+pub(super) fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
+    let [low, high] = label.eases()?;
+    Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])
 }
 
 fn calls(ladder: &Ladder) -> u64 {

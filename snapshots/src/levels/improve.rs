@@ -34,7 +34,8 @@ impl Maker<'_> {
         let looks = self.order.effort.looks as usize;
         let mut cost = Cost::default();
         for round in 0..u64::from(self.order.effort.rounds) {
-            let config = AnnealingConfig::of(looks);
+            // Half of them to find a start that is worth improving: levels differ more than edits can change them.
+            let config = AnnealingConfig { starts: looks / 2, ..AnnealingConfig::of(looks) };
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::default();
             self.strive(&mut search, looks, &looker, &mut cost, |level, evaluation| {

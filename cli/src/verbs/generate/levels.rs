@@ -171,7 +171,7 @@ fn stype(game: &Game, name: &str) -> Result<SpriteType, Failure> {
 }
 
 /// Levels without a difficulty asked for, to compare control with.
-const POOL: u32 = 40;
+const POOL: u32 = 60;
 
 /// Judges the levels afresh and writes the report on them.
 fn report(
@@ -196,8 +196,9 @@ fn report(
         None => Vec::new(),
     };
     let pool = survey.judge(&plain(&pool));
-    let pool: Vec<Difficulty> =
-        pool.iter().filter_map(|judged| judged.ladder.as_ref()).map(|ladder| ladder.difficulty).collect();
+    // What random keys win can bear no label here: only levels that meet the criteria can be picked.
+    let fit = pool.iter().filter(|judged| judged.report.passes());
+    let pool: Vec<Difficulty> = fit.filter_map(|judged| judged.label()).collect();
     let report = LevelSetReport::of(&Sample {
         analysis: &analysis,
         method: args.method.name(),
