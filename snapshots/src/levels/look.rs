@@ -37,6 +37,11 @@ pub(super) struct Look {
     pub(super) calls: u64,
 }
 
+/// Calls for each tick of a play: some decisions of several players.
+const TICK: u64 = 500;
+/// A look for a win takes at most so many times the calls of the effort.
+const MOST: u64 = 4;
+
 /// Graded constraints, from 0.0 to 1.0 each.
 struct Constraints {
     values: [f64; CONSTRAINTS],
@@ -125,7 +130,8 @@ impl<'a> Looker<'a> {
         if !constraints.note(passes(&ask(&early, calls))) {
             return None;
         }
-        let solved = self.solve(level, seed.child("winnable", 0), criteria);
+        let budget = self.budget(&random);
+        let solved = self.solve(level, budget, seed.child("winnable", 0), criteria);
         *calls += solved.calls;
         match solved.solution {
             Solution::Won { episode, .. } => {
@@ -144,9 +150,16 @@ impl<'a> Looker<'a> {
         Case { game: self.game, level, seed, analysis: self.analysis, witness }
     }
 
-    fn solve(&self, level: &Level, seed: Seed, criteria: &Criteria) -> Solved {
+    /// Forward-model calls of a look for a win: more where plays are long, because each of their ticks takes a decision.
+    fn budget(&self, random: &Finding) -> u64 {
+        let calls = self.order.effort.calls;
+        let longest = random.episodes.iter().map(|episode| episode.actions.len()).max().unwrap_or_default();
+        (longest as u64 * TICK).clamp(calls, MOST * calls)
+    }
+
+    fn solve(&self, level: &Level, budget: u64, seed: Seed, criteria: &Criteria) -> Solved {
         let config = PortfolioConfig {
-            budget: self.order.effort.calls,
+            budget,
             shortest: 0.3,
             decision: criteria.decision,
             depths: criteria.depths.clone(),

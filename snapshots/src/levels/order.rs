@@ -81,7 +81,7 @@ pub struct Effort {
     pub batch: usize,
     /// Attempts.
     pub rounds: u32,
-    /// Forward-model calls of a look for a win.
+    /// Forward-model calls of a look for a win: so many, or up to four times as many where plays are long.
     pub calls: u64,
 }
 
