@@ -9,7 +9,7 @@ use anyhow::{Context, bail};
 use cpu_time::ThreadTime;
 use engine::{Analysis, Level, Seed};
 use generators::Generator;
-use generators::levels::{ConstructiveLevels, Examples, LevelConfig};
+use generators::levels::{ConstructiveLevels, Examples, LevelConfig, Likeness};
 use judged::{Judge, Judged};
 use rayon::prelude::*;
 use render::{Looks, Style};
@@ -89,8 +89,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             make(subject, args)
         };
         let config = PortfolioConfig { budget: args.budget, ..PortfolioConfig::default() };
+        let likeness = Likeness::of(&subject.analysis);
         let judge = Judge {
             analysis: &subject.analysis,
+            likeness: &likeness,
             own: &subject.own,
             config,
             plays: args.plays,
@@ -99,7 +101,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let judged: Vec<Judged> = pool.install(|| {
             made.par_iter().enumerate().map(|(number, made)| judge.judge(number, made)).collect()
         });
-        let row = Row::of(&subject.name, &made, &judged, &subject.own, args.own);
+        let known = subject.own.iter().filter(|_| !args.own).map(|own| likeness.digest(own));
+        let row = Row::of(&subject.name, &made, &judged, &known.collect::<Vec<_>>());
         println!("{row}");
         rows.push(row);
         for (number, judged) in judged.iter().enumerate() {

@@ -3,7 +3,8 @@
 use super::Made;
 use agents::{Budget, DoNothing, Limits, Planner, PortfolioConfig, Random, Solution, play, solve};
 use engine::analysis::{Condition, Reason, Role};
-use engine::{Analysis, Level, Outcome, Seed, SpriteType};
+use engine::{Analysis, Digest, Level, Outcome, Seed, SpriteType};
+use generators::levels::{Likeness, cover};
 use std::collections::BTreeSet;
 
 /// Whether a level can be won.
@@ -30,13 +31,14 @@ pub(super) struct Judged {
     pub(super) fits_cover: bool,
     pub(super) cover: f64,
     /// The same for a level and its reflections and rotations.
-    pub(super) form: Option<Vec<u8>>,
+    pub(super) form: Option<Digest>,
     pub(super) milliseconds: f64,
 }
 
 /// Who measures.
 pub(super) struct Judge<'a> {
     pub(super) analysis: &'a Analysis,
+    pub(super) likeness: &'a Likeness,
     pub(super) own: &'a [Level],
     pub(super) config: PortfolioConfig,
     pub(super) plays: u64,
@@ -50,7 +52,7 @@ impl Judge<'_> {
         let Some(level) = made.level.as_ref().ok().filter(again) else { return Judged::nothing(made) };
         let seed = self.seed.child("level", number as u64);
         let (found, ticks) = self.found(level, seed);
-        let cover = cover(self.analysis, level);
+        let share = cover(self.analysis, level);
         let range = |measure: &dyn Fn(&Level) -> f64, value: f64| {
             let low = self.own.iter().map(measure).fold(f64::INFINITY, f64::min);
             let high = self.own.iter().map(measure).fold(f64::NEG_INFINITY, f64::max);
@@ -65,9 +67,9 @@ impl Judge<'_> {
             missing: missing(self.analysis, level),
             fits_size: range(&|own| own.columns() as f64, level.columns() as f64)
                 && range(&|own| own.rows() as f64, level.rows() as f64),
-            fits_cover: range(&|own| self::cover(self.analysis, own), cover),
-            cover,
-            form: Some(form(level)),
+            fits_cover: range(&|own| cover(self.analysis, own), share),
+            cover: share,
+            form: Some(self.likeness.digest(level)),
             milliseconds: made.milliseconds,
         }
     }
@@ -166,14 +168,6 @@ impl Judged {
     }
 }
 
-/// The share of a level's cells that hold more than floor.
-pub(super) fn cover(analysis: &Analysis, level: &Level) -> f64 {
-    let covered = |symbol: &&u8| {
-        analysis.game().places(**symbol).iter().any(|&stype| analysis.role(stype) != Role::Floor)
-    };
-    level.cells().iter().filter(covered).count() as f64 / level.cells().len() as f64
-}
-
 /// What the goals, or things that are placed, ask for and is not there: by name.
 fn missing(analysis: &Analysis, level: &Level) -> Vec<String> {
     let game = analysis.game();
@@ -209,28 +203,4 @@ fn missing(analysis: &Analysis, level: &Level) -> Vec<String> {
         }
     }
     names.into_iter().collect()
-}
-
-/// The smallest of a level's texts under reflection and rotation, led by its columns.
-pub(super) fn form(level: &Level) -> Vec<u8> {
-    let (columns, rows) = (level.columns(), level.rows());
-    let cells = level.cells();
-    let turned = |turn: u8| -> Vec<u8> {
-        let (width, height) = if turn & 4 == 0 { (columns, rows) } else { (rows, columns) };
-        let mut form = vec![width as u8];
-        for y in 0..height {
-            for x in 0..width {
-                let (mut u, mut v) = if turn & 4 == 0 { (x, y) } else { (y, x) };
-                if turn & 1 != 0 {
-                    u = columns - 1 - u;
-                }
-                if turn & 2 != 0 {
-                    v = rows - 1 - v;
-                }
-                form.push(cells[v * columns + u]);
-            }
-        }
-        form
-    };
-    (0..8).map(turned).min().unwrap_or_default()
 }

@@ -1,8 +1,8 @@
 //! The table: a row for each game, and one for all together.
 
 use super::Made;
-use super::judged::{Found, Judged, form};
-use engine::Level;
+use super::judged::{Found, Judged};
+use engine::Digest;
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -30,12 +30,10 @@ impl Row {
     /// The columns of a row, percentages but for the time and the number of doubles.
     pub(super) const HEAD: &str = "game               levels  made   won impossible unknown  hard whole  size cover    ms same  missing";
 
-    pub(super) fn of(name: &str, made: &[Made], judged: &[Judged], own: &[Level], are_own: bool) -> Row {
+    pub(super) fn of(name: &str, made: &[Made], judged: &[Judged], known: &[Digest]) -> Row {
         let count = |test: &dyn Fn(&Judged) -> bool| judged.iter().filter(|judged| test(judged)).count();
-        let mut seen: BTreeSet<Vec<u8>> =
-            if are_own { BTreeSet::new() } else { own.iter().map(form).collect() };
-        let fresh =
-            judged.iter().filter_map(|judged| judged.form.clone()).filter(|form| seen.insert(form.clone()));
+        let mut seen: BTreeSet<Digest> = known.iter().copied().collect();
+        let fresh = judged.iter().filter_map(|judged| judged.form).filter(|form| seen.insert(*form));
         let made_count = count(&|judged| judged.made);
         Row {
             name: name.to_owned(),
