@@ -298,19 +298,30 @@ mod tests {
     #[test]
     fn feasible_ones_are_never_given_up() {
         let of = |feasibility: f64, objective: f64| Evaluation { feasibility, objective, measures: vec![] };
-        let mut chain =
-            Chain { sampler: Seed::from_text("chain").sampler(), present: None, peak: None, stale: 0 };
-        chain.take(1, of(0.2, 0.9), 1e9, 100);
-        chain.take(2, of(0.1, 0.9), 1e9, 100);
+        let mut chain = Chain {
+            sampler: Seed::from_text("chain").sampler(),
+            present: None,
+            starts: 0,
+            peak: None,
+            stale: 0,
+        };
+        let patient = &AnnealingConfig { patience: 100, ..AnnealingConfig::of(0) };
+        let hasty = &AnnealingConfig { patience: 3, starts: 2, ..AnnealingConfig::of(0) };
+        chain.take(1, of(0.2, 0.9), 1e9, patient);
+        chain.take(2, of(0.1, 0.9), 1e9, patient);
         assert_eq!(chain.present.as_ref().unwrap().0, 2, "anything goes when it is hot");
-        chain.take(3, of(1.0, 0.0), 1e-9, 100);
-        chain.take(4, of(0.99, 1.0), 1e9, 100);
+        chain.take(3, of(1.0, 0.0), 1e-9, patient);
+        chain.take(4, of(0.99, 1.0), 1e9, patient);
         assert_eq!(chain.present.as_ref().unwrap().0, 3);
-        chain.take(5, of(1.0, 0.5), 1e-9, 3);
-        chain.take(6, of(1.0, 0.4), 1e-9, 3);
+        chain.take(5, of(1.0, 0.5), 1e-9, hasty);
+        chain.take(6, of(1.0, 0.4), 1e-9, hasty);
         assert_eq!(chain.present.as_ref().unwrap().0, 5);
-        chain.take(7, of(1.0, 0.4), 1e-9, 3);
-        chain.take(8, of(1.0, 0.4), 1e-9, 3);
+        chain.take(7, of(1.0, 0.4), 1e-9, hasty);
+        chain.take(8, of(1.0, 0.4), 1e-9, hasty);
         assert!(chain.present.is_none(), "a chain that stagnates starts anew");
+        assert_eq!(chain.starts, 2);
+        chain.take(9, of(1.0, 0.4), 1e9, hasty);
+        chain.take(10, of(1.0, 0.3), 1e9, hasty);
+        assert_eq!(chain.present.as_ref().unwrap().0, 9, "of its starts a chain takes the best, hot or not");
     }
 }

@@ -241,6 +241,9 @@ impl<'a> ConstructiveLevels<'a> {
             None => layout::walls(family, grid, ring, loops, &mut layout),
         };
         let mut builder = self.builder(Board::new(grid, wall), sampler, target);
+        if builder.board.area() == 0 {
+            return None;
+        }
         builder.adventure();
         builder.settle();
         Some(Made::plain(builder))

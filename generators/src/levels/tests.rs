@@ -44,6 +44,14 @@ pub(super) fn public_folder() -> PathBuf {
     workspace().join("../shared/gvgai/games")
 }
 
+/// The levels that a game comes with.
+fn own_levels(folder: &Path, game: &Game) -> Vec<Level> {
+    (0..)
+        .map_while(|number| std::fs::read_to_string(folder.join(format!("lvl{number}.txt"))).ok())
+        .filter_map(|text| game.level(&text).ok())
+        .collect()
+}
+
 #[test]
 fn levels_of_our_own_games() {
     for folder in folders(&workspace().join("corpora")) {
@@ -163,10 +171,7 @@ fn levels_are_like_examples() {
     for folder in folders(&workspace().join("corpora")) {
         let Some(game) = game_in(&folder) else { continue };
         let name = name_of(&folder);
-        let own: Vec<Level> = (0..)
-            .map_while(|number| std::fs::read_to_string(folder.join(format!("lvl{number}.txt"))).ok())
-            .map(|text| game.level(&text).expect("a level of ours"))
-            .collect();
+        let own = own_levels(&folder, &game);
         let examples = Arc::new(Examples::of(&game, &own).expect("games of ours have levels"));
         let config = LevelConfig::like(examples.clone());
         let levels = ConstructiveLevels::new(&game, config).unwrap();
@@ -187,6 +192,27 @@ fn levels_are_like_examples() {
 }
 
 /// Exact numbers are met, or the level is refused.
+/// Learnt walls can leave a small board without a free cell.
+#[test]
+fn the_smallest_boards_are_levels_or_none() {
+    for folder in folders(&workspace().join("corpora")).into_iter().chain(folders(&public_folder())) {
+        let Some(game) = game_in(&folder) else { continue };
+        let own = own_levels(&folder, &game);
+        let examples = Examples::of(&game, &own).map(Arc::new);
+        for side in [4, 5, 6] {
+            let like = examples.clone().map_or_else(LevelConfig::default, LevelConfig::like);
+            let config = LevelConfig { columns: (side, side + 1), rows: (side, side), cover: None, ..like };
+            let Ok(generator) = ConstructiveLevels::new(&game, config) else { continue };
+            for number in 0..6 {
+                match generator.generate(Seed::from_text("small").child(&name_of(&folder), number)) {
+                    Ok(level) => assert_eq!(level.rows(), side, "{}", folder.display()),
+                    Err(error) => assert!(matches!(error, GenerateError::Unlucky(_)), "{error}"),
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn as_many_are_placed_as_asked_for() {
     let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    drain > Immovable\n    coin > Immovable\n    \

@@ -17,6 +17,9 @@ impl Builder<'_> {
         // What lies behind a bridge, a door or a gate, and the cell of that.
         let barrier = if plan.is_barred() {
             let cells: Vec<usize> = self.board.free().collect();
+            if cells.is_empty() {
+                return None;
+            }
             self.board.start = *self.sampler.choose(&cells);
             let bottleneck = self.bottleneck(plan.bridge).or_else(|| self.build_vault(plan.bridge))?;
             pulls.wall.clone_from(&self.board.wall);
