@@ -33,6 +33,8 @@ pub(super) struct Looker<'a> {
 pub(super) struct Look {
     /// What the search is told.
     pub(super) evaluation: Evaluation,
+    /// The first constraint that is not met.
+    pub(super) obstacle: Option<&'static str>,
     /// Forward-model calls.
     pub(super) calls: u64,
 }
@@ -48,8 +50,11 @@ struct Constraints {
     met: usize,
 }
 
-/// Well-formed, not idle, not random, no early death, winnable, the aim's own.
-const CONSTRAINTS: usize = 6;
+/// How many there are.
+const CONSTRAINTS: usize = NAMES.len();
+/// Their names; the last is what the order asks of the win.
+const NAMES: [&str; 6] =
+    ["well-formed", "not-idle", "not-random", "early-death", "winnable", "the win asked for"];
 
 impl Constraints {
     /// Notes the next constraint; whether it is met.
@@ -57,6 +62,11 @@ impl Constraints {
         self.values[self.met] = value;
         self.met += 1;
         value >= 1.0
+    }
+
+    /// The name of the first that is not met.
+    fn obstacle(&self) -> Option<&'static str> {
+        self.values.iter().position(|&value| value < 1.0).map(|at| NAMES[at])
     }
 
     /// Their mean: exactly 1.0 only if all are met.
@@ -91,7 +101,8 @@ impl<'a> Looker<'a> {
             constraints.note(told.constraint);
             told.objective
         });
-        Look { evaluation: Evaluation { feasibility: constraints.feasibility(), objective, measures }, calls }
+        let evaluation = Evaluation { feasibility: constraints.feasibility(), objective, measures };
+        Look { evaluation, obstacle: constraints.obstacle(), calls }
     }
 
     /// Asks the cheap judges, one after the other; a win, if all are content, and the share of random plays that did not win.
@@ -109,7 +120,9 @@ impl<'a> Looker<'a> {
             *calls += cost(&finding);
             finding
         };
-        if !constraints.note(passes(&ask(&WellFormed, calls))) || !self.analysis.reach(level).can_win() {
+        let sound = passes(&ask(&WellFormed, calls));
+        let can_win = self.analysis.reach(level).can_win();
+        if !constraints.note(if can_win { sound } else { sound / 2.0 }) {
             return None;
         }
         // A level that is won without skill is no better for being won with it.

@@ -34,7 +34,7 @@ pub struct Cost {
     pub judged: u64,
     /// Forward-model calls of all looks and judges.
     pub calls: u64,
-    /// How often each criterion of the panel, or the generator, said no.
+    /// How often each criterion, of a look or of the panel, or the generator said no.
     pub rejections: BTreeMap<String, u64>,
 }
 
@@ -42,6 +42,9 @@ impl Cost {
     pub(super) fn looked(&mut self, look: &Look) {
         self.looks += 1;
         self.calls += look.calls;
+        if let Some(obstacle) = look.obstacle {
+            self.reject(obstacle);
+        }
     }
 
     pub(super) fn judged(&mut self, judged: &Judged) {
@@ -90,8 +93,10 @@ pub enum LevelsError {
     #[error("the criteria: {0}")]
     Criteria(#[from] CriteriaError),
     /// No candidate passed.
-    #[error("no level was accepted: of {judged} that were judged, {why}")]
+    #[error("no level was accepted of {looks} that were looked at and {judged} that were judged: {why}")]
     NoneAccepted {
+        /// Candidates that a search looked at.
+        looks: u64,
         /// Candidates before the panel.
         judged: u64,
         /// Their obstacles.
@@ -139,7 +144,11 @@ pub fn make_levels(
         }
     };
     if set.levels.is_empty() && order.count > 0 {
-        return Err(LevelsError::NoneAccepted { judged: set.cost.judged, why: set.cost.reasons() });
+        return Err(LevelsError::NoneAccepted {
+            looks: set.cost.looks,
+            judged: set.cost.judged,
+            why: set.cost.reasons(),
+        });
     }
     Ok(set)
 }
@@ -202,7 +211,9 @@ impl Maker<'_> {
             .into_par_iter()
             .map(|number| {
                 let attempt = make(number, &BTreeSet::new());
-                self.progress.made(number);
+                if attempt.0.is_some() {
+                    self.progress.made(number);
+                }
                 attempt
             })
             .collect();
