@@ -113,6 +113,19 @@ impl<C> Archive<C> {
         status
     }
 
+    /// Takes the elite of a cell out, because a closer look found that it is not feasible after all; it goes to the pocket. The
+    /// cell is free for the next one.
+    ///
+    /// # Panics
+    /// If the feasibility that was found is that of a feasible candidate.
+    pub fn refuse(&mut self, cell: usize, feasibility: f64) {
+        assert!(feasibility < 1.0, "what is refused is not feasible");
+        if let Some(mut judged) = self.elites.remove(&cell) {
+            judged.evaluation.feasibility = feasibility;
+            self.pocket_in(cell, judged);
+        }
+    }
+
     /// The axes.
     pub fn axes(&self) -> &[Axis] {
         &self.axes

@@ -104,6 +104,11 @@ impl<'a, V: Variation> MapElites<'a, V> {
         &self.archive
     }
 
+    /// Takes an elite out that a closer look found infeasible: see [`Archive::refuse`].
+    pub fn refuse(&mut self, cell: usize, feasibility: f64) {
+        self.archive.refuse(cell, feasibility);
+    }
+
     /// Ends the search: what has been found.
     pub fn into_archive(self) -> Archive<V::Candidate> {
         self.archive

@@ -16,6 +16,8 @@ use std::collections::BTreeSet;
 
 /// Levels that come before the panel after a search, at most.
 const FINALISTS: usize = 3;
+/// The feasibility of a level that a look took for feasible and the panel did not.
+const REFUSED: f64 = 0.95;
 /// Levels that are made from nothing to see in what those of a game differ.
 const SAMPLE: u64 = 16;
 
@@ -78,14 +80,16 @@ impl Maker<'_> {
             let told = |_: &Level, told: &mut Evaluation| told.measures = axes.pick(&told.measures);
             self.strive(&mut search, looks, &looker, &mut set.cost, told);
             let picked = spread(search.archive(), wanted - set.levels.len(), &mut shown, key);
-            let judged: Vec<_> = picked.par_iter().map(|level| gate.judge(level)).collect();
-            for (level, judged) in picked.into_iter().zip(judged) {
+            let judged: Vec<_> = picked.par_iter().map(|(_, level)| gate.judge(level)).collect();
+            for ((cell, level), judged) in picked.into_iter().zip(judged) {
                 set.cost.judged(&judged);
-                if judged.obstacle.is_none() {
-                    let number = set.levels.len() as u32;
-                    self.progress.made(number);
-                    set.levels.push(made(number, level, judged));
+                if judged.obstacle.is_some() {
+                    search.refuse(cell, REFUSED);
+                    continue;
                 }
+                let number = set.levels.len() as u32;
+                self.progress.made(number);
+                set.levels.push(made(number, level, judged));
             }
             if set.levels.len() == wanted {
                 break;
@@ -163,35 +167,39 @@ impl Finalists {
     }
 }
 
-/// Levels of an archive that have not been shown, as far apart in it as can be: the best one first, then always the one that is
-/// farthest from all that have been picked, the better one of equals.
+/// An elite of an archive, with its cell and the bins of that.
+type Elite<'a> = (usize, Vec<usize>, &'a Judged<Level>);
+
+/// Levels of an archive that have not been shown, with their cells, as far apart in it as can be: the best one first, then always
+/// the one that is farthest from all that have been picked, the better one of equals.
 fn spread(
     archive: &Archive<Level>,
     wanted: usize,
     shown: &mut BTreeSet<Digest>,
     key: impl Fn(&Level) -> Digest,
-) -> Vec<Level> {
-    let mut left: Vec<(Vec<usize>, &Judged<Level>)> = archive
+) -> Vec<(usize, Level)> {
+    let mut left: Vec<Elite<'_>> = archive
         .elites()
         .filter(|(_, elite)| !shown.contains(&key(&elite.candidate)))
-        .map(|(cell, elite)| (archive.bins(cell), elite))
+        .map(|(cell, elite)| (cell, archive.bins(cell), elite))
         .collect();
-    let mut picked: Vec<(Vec<usize>, &Judged<Level>)> = Vec::new();
+    let mut picked: Vec<Elite<'_>> = Vec::new();
     while picked.len() < wanted && !left.is_empty() {
         let apart = |bins: &[usize]| {
-            let distances = picked
-                .iter()
-                .map(|(other, _)| bins.iter().zip(other).map(|(a, b)| a.abs_diff(*b)).sum::<usize>());
-            distances.min().unwrap_or(0)
+            let steps = |(_, other, _): &Elite<'_>| {
+                bins.iter().zip(other).map(|(a, b)| a.abs_diff(*b)).sum::<usize>()
+            };
+            picked.iter().map(steps).min().unwrap_or(0)
         };
-        let better = |(a, one): &(Vec<usize>, &Judged<Level>), (b, two): &(Vec<usize>, &Judged<Level>)| {
+        let better = |(_, a, one): &Elite<'_>, (_, b, two): &Elite<'_>| {
             let objectives = one.evaluation.objective.total_cmp(&two.evaluation.objective);
             apart(a).cmp(&apart(b)).then(objectives)
         };
         let at = (0..left.len()).max_by(|&a, &b| better(&left[a], &left[b]).then(b.cmp(&a)));
         picked.push(left.swap_remove(at.expect("some are left")));
     }
-    let levels: Vec<Level> = picked.into_iter().map(|(_, elite)| elite.candidate.clone()).collect();
-    shown.extend(levels.iter().map(key));
+    let levels: Vec<(usize, Level)> =
+        picked.into_iter().map(|(cell, _, elite)| (cell, elite.candidate.clone())).collect();
+    shown.extend(levels.iter().map(|(_, level)| key(level)));
     levels
 }

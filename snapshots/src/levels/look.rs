@@ -10,9 +10,9 @@ use validators::{Case, Criteria, Finding, NoEarlyDeath, NotIdle, NotRandom, Vali
 /// Episodes of doing nothing, where chance plays a part.
 const IDLE_PLAYS: u32 = 2;
 /// Episodes of random play.
-const RANDOM_PLAYS: u32 = 16;
+const RANDOM_PLAYS: u32 = 24;
 /// The greatest share of them that may be won: one of them. The panel, with more of them, is stricter.
-const RANDOM_WINS: f64 = 0.07;
+const RANDOM_WINS: f64 = 0.05;
 /// Games of chance in which the first ticks are lived through.
 const CHANCES: u32 = 4;
 /// The share of a look's calls that each of those may take.
@@ -39,6 +39,8 @@ pub(super) struct Look {
     pub(super) calls: u64,
 }
 
+/// What a win of all random plays would take from the objective; one of them takes a third of it.
+const LUCK: f64 = 8.0;
 /// Calls for each tick of a play: some decisions of several players.
 const TICK: u64 = 500;
 /// A look for a win takes at most so many times the calls of the effort.
@@ -91,9 +93,9 @@ impl<'a> Looker<'a> {
         let mut calls = 0;
         let won = self.constrain(level, seed, &mut constraints, &mut calls);
         // A single win by random keys already speaks against a level.
-        let told = won.map(|(witness, luckless)| {
+        let told = won.map(|(witness, luck)| {
             let told = self.aim.tell(self.case(level, seed, Some(&witness)));
-            Told { objective: told.objective * luckless * luckless, ..told }
+            Told { objective: told.objective * (1.0 - LUCK * luck), ..told }
         });
         let measures = self.aim.measures(level, told.as_ref().map(|told| &told.measures));
         let objective = told.map_or(0.0, |told| {
@@ -105,7 +107,7 @@ impl<'a> Looker<'a> {
         Look { evaluation, obstacle: constraints.obstacle(), calls }
     }
 
-    /// Asks the cheap judges, one after the other; a win, if all are content, and the share of random plays that did not win.
+    /// Asks the cheap judges, one after the other; a win, if all are content, and the share of random plays that won.
     fn constrain(
         &self,
         level: &Level,
@@ -149,7 +151,7 @@ impl<'a> Looker<'a> {
         match solved.solution {
             Solution::Won { episode, .. } => {
                 constraints.note(1.0);
-                Some((*episode, 1.0 - win_share(&random)))
+                Some((*episode, win_share(&random)))
             }
             Solution::Impossible { .. } => None,
             Solution::Unknown => {
