@@ -77,8 +77,15 @@ impl<'a> Gate<'a> {
 /// must be from any other label.
 const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
 
+/// The share of all plays of a ladder that have to be won.
+const BEATEN: f64 = 0.01;
+
 /// Whether a level bears a label, and not just so: another look with other dice should find it too.
 fn is_within(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
-    ladder.difficulty == asked && (low..=high).contains(&ease)
+    let plays: u64 = ladder.rungs.iter().map(|fared| fared.rate.plays).sum();
+    let wins: u64 = ladder.rungs.iter().map(|fared| fared.rate.wins).sum();
+    // What hardly anybody wins may find nobody the next time.
+    let is_beaten = wins as f64 >= BEATEN * plays as f64;
+    ladder.difficulty == asked && is_beaten && (low..=high).contains(&ease)
 }
