@@ -72,6 +72,14 @@ fn the_root_of_tiny_is_the_one_in_the_repository() {
     assert_eq!(document["root"].as_str().unwrap(), include_str!("tiny.root").trim());
 }
 
+/// The first command of the README, in an empty folder.
+#[test]
+fn the_starter_is_minted_and_verifies() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &["release"], 0);
+    run(folder.path(), &["verify", "releases/starter"], 0);
+}
+
 #[test]
 fn any_flipped_byte_is_named() {
     let (folder, root) = copy();

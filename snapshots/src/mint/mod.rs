@@ -109,12 +109,12 @@ pub fn mint(
     lockfile: Digest,
     progress: &dyn Progress,
 ) -> Result<Minted, MintError> {
-    let places = places(recipe, corpus)?;
+    let (places, reserve) = places(recipe, corpus)?;
     progress.begin(places.len());
     let mint = Mint { recipe, corpus, panel: Panel::new(&recipe.criteria), progress };
     let filled: Vec<Result<Filled, MintError>> =
         places.par_iter().map(|&place| mint.fill(place, 0)).collect();
-    let mut games: Vec<Filled> = filled.into_iter().collect::<Result<_, _>>()?;
+    let mut games = mint.with_reserve(&places, filled, reserve)?;
     mint.replace_twins(&places, &mut games)?;
     folder::assemble(recipe, lockfile, games)
 }
@@ -127,8 +127,9 @@ pub fn check(recipe: &Recipe, corpus: &Corpus) -> Result<(), MintError> {
     places(recipe, corpus).map(drop)
 }
 
-/// The places of a release, in order; which corpus games are taken is drawn.
-fn places(recipe: &Recipe, corpus: &Corpus) -> Result<Vec<Place>, MintError> {
+/// The places of a release, in order; which corpus games are taken is drawn. The others follow in the order of the draw: they are
+/// the reserve.
+fn places(recipe: &Recipe, corpus: &Corpus) -> Result<(Vec<Place>, Vec<Place>), MintError> {
     let (asked, known) = (recipe.corpus.games, corpus.games.len());
     if asked as usize > known {
         return Err(MintError::SmallCorpus { asked, known });
@@ -136,10 +137,11 @@ fn places(recipe: &Recipe, corpus: &Corpus) -> Result<Vec<Place>, MintError> {
     let mut order: Vec<usize> = (0..known).collect();
     let mut sampler: Sampler = recipe.root_seed().child("corpus order", 0).sampler();
     sampler.shuffle(&mut order);
-    order.truncate(asked as usize);
+    let reserve = order.split_off(asked as usize);
     order.sort_unstable();
     let generated = (0..recipe.generated.games).map(Place::Generated);
-    Ok(order.into_iter().map(Place::Corpus).chain(generated).collect())
+    let places = order.into_iter().map(Place::Corpus).chain(generated).collect();
+    Ok((places, reserve.into_iter().map(Place::Corpus).collect()))
 }
 
 struct Mint<'a> {
@@ -189,6 +191,23 @@ impl Mint<'_> {
             }
         }
         Err(MintError::Unfilled { place: name, tried: tries - from.min(tries), why: tally.reasons() })
+    }
+
+    /// The filled places; those of corpus games that no new level was found for go to games of the reserve, in order.
+    fn with_reserve(
+        &self,
+        places: &[Place],
+        filled: Vec<Result<Filled, MintError>>,
+        reserve: Vec<Place>,
+    ) -> Result<Vec<Filled>, MintError> {
+        let mut reserve = reserve.into_iter();
+        let instead = |(place, result): (&Place, Result<Filled, MintError>)| match (place, result) {
+            (Place::Corpus(_), Err(error @ MintError::Unfilled { .. })) => {
+                reserve.find_map(|place| self.fill(place, 0).ok()).ok_or(error)
+            }
+            (_, result) => result,
+        };
+        places.iter().zip(filled).map(instead).collect()
     }
 
     /// Name, seed and part of a place.
