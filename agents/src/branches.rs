@@ -34,3 +34,24 @@ pub(crate) fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
     }
     best.0
 }
+
+/// The part of a tree under a node, which becomes its root, breadth first; nothing, if there is no such node.
+pub(crate) fn subtree<N: Clone>(
+    tree: &[N],
+    root: u32,
+    children: impl Fn(&mut N) -> &mut [u32; WIDTH],
+) -> Vec<N> {
+    let mut kept: Vec<N> = tree.get(root as usize).cloned().into_iter().collect();
+    let mut at = 0;
+    while at < kept.len() {
+        for branch in 0..WIDTH {
+            let child = children(&mut kept[at])[branch];
+            if let Some(child) = tree.get(child as usize).cloned() {
+                children(&mut kept[at])[branch] = kept.len() as u32;
+                kept.push(child);
+            }
+        }
+        at += 1;
+    }
+    kept
+}

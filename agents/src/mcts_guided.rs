@@ -6,7 +6,7 @@
 //! "Investigating MCTS modifications in general video game playing"; novelty: Soemers et al. 2016, "Enhancements for
 //! real-time Monte-Carlo tree search in general video game playing".)
 
-use crate::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
+use crate::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::compass::{Compass, Ways};
 use crate::planner::{Budget, Decision, Planner, Streams};
 use engine::{Action, Game, Outcome, Seed, State};
@@ -265,19 +265,7 @@ impl GuidedMcts {
     /// Keeps the tree under a branch of the root, breadth first; or nothing.
     fn keep(&mut self, branch: usize) {
         let root = if self.config.reuse { self.tree[0].children[branch] } else { UNEXPANDED };
-        let mut kept: Vec<Node> = self.tree.get(root as usize).cloned().into_iter().collect();
-        let mut at = 0;
-        while at < kept.len() {
-            for branch in 0..WIDTH {
-                if let Some(child) = self.tree.get(kept[at].children[branch] as usize) {
-                    let child = child.clone();
-                    kept[at].children[branch] = kept.len() as u32;
-                    kept.push(child);
-                }
-            }
-            at += 1;
-        }
-        self.tree = kept;
+        self.tree = subtree(&self.tree, root, |node| &mut node.children);
     }
 }
 

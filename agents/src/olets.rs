@@ -5,7 +5,7 @@
 //! for the next decision. (A. Couëtoux 2015; Perez Liebana et al. 2016, "The 2014 general video game playing
 //! competition".)
 
-use crate::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
+use crate::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::planner::{Budget, Decision, Planner, Streams};
 use engine::{Action, Game, Outcome, Seed, State};
 use serde::{Deserialize, Serialize};
@@ -224,19 +224,7 @@ impl Olets {
     /// Keeps the tree under a branch of the root, breadth first.
     fn keep(&mut self, branch: usize) {
         let root = self.tree[0].children[branch];
-        let mut kept: Vec<Node> = self.tree.get(root as usize).cloned().into_iter().collect();
-        let mut at = 0;
-        while at < kept.len() {
-            for branch in 0..WIDTH {
-                if let Some(child) = self.tree.get(kept[at].children[branch] as usize) {
-                    let child = child.clone();
-                    kept[at].children[branch] = kept.len() as u32;
-                    kept.push(child);
-                }
-            }
-            at += 1;
-        }
-        self.tree = kept;
+        self.tree = subtree(&self.tree, root, |node| &mut node.children);
     }
 }
 

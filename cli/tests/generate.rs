@@ -88,6 +88,16 @@ fn levels_keep_what_was_asked() {
     assert!(home.path().join("report/report.html").exists() && home.path().join("report/sheet.png").exists());
 }
 
+/// More than fits beside the rest: every draw fails, and the answer says so.
+#[test]
+fn what_does_not_fit_is_no_level_and_no_endless_work() {
+    let home = tempfile::tempdir().unwrap();
+    let args = ["generate", "levels", "--game", "hailglass", "--with", "orchid=100", "--out", "new"];
+    let message = text(&run(home.path(), &args, 1).stderr);
+    assert!(message.contains("no board holds what is asked"), "{message}");
+    assert!(!home.path().join("new").exists());
+}
+
 /// Expects exit status 2, a message with these words, and no folder.
 #[track_caller]
 fn refused(game: &str, more: &[&str], words: &[&str]) {
@@ -122,6 +132,9 @@ fn what_cannot_be_made_is_refused_with_the_next_move() {
     refused("hailglass", &["--size", "12"], &["12", "12x9"]);
     refused("hailglass", &["--size", "3x99"], &["3", "between 4 and 64"]);
     refused("hailglass", &["--with", "orchd=2"], &["orchd", "orchid"]);
+    refused("hailglass", &["--with", "orchid=100000"], &["100000 sprites", "160 cells"]);
+    refused("hailglass", &["--with", "keeper=5"], &["keeper", "one avatar"]);
+    refused("foxglove-round", &["--with", "bloom=3"], &["bloom", "no character"]);
     refused("hailglass", &["--with", "orchid"], &["orchid", "box=3"]);
     refused("hailglass", &["--uses", "keeper hal"], &["hal", "hail"]);
     refused("hailglass", &["--count", "0"], &["0"]);

@@ -7,9 +7,10 @@ mod sections;
 mod words;
 
 use crate::failure::Failure;
+use crate::verbs::verify::failure;
 use engine::{Analysis, Level};
+use snapshots::Draft;
 use snapshots::levels::report::LevelSetReport;
-use std::path::Path;
 
 /// What the report does not hold, and its pictures need.
 pub(crate) struct Pictures<'a> {
@@ -25,25 +26,21 @@ pub(crate) struct Pictures<'a> {
     pub(crate) seconds: Option<f64>,
 }
 
-/// Writes `report.json`, `report.html` and `sheet.png` into a folder, which is made if it is not there. The JSON depends on
-/// the report alone.
+/// Writes `report.json`, `report.html` and `sheet.png`. The JSON depends on the report alone.
 pub(crate) fn write_level_report(
-    dir: &Path,
+    draft: Draft,
     report: &LevelSetReport,
     pictures: &Pictures<'_>,
 ) -> Result<(), Failure> {
-    let failed = |error, path: &Path| Failure::surroundings(error, path.display());
-    std::fs::create_dir_all(dir).map_err(|error| failed(error, dir))?;
     let json = report.to_json().map_err(|error| Failure::surroundings(error, "the report"))?;
     let boards = boards::Boards::draw(report, pictures)?;
     let html = page::render(report, pictures, &boards)?;
     for (name, bytes) in
         [("report.json", json.as_bytes()), ("report.html", html.as_bytes()), ("sheet.png", &boards.sheet)]
     {
-        let path = dir.join(name);
-        std::fs::write(&path, bytes).map_err(|error| failed(error, &path))?;
+        draft.write(name, bytes).map_err(failure)?;
     }
-    Ok(())
+    draft.commit().map_err(failure)
 }
 
 #[cfg(test)]

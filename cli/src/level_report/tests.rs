@@ -2,6 +2,7 @@ use super::*;
 use crate::input;
 use engine::Seed;
 use snapshots::levels::report::{Expense, Judged, Sample, Survey};
+use std::path::Path;
 use validators::{Criteria, Difficulty};
 
 /// The corpus game's own levels as a set, judged in earnest; every other one asked to be hard.
@@ -40,7 +41,7 @@ fn write(name: &str, dir: &Path) -> LevelSetReport {
         examples: &levels[..1],
         seconds: Some(3.5),
     };
-    write_level_report(dir, &report, &pictures).unwrap();
+    write_level_report(Draft::create(dir).unwrap(), &report, &pictures).unwrap();
     report
 }
 

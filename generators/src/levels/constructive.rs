@@ -103,6 +103,9 @@ impl<'a> ConstructiveLevels<'a> {
             let problem = "no level character places exactly one avatar".to_owned();
             return Err(GenerateError::Unsuitable(problem));
         };
+        if let Some(problem) = unmet_count(&analysis, &palette, &config) {
+            return Err(GenerateError::Unsuitable(problem));
+        }
         for requirement in analysis.requirements() {
             let placed = |stype: &SpriteType| palette.symbol(*stype).is_some();
             let met = requirement.at_least == 0 || requirement.types.iter().any(placed);
@@ -364,6 +367,24 @@ impl<'a> ConstructiveLevels<'a> {
             target,
         }
     }
+}
+
+/// An exact number that no level can meet, in words.
+fn unmet_count(analysis: &Analysis, palette: &Palette, config: &LevelConfig) -> Option<String> {
+    let room = config.columns.1 * config.rows.1;
+    let sum: usize = config.counts.iter().fold(0, |sum, (_, count)| sum.saturating_add(*count));
+    if sum > room {
+        return Some(format!("{sum} sprites asked for, and a level has {room} cells at most"));
+    }
+    config.counts.iter().find_map(|&(stype, count)| {
+        let name = analysis.game().name(stype);
+        if analysis.role(stype) == Role::Avatar {
+            return (count != 1).then(|| format!("{count} of `{name}` asked for; a level has one avatar"));
+        }
+        let lies = palette.symbol(stype).is_some();
+        (count > 0 && !lies)
+            .then(|| format!("{count} of `{name}` asked for, which no character can place alone"))
+    })
 }
 
 impl Generator for ConstructiveLevels<'_> {

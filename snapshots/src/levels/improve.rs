@@ -4,7 +4,7 @@ use super::accept::Gate;
 use super::aim::Aim;
 use super::axes::Axes;
 use super::look::{Look, Looker};
-use super::make::{Attempt, Cost, LevelSet, Maker, TWICE, made};
+use super::make::{Attempt, Cost, LevelSet, Maker, NO_BOARD, TWICE, made};
 use engine::{Digest, Level};
 use generators::Variation;
 use generators::levels::LevelSearch;
@@ -125,6 +125,7 @@ impl Maker<'_> {
         while asked < looks {
             let levels = search.ask(self.order.effort.batch.min(looks - asked));
             if levels.is_empty() {
+                cost.reject(NO_BOARD);
                 return;
             }
             asked += levels.len();

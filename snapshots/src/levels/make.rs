@@ -244,7 +244,7 @@ impl Maker<'_> {
 const DRAWS: u64 = 20;
 /// Why a candidate is no level of the set.
 pub(super) const TWICE: &str = "the same level twice";
-const NO_BOARD: &str = "level generator";
+pub(super) const NO_BOARD: &str = "no board holds what is asked";
 
 pub(super) fn made(number: u32, level: Level, judged: Judged) -> MadeLevel {
     MadeLevel { number, level, report: Some(judged.report), ladder: judged.ladder }

@@ -203,7 +203,10 @@ impl Mint<'_> {
         let mut reserve = reserve.into_iter();
         let instead = |(place, result): (&Place, Result<Filled, MintError>)| match (place, result) {
             (Place::Corpus(_), Err(error @ MintError::Unfilled { .. })) => {
-                reserve.find_map(|place| self.fill(place, 0).ok()).ok_or(error)
+                let mut tried = reserve.by_ref().map(|place| self.fill(place, 0));
+                let other =
+                    |result: &Result<Filled, MintError>| !matches!(result, Err(MintError::Unfilled { .. }));
+                tried.find(other).unwrap_or(Err(error))
             }
             (_, result) => result,
         };
@@ -339,7 +342,84 @@ fn slug(title: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::slug;
+    use super::*;
+    use crate::corpus::{CorpusCard, CorpusGame};
+
+    /// Fetch the gem and leave, before time is up.
+    const FETCH: &str = "BasicGame
+    SpriteSet
+        floor > Immovable
+        wall > Immovable
+        gem > Immovable color=YELLOW
+        exit > Door color=GREEN
+        avatar > MovingAvatar
+    LevelMapping
+        . > floor
+        w > floor wall
+        g > floor gem
+        e > floor exit
+        A > floor avatar
+    InteractionSet
+        avatar wall > stepBack
+        gem avatar > killSprite scoreChange=1
+        exit avatar > killSprite
+    TerminationSet
+        MultiSpriteCounter stype1=gem stype2=exit limit=0 win=True
+        Timeout limit=50 win=False
+";
+
+    fn corpus(sources: &[(&str, &str)]) -> Corpus {
+        let game = |&(name, source): &(&str, &str)| {
+            let words = || name.to_owned();
+            let card = CorpusCard {
+                title: words(),
+                description: words(),
+                goal: words(),
+                kind: words(),
+                real_time: false,
+                skill: words(),
+                levels: Vec::new(),
+            };
+            CorpusGame { name: words(), source: source.to_owned(), levels: Vec::new(), card }
+        };
+        Corpus { games: sources.iter().map(game).collect() }
+    }
+
+    /// One corpus game with one level.
+    fn recipe(seed: &str) -> Recipe {
+        let text = format!(
+            "name = 'one'\ndescription = 'one'\nseed = '{seed}'\n[corpus]\ngames = 1\nlevels = 1\n\
+             [criteria]\nask = ['not-idle', 'not-random', 'winnable']\nbudget = 20000\n"
+        );
+        Recipe::from_toml(&text).unwrap()
+    }
+
+    #[test]
+    fn a_corpus_game_without_new_levels_makes_room_for_the_next_of_the_draw() {
+        let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
+        let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
+        // Whichever is drawn first: both orders are drawn.
+        let mut first = Vec::new();
+        for seed in ["a", "b", "c", "d", "e", "f"] {
+            let recipe = recipe(seed);
+            let Place::Corpus(drawn) = places(&recipe, &corpus).unwrap().0[0] else { unreachable!() };
+            first.push(drawn);
+            let minted = mint(&recipe, &corpus, Digest::of(b""), &()).unwrap();
+            assert_eq!(minted.cards[0].title, "fetch");
+        }
+        assert!(first.contains(&0) && first.contains(&1), "{first:?}");
+    }
+
+    /// Only a game without levels is passed over: what is broken is told.
+    #[test]
+    fn a_broken_game_of_the_reserve_is_told() {
+        let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
+        let corpus = corpus(&[("hopeless", &hopeless), ("torn", "BasicGame\n    SpriteSet\n")]);
+        for seed in ["a", "b", "c", "d"] {
+            let error = mint(&recipe(seed), &corpus, Digest::of(b""), &()).unwrap_err();
+            assert!(matches!(&error, MintError::BrokenCorpus { name, .. } if name == "torn"), "{error}");
+        }
+    }
 
     #[test]
     fn slugs_are_plain() {

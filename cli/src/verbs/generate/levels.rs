@@ -17,7 +17,7 @@ use snapshots::levels::{
     LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels, unconstrained_pool,
 };
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use validators::{Difficulty, RuleRef};
 
@@ -96,15 +96,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let examples = examples(&input, &game)?;
     let order = order(args, &examples, &game)?;
     // Before minutes of work: is there a place to write to?
-    if let Some(dir) =
-        args.report.as_deref().filter(|dir| dir.read_dir().is_ok_and(|mut dir| dir.next().is_some()))
-    {
-        return Err(Failure::malformed(format!(
-            "--report: {} is not empty; name another folder",
-            dir.display()
-        )));
-    }
     let draft = Draft::create(&args.out).map_err(failure)?;
+    let report_draft = args.report.as_deref().map(Draft::create).transpose().map_err(failure)?;
     let bar = Bar(console.progress(u64::from(args.count), "levels"));
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
@@ -122,9 +115,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     draft.write("levels.json", &pretty(&document(args, &game, &set))?).map_err(failure)?;
     draft.commit().map_err(failure)?;
     let seconds = started.seconds();
-    if let Some(dir) = &args.report {
+    if let Some(report_draft) = report_draft {
         let bar = console.progress(0, "report");
-        in_pool(args.jobs, || report(args, dir, &game, &order, &examples, &set, seconds))??;
+        in_pool(args.jobs, || report(args, report_draft, &game, &order, &examples, &set, seconds))??;
         bar.finish_and_clear();
     }
     console.document(&document(args, &game, &set))?;
@@ -176,7 +169,7 @@ const POOL: u32 = 60;
 /// Judges the levels afresh and writes the report on them.
 fn report(
     args: &Args,
-    dir: &Path,
+    draft: Draft,
     game: &Game,
     order: &LevelOrder,
     examples: &[Level],
@@ -214,7 +207,7 @@ fn report(
         examples,
         seconds: Some(seconds),
     };
-    write_level_report(dir, &report, &pictures)
+    write_level_report(draft, &report, &pictures)
 }
 
 struct Bar(ProgressBar);
