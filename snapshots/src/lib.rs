@@ -48,6 +48,7 @@ mod corpus;
 mod draft;
 mod error;
 pub mod folder;
+pub mod games;
 mod integrity;
 pub mod levels;
 mod manifest;

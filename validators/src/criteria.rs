@@ -51,6 +51,8 @@ pub struct Criteria {
     pub skill_wins: f64,
     /// … or else their mean scores, as a share of the range of all scores.
     pub skill_scores: f64,
+    /// By how much win rates must differ over all levels together, at the lower end of the 95 % interval.
+    pub skill_overall: f64,
     /// Forward-model calls to show that a rule matters, for each rule.
     pub ablation_calls: u64,
 }
@@ -60,7 +62,7 @@ pub const LEVEL_CRITERIA: &[&str] =
     &["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length", "skill"];
 
 /// The criteria of a game over all its levels, in the order of asking.
-pub const GAME_CRITERIA: &[&str] = &["rule-use", "ablation"];
+pub const GAME_CRITERIA: &[&str] = &["skill-overall", "rule-use", "ablation"];
 
 impl Default for Criteria {
     /// What minting asks unless the recipe says otherwise: what is cheap enough for many candidates.
@@ -89,6 +91,7 @@ impl Default for Criteria {
             patience: 3,
             skill_wins: 0.25,
             skill_scores: 0.1,
+            skill_overall: 0.25,
             ablation_calls: 200_000,
         }
     }
@@ -105,10 +108,17 @@ pub struct CriteriaError {
 }
 
 impl Criteria {
-    /// Every criterion: for one game, where minting asks of many candidates.
+    /// Every criterion for one game, where minting asks of many candidates; without `skill-overall`, which a good game can be
+    /// too hard for.
     pub fn full() -> Criteria {
-        let ask = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).map(|&name| name.to_owned()).collect();
-        Criteria { ask, ..Criteria::default() }
+        let all = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).filter(|&&name| name != "skill-overall");
+        Criteria { ask: all.map(|&name| name.to_owned()).collect(), ..Criteria::default() }
+    }
+
+    /// Every criterion: for games that are made, of which there are many to choose from.
+    pub fn of_made_games() -> Criteria {
+        let all = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA);
+        Criteria { ask: all.map(|&name| name.to_owned()).collect(), ..Criteria::default() }
     }
 
     /// Whether a criterion is asked.
@@ -132,6 +142,12 @@ impl Criteria {
                 format!("names no criterion `{unknown}`{help} There are {}", all.join(", ")),
             );
         }
+        if self.asks("skill-overall") && !self.asks("skill") {
+            return wrong(
+                "ask",
+                "names `skill-overall`, which needs the plays of `skill`: name both".to_owned(),
+            );
+        }
         let depths = &self.depths;
         if depths.is_empty() || depths.len() > 20 || depths.iter().any(|depth| !(1..=1000).contains(depth)) {
             return wrong("depths", "takes 1 to 20 numbers of ticks, each from 1 to 1000".to_owned());
@@ -142,6 +158,7 @@ impl Criteria {
             ("early_deaths", self.early_deaths),
             ("skill_wins", self.skill_wins),
             ("skill_scores", self.skill_scores),
+            ("skill_overall", self.skill_overall),
         ] {
             if !(0.0..=1.0).contains(&share) {
                 return wrong(key, format!("is {share}; it takes a share from 0 to 1"));
@@ -209,12 +226,14 @@ mod tests {
     fn values_out_of_range_are_told_with_their_key() {
         assert_eq!(Criteria::default().check(), Ok(()));
         assert_eq!(Criteria::full().check(), Ok(()));
+        assert_eq!(Criteria::of_made_games().check(), Ok(()));
         check(|criteria| criteria.ask.push("winable".to_owned()), "did you mean `winnable`?");
         check(|criteria| criteria.ladder.push("mtcs:9".to_owned()), "`ladder` names");
         check(|criteria| criteria.held_out.push("mcts:x".to_owned()), "`held_out` names");
         check(|criteria| criteria.depths.clear(), "`depths`");
         check(|criteria| criteria.skill_wins = 1.5, "`skill_wins` is 1.5");
         check(|criteria| criteria.least_ticks = 5000, "`least_ticks`");
+        check(|criteria| criteria.ask = vec!["skill-overall".to_owned()], "needs the plays of `skill`");
         check(|criteria| criteria.patience = 0, "`patience` is 0");
     }
 }

@@ -1,5 +1,6 @@
 //! Judgements on a game over all its levels.
 
+use crate::ladder::Ladder;
 use crate::panel::{Judgement, Report};
 use crate::recording::{Recorded, Usage};
 use crate::verdict::Finding;
@@ -15,6 +16,8 @@ pub struct GameCase<'a> {
     pub analysis: &'a Analysis,
     /// Its levels with the episodes of their judges.
     pub recording: &'a [Recorded<'a>],
+    /// How the players of a ladder fared on each, where one played.
+    pub ladders: &'a [Option<&'a Ladder>],
     /// What those episodes show.
     pub(crate) usage: &'a Usage,
     /// Where the validator's own chance comes from.

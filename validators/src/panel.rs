@@ -5,7 +5,7 @@ use crate::game_report::{GameCase, GameReport, GameValidator};
 use crate::recording::{Recorded, Usage, explore};
 use crate::{
     Case, Criteria, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom, Reachable, Readable,
-    RuleUse, SkillPays, Validator, Verdict, WellFormed, Winnable,
+    RuleUse, SkillOverall, SkillPays, Validator, Verdict, WellFormed, Winnable,
 };
 use agents::PortfolioConfig;
 use engine::{Analysis, Episode, Game, Level, Outcome, Seed};
@@ -131,7 +131,8 @@ impl Panel {
                 }),
             ),
         ];
-        let game: [(&str, Box<dyn GameValidator + Send>); 2] = [
+        let game: [(&str, Box<dyn GameValidator + Send>); 3] = [
+            ("skill-overall", Box::new(SkillOverall { wins: c.skill_overall })),
             ("rule-use", Box::new(RuleUse)),
             ("ablation", Box::new(RulesMatter { calls: c.ablation_calls })),
         ];
@@ -185,10 +186,18 @@ impl Panel {
         }
         let recording = recorded(levels, &episodes);
         let usage = Usage::of(game, &recording);
+        let ladders: Vec<Option<&Ladder>> = reports.iter().map(Report::ladder).collect();
         let judge = |validator: &(dyn GameValidator + Send)| {
             let criterion = validator.name();
             let seed = seed.child(criterion, 0);
-            let case = GameCase { game, analysis: &analysis, recording: &recording, usage: &usage, seed };
+            let case = GameCase {
+                game,
+                analysis: &analysis,
+                recording: &recording,
+                ladders: &ladders,
+                usage: &usage,
+                seed,
+            };
             Judgement { criterion, finding: validator.validate(case) }
         };
         self.of_game.iter().map(|validator| judge(&**validator)).collect()

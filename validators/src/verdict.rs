@@ -70,6 +70,13 @@ impl From<Verdict> for Finding {
 }
 
 impl Finding {
+    /// Forward-model calls of all that it took: plays that were measured, searches, and the players of a ladder.
+    pub fn calls(&self) -> u64 {
+        let ladder = self.ladder.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out));
+        let ladder: u64 = ladder.map(|fared| fared.rate.calls).sum();
+        self.searched.unwrap_or(0) + self.measured.as_ref().map_or(0, |rate| rate.calls) + ladder
+    }
+
     /// With a rate.
     #[must_use]
     pub fn measured(self, rate: Rate) -> Finding {

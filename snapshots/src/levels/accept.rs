@@ -1,7 +1,6 @@
 //! The last word on a level: the panel, and what the order asks beside.
 
 use super::aim::within;
-use super::look::cost;
 use super::order::LevelOrder;
 use engine::{Analysis, Level, Seed};
 use validators::{Case, Climb, Criteria, Difficulty, Ladder, Panel, Report};
@@ -42,7 +41,7 @@ impl<'a> Gate<'a> {
         let game = self.analysis.game();
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let report = self.panel.screen(game, level, seed.child("panel", 0));
-        let calls = report.judgements.iter().map(|judgement| cost(&judgement.finding)).sum();
+        let calls = report.judgements.iter().map(|judgement| judgement.finding.calls()).sum();
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
         let mut judged = Judged { obstacle, report, ladder: None, calls };
         let (None, Some(witness)) = (obstacle, judged.report.witness.clone()) else {

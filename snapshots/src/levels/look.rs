@@ -119,7 +119,7 @@ impl<'a> Looker<'a> {
         let ask = |validator: &dyn Validator, calls: &mut u64| {
             let case = self.case(level, seed.child(validator.name(), 0), None);
             let finding = validator.validate(case);
-            *calls += cost(&finding);
+            *calls += finding.calls();
             finding
         };
         let sound = passes(&ask(&WellFormed, calls));
@@ -209,11 +209,4 @@ fn passes(finding: &Finding) -> f64 {
 
 fn win_share(finding: &Finding) -> f64 {
     finding.measured.as_ref().map_or(0.0, |rate| rate.wins as f64 / rate.plays.max(1) as f64)
-}
-
-/// The forward-model calls of a finding.
-pub(super) fn cost(finding: &Finding) -> u64 {
-    let ladder = finding.ladder.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out));
-    let ladder: u64 = ladder.map(|fared| fared.rate.calls).sum();
-    finding.searched.unwrap_or(0) + finding.measured.as_ref().map_or(0, |rate| rate.calls) + ladder
 }

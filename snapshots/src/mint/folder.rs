@@ -3,6 +3,7 @@
 use super::{Filled, MintError, Minted, Tally};
 use crate::canonical::to_canonical_json;
 use crate::card::{Card, Origin};
+use crate::games::MadeGame;
 use crate::manifest::{FORMAT, Item, Kind, Manifest};
 use crate::recipe::Recipe;
 use crate::witness::Witness;
@@ -20,13 +21,13 @@ pub(super) fn assemble(recipe: &Recipe, lockfile: Digest, games: Vec<Filled>) ->
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     let mut cards = Vec::new();
     let mut tally = Tally::default();
-    for Filled { card, text, levels, tally: spent, .. } in games {
+    for Filled { made: MadeGame { card, text, levels, witnesses, .. }, tally: spent, .. } in games {
         let folder = format!("games/{}", card.id);
         files.push((format!("{folder}/game.vgdl"), text.into_bytes()));
         files.push((format!("{folder}/card.json"), json(&card)?));
-        for (number, level) in levels.into_iter().enumerate() {
-            files.push((format!("{folder}/{}", level.card.file), level.text.into_bytes()));
-            let witness = Witness { canary: canary.clone(), episode: level.witness };
+        for (number, (level, episode)) in levels.iter().zip(witnesses).enumerate() {
+            files.push((format!("{folder}/lvl{number}.txt"), level.level.to_string().into_bytes()));
+            let witness = Witness { canary: canary.clone(), episode };
             files.push((format!("{folder}/witness/lvl{number}.json"), json(&witness)?));
         }
         tally.add(&spent);

@@ -4,18 +4,17 @@
 //! until one passes, so the bytes of a release depend on the recipe alone: not on threads, order or time.
 
 mod folder;
-mod level;
 mod tally;
 
 use crate::card::{Card, Origin};
 use crate::corpus::Corpus;
+use crate::games::{Candidate, Levels, MadeGame};
 use crate::manifest::Manifest;
 use crate::recipe::{Part, Recipe};
 use crate::{Digest, SnapshotError};
-use engine::{Description, Game, Sampler, Seed, syntax};
-use generators::games::{ConstructiveGames, GameConfig, GeneratedGame, Kind};
+use engine::{Game, Sampler, Seed};
+use generators::games::{ConstructiveGames, GameConfig, Kind};
 use generators::{GenerateError, Generator};
-use level::{Levels, MintedLevel};
 use rayon::prelude::*;
 pub use tally::Tally;
 pub(crate) use tally::reasons;
@@ -91,9 +90,7 @@ enum Place {
 
 /// A filled place.
 struct Filled {
-    card: Card,
-    text: String,
-    levels: Vec<MintedLevel>,
+    made: MadeGame,
     /// The rules with names taken away: equal for games that differ in fiction only.
     shape: Digest,
     tally: Tally,
@@ -151,17 +148,6 @@ struct Mint<'a> {
     progress: &'a dyn Progress,
 }
 
-/// A candidate before it has levels.
-struct Candidate {
-    game: Game,
-    title: String,
-    description: String,
-    goal: String,
-    kind: String,
-    real_time: bool,
-    origin: Origin,
-}
-
 impl Mint<'_> {
     /// Fills a place with the first candidate, from number `from` on, that passes.
     fn fill(&self, place: Place, from: u32) -> Result<Filled, MintError> {
@@ -180,14 +166,21 @@ impl Mint<'_> {
                     continue;
                 }
             };
-            let levels = Levels { recipe: self.recipe, part, panel: &self.panel, seed };
-            let found = levels.mint(&candidate.game, &mut tally);
+            let levels = Levels {
+                count: part.levels,
+                tries: part.level_tries,
+                board: &self.recipe.board,
+                criteria: &self.recipe.criteria,
+                panel: &self.panel,
+                seed,
+            };
+            let found = levels.find(&candidate.game, &mut tally);
             self.progress.tried(&name, found.is_some());
-            if let Some(levels) = found {
+            let canary = folder::canary_of(self.recipe);
+            if let Some(made) = found.and_then(|found| candidate.finish(found, &canary)) {
                 tally.game_accepted();
-                let filled = self.finish(candidate, levels, tally);
-                self.progress.filled(&filled.card);
-                return Ok(filled);
+                self.progress.filled(&made.card);
+                return Ok(Filled { shape: crate::shape::shape(made.game.description()), made, tally });
             }
         }
         Err(MintError::Unfilled { place: name, tried: tries - from.min(tries), why: tally.reasons() })
@@ -242,7 +235,9 @@ impl Mint<'_> {
                 self.recipe.root_seed().child("kinds", 0).sampler().shuffle(&mut kinds);
                 let kind = kinds[number_of_place as usize % kinds.len()];
                 let generator = ConstructiveGames::new(GameConfig { kinds: vec![kind] });
-                Ok(generator.generate(seed.child("rules", 0)).and_then(|made| generated_game(made, number)))
+                Ok(generator
+                    .generate(seed.child("rules", 0))
+                    .and_then(|made| Candidate::generated(made, "constructive", number)))
             }
         }
     }
@@ -264,44 +259,12 @@ impl Mint<'_> {
         })
     }
 
-    fn finish(&self, candidate: Candidate, levels: Vec<MintedLevel>, tally: Tally) -> Filled {
-        let Candidate { game, title, description, goal, kind, real_time, origin } = candidate;
-        let canary = folder::canary_of(self.recipe);
-        let slug = match &origin {
-            Origin::Corpus { name } => name.clone(),
-            Origin::Generated { .. } => slug(&title),
-        };
-        let mut tree: Description = game.description().clone();
-        tree.header.trivia.above.insert(0, format!("canary {canary}"));
-        tree.header.trivia.above.insert(0, title.clone());
-        Filled {
-            text: syntax::print(&tree),
-            shape: crate::shape::shape(game.description()),
-            card: Card {
-                canary,
-                id: format!("{slug}-{}", game.digest().short()),
-                title,
-                description,
-                goal,
-                kind,
-                real_time,
-                deterministic: game.is_deterministic(),
-                digest: game.digest(),
-                origin,
-                rules: engine::describe(&game),
-                levels: levels.iter().map(|level| level.card.clone()).collect(),
-            },
-            levels,
-            tally,
-        }
-    }
-
     /// Fills a place anew if an earlier one holds the same rules: the later place moves on to its next candidates.
     fn replace_twins(&self, places: &[Place], games: &mut [Filled]) -> Result<(), MintError> {
         for at in 1..games.len() {
             loop {
                 let twin = games[..at].iter().any(|other| other.shape == games[at].shape);
-                let Origin::Generated { candidate, .. } = games[at].card.origin else { break };
+                let Origin::Generated { candidate, .. } = games[at].made.card.origin else { break };
                 if !twin {
                     break;
                 }
@@ -313,31 +276,6 @@ impl Mint<'_> {
         }
         Ok(())
     }
-}
-
-fn generated_game(made: GeneratedGame, candidate: u32) -> Result<Candidate, GenerateError> {
-    let GeneratedGame { description, title, summary, goal, kind, real_time, patterns } = made;
-    // From the print: what is judged is what is frozen.
-    let game = Game::from_source(&syntax::print(&description))
-        .map_err(|problems| GenerateError::Unlucky(format!("the rules do not compile: {problems}")))?;
-    let origin = Origin::Generated { generator: "constructive".to_owned(), patterns, candidate };
-    let kind = kind.name().to_owned();
-    Ok(Candidate { game, title, description: summary, goal, kind, real_time, origin })
-}
-
-/// A title as a folder name: lower-case letters, digits, single dashes.
-fn slug(title: &str) -> String {
-    let mut slug = String::new();
-    for c in title.chars() {
-        if c.is_ascii_alphanumeric() {
-            slug.push(c.to_ascii_lowercase());
-        } else if !slug.ends_with('-') && !slug.is_empty() && c != '\'' {
-            slug.push('-');
-        }
-    }
-    slug.truncate(40);
-    let slug = slug.trim_end_matches('-');
-    if slug.is_empty() { "game".to_owned() } else { slug.to_owned() }
 }
 
 #[cfg(test)]
@@ -419,12 +357,5 @@ mod tests {
             let error = mint(&recipe(seed), &corpus, Digest::of(b""), &()).unwrap_err();
             assert!(matches!(&error, MintError::BrokenCorpus { name, .. } if name == "torn"), "{error}");
         }
-    }
-
-    #[test]
-    fn slugs_are_plain() {
-        assert_eq!(slug("The Salt Orchard"), "the-salt-orchard");
-        assert_eq!(slug("  Keeper's  — Light! "), "keepers-light");
-        assert_eq!(slug("!!"), "game");
     }
 }

@@ -21,19 +21,19 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub(super) fn game_accepted(&mut self) {
+    pub(crate) fn game_accepted(&mut self) {
         self.games_tried += 1;
         self.games_accepted += 1;
     }
 
-    pub(super) fn game_rejected(&mut self, why: &str) {
+    pub(crate) fn game_rejected(&mut self, why: &str) {
         self.games_tried += 1;
         // The generator's own words after the colon differ with every seed.
         let kind = why.split(':').next().unwrap_or(why).to_owned();
         *self.rejections.entry(kind).or_default() += 1;
     }
 
-    pub(super) fn level(&mut self, calls: u64, obstacle: Option<&str>) {
+    pub(crate) fn level(&mut self, calls: u64, obstacle: Option<&str>) {
         self.levels_tried += 1;
         self.calls += calls;
         match obstacle {
@@ -42,17 +42,17 @@ impl Tally {
         }
     }
 
-    pub(super) fn calls(&mut self, calls: u64) {
+    pub(crate) fn calls(&mut self, calls: u64) {
         self.calls += calls;
     }
 
-    pub(super) fn twin(&mut self) {
+    pub(crate) fn twin(&mut self) {
         self.games_accepted -= 1;
         *self.rejections.entry("same rules as another game".to_owned()).or_default() += 1;
     }
 
     /// Adds the counts of another place.
-    pub(super) fn add(&mut self, other: &Tally) {
+    pub(crate) fn add(&mut self, other: &Tally) {
         self.games_tried += other.games_tried;
         self.games_accepted += other.games_accepted;
         self.levels_tried += other.levels_tried;

@@ -1,0 +1,111 @@
+//! A game before it has levels, and a game that is made: with levels, a card and an episode that wins each.
+
+use super::levels::{FoundLevel, FoundLevels};
+use crate::card::{Card, Origin};
+use engine::{Episode, Game, syntax};
+use generators::GenerateError;
+use generators::games::GeneratedGame;
+use validators::Judgement;
+
+/// A candidate before it has levels.
+#[derive(Clone, Debug)]
+pub(crate) struct Candidate {
+    pub(crate) game: Game,
+    pub(crate) title: String,
+    pub(crate) description: String,
+    pub(crate) goal: String,
+    pub(crate) kind: String,
+    pub(crate) real_time: bool,
+    pub(crate) origin: Origin,
+}
+
+/// A game with its levels, all of which its judges let in.
+#[derive(Clone, Debug)]
+pub struct MadeGame {
+    /// The rules.
+    pub game: Game,
+    /// The rules as text, headed by title and canary.
+    pub text: String,
+    /// What is told of it.
+    pub card: Card,
+    /// Its levels, from the easiest that was asked for to the hardest.
+    pub levels: Vec<FoundLevel>,
+    /// What was found of all levels together.
+    pub together: Vec<Judgement>,
+    /// The episode that wins each level.
+    pub witnesses: Vec<Episode>,
+}
+
+impl Candidate {
+    /// A generated game: which candidate for its place it is, and who made it.
+    pub(crate) fn generated(
+        made: GeneratedGame,
+        generator: &str,
+        candidate: u32,
+    ) -> Result<Candidate, GenerateError> {
+        let GeneratedGame { description, title, summary, goal, kind, real_time, patterns } = made;
+        // From the print: what is judged is what is frozen.
+        let game = Game::from_source(&syntax::print(&description))
+            .map_err(|problems| GenerateError::Unlucky(format!("the rules do not compile: {problems}")))?;
+        let origin = Origin::Generated { generator: generator.to_owned(), patterns, candidate };
+        let kind = kind.name().to_owned();
+        Ok(Candidate { game, title, description: summary, goal, kind, real_time, origin })
+    }
+
+    /// The game with its levels; none if its judges were not asked what cards tell.
+    pub(crate) fn finish(self, found: FoundLevels, canary: &str) -> Option<MadeGame> {
+        let Candidate { game, title, description, goal, kind, real_time, origin } = self;
+        let slug = match &origin {
+            Origin::Corpus { name } => name.clone(),
+            Origin::Generated { .. } => slug(&title),
+        };
+        let mut tree = game.description().clone();
+        tree.header.trivia.above.insert(0, format!("canary {canary}"));
+        tree.header.trivia.above.insert(0, title.clone());
+        let cards = found.levels.iter().enumerate().map(|(number, level)| level.card(number));
+        let (levels, witnesses) = cards.collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        let card = Card {
+            canary: canary.to_owned(),
+            id: format!("{slug}-{}", game.digest().short()),
+            title,
+            description,
+            goal,
+            kind,
+            real_time,
+            deterministic: game.is_deterministic(),
+            digest: game.digest(),
+            origin,
+            rules: engine::describe(&game),
+            levels,
+        };
+        let FoundLevels { levels, together } = found;
+        Some(MadeGame { text: syntax::print(&tree), game, card, levels, together, witnesses })
+    }
+}
+
+/// A title as a folder name: lower-case letters, digits, single dashes.
+fn slug(title: &str) -> String {
+    let mut slug = String::new();
+    for c in title.chars() {
+        if c.is_ascii_alphanumeric() {
+            slug.push(c.to_ascii_lowercase());
+        } else if !slug.ends_with('-') && !slug.is_empty() && c != '\'' {
+            slug.push('-');
+        }
+    }
+    slug.truncate(40);
+    let slug = slug.trim_end_matches('-');
+    if slug.is_empty() { "game".to_owned() } else { slug.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::slug;
+
+    #[test]
+    fn slugs_are_plain() {
+        assert_eq!(slug("The Salt Orchard"), "the-salt-orchard");
+        assert_eq!(slug("  Keeper's  — Light! "), "keepers-light");
+        assert_eq!(slug("!!"), "game");
+    }
+}

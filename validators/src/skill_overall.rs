@@ -1,0 +1,170 @@
+//! Does it pay to play well, over all levels together?
+
+use crate::evidence::Evidence;
+use crate::game_report::{GameCase, GameValidator};
+use crate::ladder::{Fared, Ladder};
+use crate::verdict::{Finding, Verdict};
+use engine::Outcome;
+use statistics::Z95;
+
+/// Over all levels together, the strongest player of the ladder wins more often than the best of those who do not look ahead,
+/// and so does the strongest of those held out: by a margin that even the lower end of the 95 % interval of the difference
+/// (Newcombe's) reaches. One level has too few plays to be so sure; five have enough.
+///
+/// In a deterministic game of which every level has a win, who knows the way is such a player, and held out. Cost: none; the
+/// plays are those of the criterion `skill`.
+#[derive(Clone, Copy, Debug)]
+pub struct SkillOverall {
+    /// The margin, as a difference of win rates.
+    pub wins: f64,
+}
+
+/// Wins and plays of one player on all levels.
+struct Total {
+    player: String,
+    looks_ahead: bool,
+    wins: u64,
+    plays: u64,
+}
+
+impl GameValidator for SkillOverall {
+    fn name(&self) -> &'static str {
+        "skill-overall"
+    }
+
+    fn validate(&self, case: GameCase<'_>) -> Finding {
+        let ladders: Option<Vec<&Ladder>> = case.ladders.iter().copied().collect();
+        let Some(ladders) = ladders.filter(|ladders| !ladders.is_empty()) else {
+            return Verdict::Unknown { spent: 0 }.into();
+        };
+        let rungs = totals(&ladders, |ladder| &ladder.rungs);
+        let held_out = totals(&ladders, |ladder| &ladder.held_out);
+        let Some(floor) = strongest(rungs.iter().filter(|total| !total.looks_ahead)) else {
+            return Verdict::Unknown { spent: 0 }.into();
+        };
+        let won = |episodes: &[engine::Episode]| episodes.iter().any(|played| played.outcome == Outcome::Won);
+        let planned =
+            case.game.is_deterministic() && case.recording.iter().all(|recorded| won(recorded.episodes));
+        let knows = planned.then(|| Total {
+            player: "who knows the way".to_owned(),
+            looks_ahead: true,
+            wins: floor.plays,
+            plays: floor.plays,
+        });
+        let climbing = rungs.iter().filter(|total| total.looks_ahead);
+        let sides = [strongest(climbing.chain(&knows)), strongest(held_out.iter().chain(&knows))];
+        let mut evidence = Vec::new();
+        let mut least = f64::INFINITY;
+        for total in sides {
+            let Some(total) = total else { return Verdict::Unknown { spent: 0 }.into() };
+            let interval = statistics::difference([total.wins, floor.wins], [total.plays, floor.plays], Z95);
+            least = least.min(interval.low);
+            evidence.push(Evidence::new(format!(
+                "on all levels {} wins {} of {}, {} {} of {} (95 %: {:+.0} to {:+.0} points)",
+                total.player,
+                total.wins,
+                total.plays,
+                floor.player,
+                floor.wins,
+                floor.plays,
+                100.0 * interval.low,
+                100.0 * interval.high,
+            )));
+        }
+        let verdict = if least >= self.wins {
+            Verdict::pass()
+        } else {
+            Verdict::fail(format!(
+                "playing well pays too little over all levels: {:+.0} points at the lower end of the interval, {:.0} wanted",
+                100.0 * least,
+                100.0 * self.wins
+            ))
+        };
+        Finding::from(verdict).seen(evidence)
+    }
+}
+
+/// How each player fared on all levels; all ladders have the same players.
+fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<Fared>) -> Vec<Total> {
+    let first = ladders.first().map_or(&[][..], |ladder| of(ladder));
+    let total = |(at, fared): (usize, &Fared)| {
+        let rates = || ladders.iter().filter_map(|ladder| of(ladder).get(at)).map(|fared| &fared.rate);
+        Total {
+            player: fared.player.clone(),
+            looks_ahead: fared.looks_ahead,
+            wins: rates().map(|rate| rate.wins).sum(),
+            plays: rates().map(|rate| rate.plays).sum(),
+        }
+    };
+    first.iter().enumerate().map(total).collect()
+}
+
+/// Who wins the greatest share; of equals, the weaker by name of the ladder.
+fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
+    let share = |total: &Total| total.wins as f64 / total.plays.max(1) as f64;
+    totals.fold(None, |best: Option<&Total>, total| match best {
+        Some(best) if share(best) >= share(total) => Some(best),
+        _ => Some(total),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Criteria, Panel};
+    use engine::{Game, Seed};
+
+    /// Fetch the gem; where chance comes in, whoever stands still is caught sooner or later.
+    const GAME: &str = "BasicGame
+    SpriteSet
+        wall > Immovable
+        gem > Immovable
+        ghost > RandomNPC cooldown=4
+        avatar > MovingAvatar
+    LevelMapping
+        g > gem
+        r > ghost
+    InteractionSet
+        avatar wall > stepBack
+        ghost wall > stepBack
+        avatar ghost > killSprite
+        gem avatar > killSprite scoreChange=1
+    TerminationSet
+        SpriteCounter stype=gem win=True
+        SpriteCounter stype=avatar win=False
+        Timeout limit=12 win=False
+";
+
+    /// Six steps, and a detour for whoever goes straight.
+    const FAR: &str = "wwwwwww\nwA   ww\nww w  w\nwr w gw\nwwwwwww\n";
+
+    #[track_caller]
+    fn check(game: &str, level: &str, passes: bool, words: &str) {
+        let game = Game::from_source(game).unwrap();
+        let level = game.level(level).unwrap();
+        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
+        let criteria = Criteria {
+            ask: names(&["winnable", "skill", "skill-overall"]),
+            budget: 20_000,
+            ladder: names(&["do-nothing", "random", "olets:200"]),
+            held_out: names(&["olets:300"]),
+            ..Criteria::default()
+        };
+        let report = Panel::new(&criteria).judge_game(&game, &[level], Seed::from_text("overall"));
+        let finding = &report.judgements[0].finding;
+        assert_eq!(finding.verdict.is_pass(), passes, "{finding:?}");
+        assert!(finding.evidence.iter().any(|seen| seen.text.contains(words)), "{finding:?}");
+    }
+
+    #[test]
+    fn what_only_a_plan_wins_pays_and_what_anybody_wins_does_not() {
+        check(GAME, FAR, true, "olets:300 wins");
+        check(GAME, "wwwwww\nwAg rw\nwwwwww\n", false, "olets:200 wins");
+    }
+
+    #[test]
+    fn where_nothing_is_left_to_chance_who_knows_the_way_is_a_player() {
+        let plain = GAME.replace("RandomNPC cooldown=4", "Immovable");
+        check(&plain, FAR, true, "knows the way");
+    }
+}
