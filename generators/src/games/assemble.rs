@@ -9,18 +9,28 @@ use engine::syntax::{
     Header, InteractionLine, MappingLine, Param, SpriteLine, TerminationLine, Trivia, Word,
 };
 
-/// Lays the draft out.
+/// Adds the rules and the ending that follow from the bodies and from what harms, and puts all in the order of the
+/// InteractionSet and the TerminationSet.
+pub(crate) fn complete(draft: &mut Draft) {
+    let order = drawing_order(draft);
+    let derived: Vec<Rule> = movement(draft, &order).into_iter().chain(harm(draft)).collect();
+    draft.rules.extend(derived);
+    draft.rules.sort_by_key(|rule| rule.phase);
+    if !draft.harms.is_empty() {
+        draft.endings.insert(0, (Ending::Gone(vec![AVATAR]), false));
+    }
+    // Losing comes before winning, time last.
+    draft.endings.sort_by_key(|(ending, win)| (matches!(ending, Ending::Timeout(_)), *win));
+}
+
+/// Lays a complete draft out.
 pub(crate) fn describe(draft: &Draft) -> Description {
     let order = drawing_order(draft);
-    let mut rules = draft.rules.clone();
-    rules.extend(movement(draft, &order));
-    rules.extend(harm(draft));
-    rules.sort_by_key(|rule| rule.phase);
     Description {
         header: Header { class: "BasicGame".into(), ..Header::default() },
         sprites: sprites(draft, &order),
         mapping: mapping(draft, &order),
-        interactions: rules.iter().map(|rule| interaction(draft, rule)).collect(),
+        interactions: draft.rules.iter().map(|rule| interaction(draft, rule)).collect(),
         terminations: terminations(draft),
         has: [true; 4],
         ..Description::default()
@@ -29,7 +39,7 @@ pub(crate) fn describe(draft: &Draft) -> Description {
 
 /// All parts, what lies lowest first.
 fn drawing_order(draft: &Draft) -> Vec<Part> {
-    let mut order: Vec<Part> = draft.parts().collect();
+    let mut order: Vec<Part> = draft.parts().filter(|&part| !draft.sprite(part).gone).collect();
     order.sort_by_key(|&part| draft.sprite(part).body);
     order
 }
@@ -51,7 +61,7 @@ fn movement(draft: &Draft, order: &[Part]) -> Vec<Rule> {
             _ => Phase::Block,
         };
         for &effect in body.when_stopped().iter().filter(|_| !second.is_empty()) {
-            rules.push(Rule { phase, first: mover, second: second.clone(), effect, score: 0 });
+            rules.push(Rule { phase, first: mover, second: second.clone(), effect, score: 0, gene: None });
         }
     }
     // The hero first, then what else moves, in drawing order.
@@ -71,6 +81,7 @@ fn harm(draft: &Draft) -> Vec<Rule> {
         second: second.to_vec(),
         effect,
         score,
+        gene: None,
     };
     match draft.stamina {
         Stamina::Fragile => vec![line(AVATAR, &all, Effect::KillSprite, -2)],
@@ -160,31 +171,25 @@ fn interaction(draft: &Draft, rule: &Rule) -> InteractionLine {
     }
 }
 
-/// Losing comes before winning, time last.
 fn terminations(draft: &Draft) -> Vec<TerminationLine> {
-    let mut endings: Vec<(Ending, bool)> = draft.endings.clone();
-    if !draft.harms.is_empty() {
-        endings.insert(0, (Ending::Gone(vec![AVATAR]), false));
-    }
-    endings.sort_by_key(|(ending, win)| (matches!(ending, Ending::Timeout(_)), *win));
-    let lines = endings.into_iter().map(|(ending, win)| {
+    let lines = draft.endings.iter().map(|(ending, win)| {
         let (class, mut params) = match ending {
             Ending::Gone(parts) if parts.len() == 1 => {
                 ("SpriteCounter", vec![Param::new("stype", draft.name(parts[0])), Param::new("limit", 0)])
             }
             Ending::Gone(parts) => {
                 let keys = ["stype1", "stype2", "stype3"];
-                let named = keys.iter().zip(&parts).map(|(key, &part)| Param::new(key, draft.name(part)));
+                let named = keys.iter().zip(parts).map(|(key, &part)| Param::new(key, draft.name(part)));
                 assert!(parts.len() <= keys.len(), "MultiSpriteCounter counts three types");
                 ("MultiSpriteCounter", named.chain([Param::new("limit", 0)]).collect())
             }
-            Ending::Many(part, count) => {
+            &Ending::Many(part, count) => {
                 let params = vec![Param::new("stype", draft.name(part)), Param::new("limit", count)];
                 ("SpriteCounterMore", params)
             }
             Ending::Timeout(limit) => ("Timeout", vec![Param::new("limit", limit)]),
         };
-        params.push(Param::new("win", if win { "True" } else { "False" }));
+        params.push(Param::new("win", if *win { "True" } else { "False" }));
         TerminationLine { class: class.into(), params, trivia: Trivia::default() }
     });
     lines.collect()

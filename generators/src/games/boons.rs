@@ -72,7 +72,7 @@ fn coins(draft: &mut Draft, _: &mut Sampler) {
     let coin = draft.place(Role::Coin, SpriteClass::Immovable, Body::Item, &[]);
     draft.scored(Phase::Take, coin, &[AVATAR], Effect::KillSprite, 1);
     let clause = format!("{} are worth a point each", draft.many(coin));
-    draft.tell(clause);
+    draft.tell_points(clause);
 }
 
 /// One at a time ripens, somewhere.
@@ -87,5 +87,5 @@ pub(crate) fn bush(draft: &mut Draft, sampler: &mut Sampler) {
     let bush = draft.place(Role::Bush, SpriteClass::SpawnPoint, Body::Spot, &params);
     draft.scored(Phase::Take, berry, &[AVATAR], Effect::KillSprite, 1);
     let clause = format!("{} to be had at {} are worth a point each", draft.many(berry), draft.many(bush));
-    draft.tell(clause);
+    draft.tell_points(clause);
 }

@@ -6,9 +6,11 @@ use super::kind::Kind;
 use super::movement::MOVEMENTS;
 use super::obstacles::OBSTACLES;
 use super::pattern::{Feature, Goal, Pattern};
-use super::role::Role;
 use super::threats::THREATS;
 use engine::Sampler;
+
+/// Boons in one game at most.
+const BOONS_AT_MOST: usize = 2;
 
 /// The patterns of one game, in the order in which they are built.
 pub(crate) struct Composition {
@@ -72,14 +74,60 @@ impl Composition {
         sampler.weighted(&weights).map(|at| fitting[at])
     }
 
-    fn admits(&self, pattern: &Pattern) -> bool {
-        let taken = |role: &Role| self.patterns.iter().any(|other| other.roles.contains(role));
-        let barred = |other: &&'static Pattern| {
-            other.bars.iter().any(|feature| pattern.gives.contains(feature))
-                || pattern.bars.iter().any(|feature| other.gives.contains(feature))
-        };
-        !pattern.roles.iter().any(taken)
-            && pattern.needs.iter().all(|&feature| self.gives(feature))
-            && !self.patterns.iter().any(barred)
+    fn admits(&self, pattern: &'static Pattern) -> bool {
+        goes_with(&self.patterns, pattern)
     }
+}
+
+/// Whether a pattern finds what it needs among others, and neither it nor they bar the other.
+fn goes_with(patterns: &[&'static Pattern], pattern: &Pattern) -> bool {
+    let gives = |feature: &Feature| patterns.iter().any(|other| other.gives.contains(feature));
+    pattern.needs.iter().all(gives) && patterns.iter().all(|other| go_together(other, pattern))
+}
+
+/// Whether a game with these patterns can take in one more, for company.
+pub(crate) fn admits(goal: &Goal, patterns: &[&'static Pattern], pattern: &Pattern) -> bool {
+    let most = match family(pattern) {
+        "threat" => goal.threats.1 + 1,
+        "obstacle" => goal.obstacles.1 + 1,
+        _ => BOONS_AT_MOST,
+    };
+    let like = patterns.iter().filter(|other| family(other) == family(pattern)).count();
+    like < most && goes_with(patterns, pattern)
+}
+
+/// Whether two patterns can be in one game: they share no role, and neither brings what the other bars.
+fn go_together(one: &Pattern, two: &Pattern) -> bool {
+    let bars = |one: &Pattern, two: &Pattern| one.bars.iter().any(|feature| two.gives.contains(feature));
+    !one.roles.iter().any(|role| two.roles.contains(role)) && !bars(one, two) && !bars(two, one)
+}
+
+/// The family of a pattern: `threat` of `threat/patrol`.
+pub(crate) fn family(pattern: &Pattern) -> &'static str {
+    pattern.name.split_once('/').map_or(pattern.name, |(family, _)| family)
+}
+
+/// The patterns that can keep a goal company: threats, obstacles and boons.
+pub(crate) fn company() -> impl Iterator<Item = &'static Pattern> {
+    THREATS.iter().chain(OBSTACLES).chain(BOONS)
+}
+
+/// Whether these patterns make a game: a way of moving and the goal first, as much company as the goal takes and one more
+/// of a family, all of whom find what they need and meet nothing that they bar.
+pub(crate) fn is_coherent(goal: &'static Goal, patterns: &[&'static Pattern]) -> bool {
+    let [movement, aim, rest @ ..] = patterns else { return false };
+    let gives = |feature: &Feature| patterns.iter().any(|pattern| pattern.gives.contains(feature));
+    let count = |name: &str| rest.iter().filter(|pattern| family(pattern) == name).count();
+    let within = |name: &str, (least, most): (usize, usize)| (least..=most + 1).contains(&count(name));
+    let pairs = (0..patterns.len()).flat_map(|at| (0..at).map(move |before| (before, at)));
+    family(movement) == "movement"
+        && aim.name == goal.pattern.name
+        && goal.hero.iter().all(|feature| movement.gives.contains(feature))
+        && count("threat") + count("obstacle") + count("boon") == rest.len()
+        && within("threat", goal.threats)
+        && within("obstacle", goal.obstacles)
+        && count("boon") <= BOONS_AT_MOST
+        && patterns.iter().all(|pattern| pattern.needs.iter().all(gives))
+        && (!gives(&Feature::Strikes) || gives(&Feature::Prey))
+        && pairs.into_iter().all(|(one, two)| go_together(patterns[one], patterns[two]))
 }

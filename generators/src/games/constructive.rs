@@ -1,22 +1,10 @@
-//! The constructive generator of games: composes patterns, gives them a fiction, lays the game out.
+//! The constructive generator of games: draws patterns that go together, and a fiction, and builds the game.
 
-use super::assemble;
-use super::composition::Composition;
-use super::draft::{Draft, Ending, HERO};
-use super::english;
+use super::genome::GameGenome;
 use super::kind::Kind;
-use super::pattern::Feature;
-use super::theme::Theme;
 use crate::{GenerateError, Generator};
-use engine::{Description, Game, Seed};
+use engine::{Description, Seed};
 use serde::{Deserialize, Serialize};
-
-/// Compositions that are drawn for one game: a goal may find no company.
-const DRAWS: u64 = 16;
-/// Ticks of one unit of a goal's time.
-const TIME: u32 = 50;
-/// The same where the hero has to hold out: every tick counts.
-const SIEGE_TIME: u32 = 20;
 
 /// What games may be made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,81 +51,21 @@ impl ConstructiveGames {
     pub fn new(config: GameConfig) -> ConstructiveGames {
         ConstructiveGames { config }
     }
+
+    /// The genome of the game that a seed gives.
+    ///
+    /// # Errors
+    /// If no kinds are allowed, or this seed leads nowhere. Whether it builds, [`GameGenome::build`] says.
+    pub fn genome(&self, seed: Seed) -> Result<GameGenome, GenerateError> {
+        GameGenome::draw(&self.config, seed)
+    }
 }
 
 impl Generator for ConstructiveGames {
     type Output = GeneratedGame;
 
     fn generate(&self, seed: Seed) -> Result<GeneratedGame, GenerateError> {
-        if self.config.kinds.is_empty() {
-            return Err(GenerateError::Unsuitable("no kinds of games are allowed".to_owned()));
-        }
-        let drawn = (0..DRAWS).find_map(|draw| {
-            Composition::draw(&self.config.kinds, &mut seed.child("composition", draw).sampler())
-        });
-        let Some(composition) = drawn else {
-            return Err(GenerateError::Unlucky("no goal found company".to_owned()));
-        };
-        let game = build(&composition, seed);
-        match Game::compile(&game.description) {
-            Ok(compiled) if compiled.warnings().is_empty() => Ok(game),
-            Ok(compiled) => {
-                Err(GenerateError::Unlucky(format!("warned of: {}", compiled.warnings()[0].message)))
-            }
-            Err(problems) => Err(GenerateError::Unlucky(format!("the rules do not compile: {problems}"))),
-        }
-    }
-}
-
-fn build(composition: &Composition, seed: Seed) -> GeneratedGame {
-    let mut sampler = seed.child("fiction", 0).sampler();
-    let theme = *sampler.choose(Theme::ALL);
-    let mut draft = Draft::new(theme, seed.child("names", 0));
-    for (number, pattern) in composition.patterns.iter().enumerate() {
-        (pattern.build)(&mut draft, &mut seed.child(pattern.name, number as u64).sampler());
-    }
-    time_limit(&mut draft, composition, seed);
-    let kind = composition.goal.kind;
-    let title = draft.title(kind.deed(&mut sampler));
-    GeneratedGame {
-        description: assemble::describe(&draft),
-        title,
-        summary: summary(&draft),
-        goal: format!("{}.", english::capital(&draft.goal)),
-        kind,
-        real_time: composition.gives(Feature::Movers),
-        patterns: composition
-            .patterns
-            .iter()
-            .map(|pattern| pattern.name)
-            .chain([theme.name])
-            .map(str::to_owned)
-            .collect(),
-    }
-}
-
-/// Every game ends: lost when time is up, or won where holding out is the goal.
-fn time_limit(draft: &mut Draft, composition: &Composition, seed: Seed) {
-    let (least, most) = composition.goal.ticks;
-    let units = seed.child("time", 0).sampler().between(least as usize, most as usize) as u32;
-    let waiting = draft.endings.iter_mut().find(|(ending, _)| matches!(ending, Ending::Timeout(_)));
-    match waiting {
-        Some((ending, _)) => *ending = Ending::Timeout(SIEGE_TIME * units),
-        None => draft.endings.push((Ending::Timeout(TIME * units), false)),
-    }
-}
-
-/// Who is where, with what; then what else there is.
-fn summary(draft: &Draft) -> String {
-    let hero = draft.one(HERO);
-    let outfit = match draft.outfit.as_str() {
-        "" => String::new(),
-        outfit => format!(", {outfit},"),
-    };
-    let first = format!("{}{outfit} {}.", english::capital(&hero), draft.setting().place);
-    match draft.clauses[..] {
-        [] => first,
-        _ => format!("{first} {}.", english::capital(&english::series(&draft.clauses))),
+        self.genome(seed)?.build()
     }
 }
 
@@ -145,7 +73,7 @@ fn summary(draft: &Draft) -> String {
 mod tests {
     use super::*;
     use crate::levels::{ConstructiveLevels, LevelConfig};
-    use engine::Outcome;
+    use engine::{Game, Outcome};
     use std::collections::{BTreeMap, BTreeSet};
 
     fn games(count: u64) -> Vec<GeneratedGame> {

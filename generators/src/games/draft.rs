@@ -12,6 +12,21 @@ use engine::{Sampler, Seed, SpriteClass};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Part(usize);
 
+impl Part {
+    /// Its place among the sprite types of its draft.
+    pub(crate) fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// A sprite type of any draft that has it: no two patterns of a game share a role, so this holds whatever else changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Site {
+    pub(crate) role: Role,
+    /// Among the types of that role, in the order of their making.
+    pub(crate) nth: usize,
+}
+
 /// The type under everything.
 pub(crate) const FLOOR: Part = Part(0);
 /// The parent of the wall.
@@ -50,6 +65,10 @@ pub(crate) struct Sprite {
     pub(crate) body: Body,
     /// Whether levels can place it; else it comes into being during play.
     pub(crate) placed: bool,
+    /// The number of the pattern that it belongs to; none for floor, wall and hero.
+    pub(crate) gene: Option<usize>,
+    /// An edit took it out again.
+    pub(crate) gone: bool,
 }
 
 /// When in a tick a rule has its turn: the order of the InteractionSet.
@@ -83,6 +102,28 @@ pub(crate) struct Rule {
     pub(crate) second: Vec<Part>,
     pub(crate) effect: Effect,
     pub(crate) score: i32,
+    /// The number of the pattern that it belongs to; none if it follows from bodies, or was added by an edit.
+    pub(crate) gene: Option<usize>,
+}
+
+/// Something to know, in words.
+#[derive(Clone, Debug)]
+pub(crate) struct Clause {
+    pub(crate) text: String,
+    /// The number of the pattern that says so.
+    pub(crate) gene: Option<usize>,
+    pub(crate) claim: Claim,
+}
+
+/// What a clause is about: when it changes, the words do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Claim {
+    /// How the pattern works.
+    Fact,
+    /// How a sprite type moves.
+    Way(Part),
+    /// What something is worth.
+    Points,
 }
 
 /// A termination.
@@ -94,6 +135,17 @@ pub(crate) enum Ending {
     Many(Part, u32),
     /// Time is up.
     Timeout(u32),
+}
+
+impl Ending {
+    /// The types that it counts.
+    pub(crate) fn parts(&self) -> &[Part] {
+        match self {
+            Ending::Gone(parts) => parts,
+            Ending::Many(part, _) => std::slice::from_ref(part),
+            Ending::Timeout(_) => &[],
+        }
+    }
 }
 
 /// What touching a sprite does to it, besides harming the hero, when the hero survives.
@@ -143,7 +195,9 @@ pub(crate) struct Draft {
     /// What the hero has, in words.
     pub(crate) outfit: String,
     /// What else there is, in words.
-    pub(crate) clauses: Vec<String>,
+    pub(crate) clauses: Vec<Clause>,
+    /// The number of the pattern that is being built.
+    pub(crate) gene: Option<usize>,
     naming: Naming,
 }
 
@@ -161,6 +215,7 @@ impl Draft {
             goal: String::new(),
             outfit: String::new(),
             clauses: Vec::new(),
+            gene: None,
             naming: Naming::new(theme, names.sampler()),
         };
         let floor = draft.place(Role::Floor, SpriteClass::Immovable, Body::Floor, &[]);
@@ -190,6 +245,8 @@ impl Draft {
             parent: None,
             body,
             placed: true,
+            gene: self.gene,
+            gone: false,
         })
     }
 
@@ -225,6 +282,8 @@ impl Draft {
             parent: None,
             body,
             placed: false,
+            gene: self.gene,
+            gone: false,
         })
     }
 
@@ -239,18 +298,40 @@ impl Draft {
             parent: Some(AVATAR),
             body: Body::Hero,
             placed: false,
+            gene: self.gene,
+            gone: false,
         })
     }
 
     fn group(&mut self, name: &str, role: Role, class: Option<SpriteClass>, body: Body) -> Part {
         let name = name.to_owned();
-        self.add(Sprite { name, role, class, params: Vec::new(), parent: None, body, placed: false })
+        self.add(Sprite {
+            name,
+            role,
+            class,
+            params: Vec::new(),
+            parent: None,
+            body,
+            placed: false,
+            gene: self.gene,
+            gone: false,
+        })
     }
 
     fn child(&mut self, parent: Part, role: Role) -> Part {
         let (name, body) = (self.naming.word(role), self.sprites[parent.0].body);
         let parent = Some(parent);
-        self.add(Sprite { name, role, class: None, params: Vec::new(), parent, body, placed: true })
+        self.add(Sprite {
+            name,
+            role,
+            class: None,
+            params: Vec::new(),
+            parent,
+            body,
+            placed: true,
+            gene: self.gene,
+            gone: false,
+        })
     }
 
     fn add(&mut self, sprite: Sprite) -> Part {
@@ -275,6 +356,19 @@ impl Draft {
         self.sprites[part.0].placed = true;
     }
 
+    /// How edits call a part.
+    pub(crate) fn site(&self, part: Part) -> Site {
+        let role = self.sprite(part).role;
+        let nth = self.sprites[..part.0].iter().filter(|sprite| sprite.role == role).count();
+        Site { role, nth }
+    }
+
+    /// The part that edits call so, if it is there.
+    pub(crate) fn at(&self, site: Site) -> Option<Part> {
+        let mut of_role = self.parts().filter(|&part| self.sprite(part).role == site.role);
+        of_role.nth(site.nth).filter(|&part| !self.sprite(part).gone)
+    }
+
     /// All parts, in the order of their making.
     pub(crate) fn parts(&self) -> impl Iterator<Item = Part> + use<> {
         (0..self.sprites.len()).map(Part)
@@ -296,7 +390,8 @@ impl Draft {
 
     /// A rule that scores.
     pub(crate) fn scored(&mut self, phase: Phase, first: Part, second: &[Part], effect: Effect, score: i32) {
-        self.rules.push(Rule { phase, first, second: second.to_vec(), effect, score });
+        let rule = Rule { phase, first, second: second.to_vec(), effect, score, gene: self.gene };
+        self.rules.push(rule);
     }
 
     /// Touching it harms the hero.
@@ -366,8 +461,22 @@ impl Draft {
     }
 
     /// Adds to what there is to know.
-    pub(crate) fn tell(&mut self, clause: String) {
-        self.clauses.push(clause);
+    pub(crate) fn tell(&mut self, text: String) {
+        self.claim(Claim::Fact, text);
+    }
+
+    /// Adds how a sprite type moves.
+    pub(crate) fn tell_way(&mut self, part: Part, text: String) {
+        self.claim(Claim::Way(part), text);
+    }
+
+    /// Adds what something is worth.
+    pub(crate) fn tell_points(&mut self, text: String) {
+        self.claim(Claim::Points, text);
+    }
+
+    fn claim(&mut self, claim: Claim, text: String) {
+        self.clauses.push(Clause { text, gene: self.gene, claim });
     }
 
     /// Draws from the words of the fiction are over; what remains draws on.

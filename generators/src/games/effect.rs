@@ -2,19 +2,19 @@
 
 use super::draft::{Part, Value};
 
-/// An effect of an interaction.
+/// An effect of an interaction; `P` is how it names sprite types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Effect {
+pub(crate) enum Effect<P = Part> {
     /// Kills the first.
     KillSprite,
     /// Kills both.
     KillBoth,
     /// Kills all of a type.
-    KillAll { stype: Part },
+    KillAll { stype: P },
     /// Kills the first if the second holds so much; the second pays or not.
-    KillIfOtherHasMore { resource: Part, limit: u32, subtract: bool },
+    KillIfOtherHasMore { resource: P, limit: u32, subtract: bool },
     /// Kills the first unless it holds more than that.
-    KillIfHasLess { resource: Part, limit: u32 },
+    KillIfHasLess { resource: P, limit: u32 },
     /// Sends the first back.
     StepBack,
     /// Turns the first round.
@@ -26,24 +26,24 @@ pub(crate) enum Effect {
     /// Sends the first to where the second leads.
     TeleportToExit,
     /// Makes the first another type, at the cost of the second or not.
-    TransformTo { stype: Part, kill_second: bool },
+    TransformTo { stype: P, kill_second: bool },
     /// Makes all of one type another.
-    TransformToAll { stype: Part, into: Part },
+    TransformToAll { stype: P, into: P },
     /// Makes a sprite where the first is, if it holds so much, which it pays.
-    SpawnIfHasMore { resource: Part, limit: u32, stype: Part },
+    SpawnIfHasMore { resource: P, limit: u32, stype: P },
     /// Makes a sprite where the second was.
-    SpawnBehind { stype: Part },
+    SpawnBehind { stype: P },
     /// The second takes the first, which stays or not.
     CollectResource { stays: bool },
     /// Takes one of a resource from the first, and kills the second.
-    Spend { resource: Part },
+    Spend { resource: P },
     /// Takes a health point from the first; it dies of the last one, for another score.
     SubtractHealthPoints { score_if_killed: i32 },
     /// Gives health points to the first, at the cost of the second.
     AddHealthPointsToMax { value: u32 },
 }
 
-impl Effect {
+impl<P: Copy> Effect<P> {
     /// The keyword.
     pub(crate) fn keyword(self) -> &'static str {
         match self {
@@ -68,6 +68,54 @@ impl Effect {
         }
     }
 
+    /// The same effect with sprite types named otherwise; none if one of them has no other name.
+    pub(crate) fn map<Q>(self, mut name: impl FnMut(P) -> Option<Q>) -> Option<Effect<Q>> {
+        Some(match self {
+            Effect::KillSprite => Effect::KillSprite,
+            Effect::KillBoth => Effect::KillBoth,
+            Effect::KillAll { stype } => Effect::KillAll { stype: name(stype)? },
+            Effect::KillIfOtherHasMore { resource, limit, subtract } => {
+                Effect::KillIfOtherHasMore { resource: name(resource)?, limit, subtract }
+            }
+            Effect::KillIfHasLess { resource, limit } => {
+                Effect::KillIfHasLess { resource: name(resource)?, limit }
+            }
+            Effect::StepBack => Effect::StepBack,
+            Effect::ReverseDirection => Effect::ReverseDirection,
+            Effect::BounceForward => Effect::BounceForward,
+            Effect::PullWithIt => Effect::PullWithIt,
+            Effect::TeleportToExit => Effect::TeleportToExit,
+            Effect::TransformTo { stype, kill_second } => {
+                Effect::TransformTo { stype: name(stype)?, kill_second }
+            }
+            Effect::TransformToAll { stype, into } => {
+                Effect::TransformToAll { stype: name(stype)?, into: name(into)? }
+            }
+            Effect::SpawnIfHasMore { resource, limit, stype } => {
+                Effect::SpawnIfHasMore { resource: name(resource)?, limit, stype: name(stype)? }
+            }
+            Effect::SpawnBehind { stype } => Effect::SpawnBehind { stype: name(stype)? },
+            Effect::CollectResource { stays } => Effect::CollectResource { stays },
+            Effect::Spend { resource } => Effect::Spend { resource: name(resource)? },
+            Effect::SubtractHealthPoints { score_if_killed } => {
+                Effect::SubtractHealthPoints { score_if_killed }
+            }
+            Effect::AddHealthPointsToMax { value } => Effect::AddHealthPointsToMax { value },
+        })
+    }
+
+    /// The sprite types that it names.
+    pub(crate) fn names(self) -> Vec<P> {
+        let mut names = Vec::new();
+        self.map(|part| {
+            names.push(part);
+            Some(part)
+        });
+        names
+    }
+}
+
+impl Effect {
     /// The parameters, besides the score.
     pub(crate) fn params(self) -> Vec<(&'static str, Value)> {
         let flag = |key: &'static str, on: bool| on.then_some((key, Value::Flag(true)));

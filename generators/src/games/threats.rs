@@ -57,7 +57,7 @@ fn patrol(draft: &mut Draft, sampler: &mut Sampler) {
     foe_of(draft, foe, 2);
     let way = if orientation == "RIGHT" { "to and fro" } else { "up and down" };
     let clause = format!("{} go {way}", draft.many(foe));
-    draft.tell(clause);
+    draft.tell_way(foe, clause);
 }
 
 fn cross_patrols(draft: &mut Draft, sampler: &mut Sampler) {
@@ -89,7 +89,7 @@ fn stray(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
     foe_of(draft, foe, 2);
     let clause = format!("{} stray about", draft.many(foe));
-    draft.tell(clause);
+    draft.tell_way(foe, clause);
 }
 
 fn chase(draft: &mut Draft, sampler: &mut Sampler) {
@@ -97,7 +97,7 @@ fn chase(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
     foe_of(draft, foe, 3);
     let clause = format!("{} give chase", draft.many(foe));
-    draft.tell(clause);
+    draft.tell_way(foe, clause);
 }
 
 /// A patroller that lets things fall.
@@ -165,7 +165,7 @@ fn turret(draft: &mut Draft, sampler: &mut Sampler) {
     let aim = if direction == "any" { "every which way".to_owned() } else { direction.to_lowercase() };
     let way = if aim == "left" || aim == "right" { format!("to the {aim}") } else { aim };
     let clause = format!("{} shoot {} {way}", draft.many(turret), draft.many(dart));
-    draft.tell(clause);
+    draft.tell_way(dart, clause);
 }
 
 /// What comes out of a nest; `total` 0 is without end.

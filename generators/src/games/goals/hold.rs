@@ -112,7 +112,7 @@ fn dodge(draft: &mut Draft, sampler: &mut Sampler) {
         draft.many(fruit),
         draft.say(tree)
     );
-    draft.tell(clause);
+    draft.tell_points(clause);
 }
 
 fn defend(draft: &mut Draft, sampler: &mut Sampler) {

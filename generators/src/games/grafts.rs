@@ -1,0 +1,222 @@
+//! Rules that can be added between parts of any patterns: what designers do when two things of a game should have to do
+//! with each other.
+
+use super::draft::{Draft, Part, Phase, Rule};
+use super::effect::Effect;
+use super::role::Role;
+
+/// What walks about and means no good.
+const FOES: &[Role] =
+    &[Role::Wanderer, Role::Chaser, Role::Patroller, Role::Rover, Role::Slug, Role::Pest, Role::Snuffer];
+/// Those that do not stay on a line.
+const STRAYS: &[Role] = &[Role::Wanderer, Role::Chaser, Role::Slug, Role::Pest, Role::Snuffer];
+/// What is nice to have, and not needed.
+const TREATS: &[Role] = &[Role::Coin, Role::Berry, Role::Medicine];
+/// What hurts where it is.
+const HAZARDS: &[Role] =
+    &[Role::Trap, Role::Dart, Role::Drop, Role::Steam, Role::Creep, Role::Slime, Role::Blast];
+
+/// A rule that can be added.
+#[derive(Debug)]
+pub(crate) struct Graft {
+    /// Its name, with its family.
+    pub(crate) name: &'static str,
+    /// How often it is drawn, relative to others.
+    pub(crate) weight: u32,
+    first: &'static [Role],
+    second: &'static [Role],
+    /// What else must be there; if nothing, the second once more.
+    third: &'static [Role],
+    phase: Phase,
+    /// Whether the first may be what an ending counts: the rule takes none of them away.
+    spares: bool,
+    /// Whether their bodies would keep the two apart.
+    passes: bool,
+    score: i32,
+    effect: fn([Part; 3]) -> Effect,
+    tell: fn(&Draft, [Part; 3]) -> String,
+}
+
+/// All of them.
+pub(crate) const GRAFTS: &[Graft] = &[
+    Graft {
+        name: "graft/perish",
+        weight: 5,
+        first: FOES,
+        second: HAZARDS,
+        third: &[],
+        phase: Phase::Strike,
+        spares: false,
+        passes: false,
+        score: 2,
+        effect: |_| Effect::KillSprite,
+        tell: |draft, [foe, hazard, _]| format!("{} harms {} as well", draft.one(hazard), draft.many(foe)),
+    },
+    Graft {
+        name: "graft/crush",
+        weight: 4,
+        first: FOES,
+        second: &[Role::Crate],
+        third: &[],
+        phase: Phase::Push,
+        spares: false,
+        passes: true,
+        score: 2,
+        effect: |_| Effect::KillSprite,
+        tell: |draft, [foe, pushed, _]| format!("{} do not survive {}", draft.many(foe), draft.one(pushed)),
+    },
+    Graft {
+        name: "graft/eat",
+        weight: 3,
+        first: TREATS,
+        second: STRAYS,
+        third: &[],
+        phase: Phase::Meet,
+        spares: false,
+        passes: false,
+        score: 0,
+        effect: |_| Effect::KillSprite,
+        tell: |draft, [treat, foe, _]| format!("{} make off with {}", draft.many(foe), draft.many(treat)),
+    },
+    Graft {
+        name: "graft/breed",
+        weight: 3,
+        first: TREATS,
+        second: STRAYS,
+        third: &[],
+        phase: Phase::Meet,
+        spares: false,
+        passes: false,
+        score: 0,
+        effect: |[_, foe, _]| Effect::TransformTo { stype: foe, kill_second: false },
+        tell: |draft, [treat, foe, _]| {
+            format!("{} that comes upon {} becomes two", draft.one(foe), draft.one(treat))
+        },
+    },
+    Graft {
+        name: "graft/enrage",
+        weight: 4,
+        first: &[Role::Wanderer, Role::Slug, Role::Pest],
+        second: &[Role::Trap, Role::Steam, Role::Creep, Role::Slime, Role::Coin, Role::Berry],
+        third: &[Role::Chaser],
+        phase: Phase::Meet,
+        spares: false,
+        passes: false,
+        score: 0,
+        effect: |[_, _, fury]| Effect::TransformTo { stype: fury, kill_second: false },
+        tell: |draft, [foe, cause, fury]| {
+            format!("{} turns {} into {}", draft.one(cause), draft.many(foe), draft.many(fury))
+        },
+    },
+    Graft {
+        name: "graft/brawl",
+        weight: 3,
+        first: FOES,
+        second: FOES,
+        third: &[],
+        phase: Phase::Meet,
+        spares: false,
+        passes: false,
+        score: 1,
+        effect: |_| Effect::KillBoth,
+        tell: |draft, [one, two, _]| {
+            format!("{} and {} are the end of each other", draft.many(one), draft.many(two))
+        },
+    },
+    Graft {
+        name: "graft/portal",
+        weight: 3,
+        first: FOES,
+        second: &[Role::PortalIn],
+        third: &[Role::PortalOut],
+        phase: Phase::Meet,
+        spares: true,
+        passes: false,
+        score: 0,
+        effect: |_| Effect::TeleportToExit,
+        tell: |draft, [foe, entry, _]| format!("{} take the {} too", draft.many(foe), draft.say(entry)),
+    },
+    Graft {
+        name: "graft/ride",
+        weight: 2,
+        first: STRAYS,
+        second: &[Role::Cart],
+        third: &[],
+        phase: Phase::Carry,
+        spares: true,
+        passes: false,
+        score: 0,
+        effect: |_| Effect::PullWithIt,
+        tell: |draft, [foe, cart, _]| format!("{} ride on {} too", draft.many(foe), draft.many(cart)),
+    },
+    Graft {
+        name: "graft/shatter",
+        weight: 3,
+        first: &[Role::Soil, Role::Crate, Role::Rubble, Role::Dark],
+        second: &[Role::Dart, Role::Drop, Role::Blast, Role::Steam],
+        third: &[],
+        phase: Phase::Push,
+        spares: false,
+        passes: true,
+        score: 0,
+        effect: |_| Effect::KillBoth,
+        tell: |draft, [barrier, hit, _]| format!("{} breaks {}", draft.one(hit), draft.say(barrier)),
+    },
+];
+
+impl Graft {
+    /// The parts of a draft between which it makes sense.
+    pub(crate) fn places(&self, draft: &Draft) -> Vec<[Part; 3]> {
+        let of = |roles: &'static [Role]| {
+            let parts = draft.parts().filter(|&part| !draft.sprite(part).gone);
+            parts.filter(|&part| roles.contains(&draft.sprite(part).role)).collect::<Vec<_>>()
+        };
+        let (firsts, seconds, thirds) = (of(self.first), of(self.second), of(self.third));
+        let mut places = Vec::new();
+        for &first in &firsts {
+            for &second in &seconds {
+                if self.third.is_empty() {
+                    places.push([first, second, second]);
+                }
+                places.extend(thirds.iter().map(|&third| [first, second, third]));
+            }
+        }
+        places.retain(|&place| self.fits(draft, place));
+        places
+    }
+
+    /// One rule for a pair is enough, and what an ending counts goes by the rules of its goal only.
+    fn fits(&self, draft: &Draft, [first, second, third]: [Part; 3]) -> bool {
+        let met = |rule: &Rule| {
+            rule.phase >= Phase::Strike
+                && (rule.first == first && rule.second.contains(&second)
+                    || rule.first == second && rule.second.contains(&first))
+        };
+        let all_differ = first != second && first != third;
+        let taken_away = !self.spares && draft.is_counted(first);
+        let partner_too =
+            (self.effect)([first, second, third]) == Effect::KillBoth && draft.is_counted(second);
+        all_differ && !taken_away && !partner_too && !draft.rules.iter().any(met)
+    }
+
+    /// Adds the rule; none if it does not make sense there.
+    pub(crate) fn apply(&self, draft: &mut Draft, place: [Part; 3]) -> Option<()> {
+        if !self.fits(draft, place) {
+            return None;
+        }
+        let [first, second, _] = place;
+        if self.passes {
+            draft.let_pass(first, second);
+            draft.let_pass(second, first);
+        }
+        let effect = (self.effect)(place);
+        let rule =
+            Rule { phase: self.phase, first, second: vec![second], effect, score: self.score, gene: None };
+        let at = draft.rules.partition_point(|other| other.phase <= self.phase);
+        draft.rules.insert(at, rule);
+        draft.gene = None;
+        let text = (self.tell)(draft, place);
+        draft.tell(text);
+        Some(())
+    }
+}

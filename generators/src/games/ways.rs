@@ -1,0 +1,121 @@
+//! What a class, a parameter or an effect can be exchanged for, within what makes sense, and the words for it.
+
+use super::body::Body;
+use super::draft::{AVATAR, Claim, Draft, Part, Phase, Rule, Value};
+use super::effect::Effect;
+use super::role::Role;
+use engine::SpriteClass;
+
+/// How strays and pursuers may move instead.
+const WALKERS: &[SpriteClass] = &[SpriteClass::RandomNPC, SpriteClass::Chaser, SpriteClass::Fleeing];
+/// How shots may fly instead.
+const SHOTS: &[SpriteClass] = &[SpriteClass::Missile, SpriteClass::RandomMissile];
+
+/// The classes that a sprite type may have instead, if any.
+pub(crate) fn siblings(draft: &Draft, part: Part) -> Vec<SpriteClass> {
+    let sprite = draft.sprite(part);
+    let Some(class) = sprite.class else { return Vec::new() };
+    let family = match sprite.body {
+        Body::Walker => WALKERS,
+        Body::FoeShot => SHOTS,
+        _ => &[],
+    };
+    if !family.contains(&class) {
+        return Vec::new();
+    }
+    family.iter().copied().filter(|&other| other != class).collect()
+}
+
+/// Whether a class has to know whom it is after, or from whom it runs.
+pub(crate) fn has_target(class: SpriteClass) -> bool {
+    class.is_a(SpriteClass::Chaser)
+}
+
+/// Gives a sprite type another class, with the parameters that this one has; none if it does not fit.
+pub(crate) fn set_class(
+    draft: &mut Draft,
+    part: Part,
+    class: SpriteClass,
+    after: Option<Part>,
+) -> Option<()> {
+    if !siblings(draft, part).contains(&class) {
+        return None;
+    }
+    let own = class.parameters();
+    let sprite = &mut draft.sprites[part.index()];
+    sprite.class = Some(class);
+    sprite.params.retain(|&(key, _)| match key {
+        "stype" | "cons" => false,
+        "orientation" => class != SpriteClass::RandomMissile,
+        _ => true,
+    });
+    if own.contains(&"stype") {
+        sprite.params.push(("stype", Value::Part(after.unwrap_or(AVATAR))));
+    }
+    draft.clauses.retain(|clause| clause.claim != Claim::Way(part));
+    let whom = match after {
+        Some(other) if other != AVATAR => format!(" {}", draft.many(other)),
+        _ => String::new(),
+    };
+    let many = draft.many(part);
+    let text = match class {
+        SpriteClass::Chaser if whom.is_empty() => format!("{many} give chase"),
+        SpriteClass::Chaser => format!("{many} go after{whom}"),
+        SpriteClass::Fleeing if whom.is_empty() => format!("{many} run from you"),
+        SpriteClass::Fleeing => format!("{many} run from{whom}"),
+        SpriteClass::RandomMissile => format!("{many} fly every which way"),
+        _ => format!("{many} stray about"),
+    };
+    draft.gene = draft.sprite(part).gene;
+    draft.tell_way(part, text);
+    Some(())
+}
+
+/// The least and the most that a parameter can sensibly be, and the step between values; none if it is not to be changed:
+/// words speak of it, or the pattern lives by it.
+pub(crate) fn range(draft: &Draft, part: Part, key: &str) -> Option<(u32, u32)> {
+    use SpriteClass as C;
+    let sprite = draft.sprite(part);
+    let class = sprite.class?;
+    match key {
+        "cooldown" if class == C::SpawnPoint => Some((3, 40)),
+        "cooldown" if class.is_a(C::SpawnPoint) => Some((1, 6)),
+        "cooldown" => Some((1, 6)),
+        "prob" => Some((10, 100)),
+        "cons" => Some((0, 5)),
+        "spreadprob" if sprite.role == Role::Creep => Some((12, 23)),
+        "limit" if class == C::Flicker => Some((1, 30)),
+        "limit" if class == C::OrientedFlicker => Some((1, 4)),
+        _ => None,
+    }
+}
+
+/// What a rule might do instead.
+pub(crate) fn effects(draft: &Draft, rule: &Rule) -> Vec<Effect> {
+    if rule.phase != Phase::Strike || draft.is_counted(rule.first) {
+        return Vec::new();
+    }
+    let foes = [Role::Wanderer, Role::Chaser, Role::Patroller, Role::Rover];
+    let others = draft.parts().filter(|&part| {
+        let sprite = draft.sprite(part);
+        !sprite.gone && foes.contains(&sprite.role) && part != rule.first
+    });
+    let is_foe = foes.contains(&draft.sprite(rule.first).role);
+    match rule.effect {
+        Effect::KillSprite | Effect::KillBoth if is_foe => {
+            let kill_second = rule.effect == Effect::KillBoth;
+            others.map(|stype| Effect::TransformTo { stype, kill_second }).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// What is to be known of a rule that has a new effect.
+pub(crate) fn changed(draft: &Draft, rule: &Rule, effect: Effect) -> Option<String> {
+    match effect {
+        Effect::TransformTo { stype, .. } => {
+            Some(format!("{} that is hit turns into {}", draft.one(rule.first), draft.one(stype)))
+        }
+        _ => None,
+    }
+}
