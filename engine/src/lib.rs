@@ -65,7 +65,9 @@ mod trigonometry;
 
 pub use analysis::Analysis;
 pub use chance::Chance;
-pub use compile::SPRITE_PARAMETERS;
+pub use compile::{
+    Clauses, InteractionClause, Party, SPRITE_PARAMETERS, Term, TerminationClause, Terms, TypeClause,
+};
 pub use describe::describe;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, Span, line_and_column, nearest};
 pub use digest::{Digest, NotHex};

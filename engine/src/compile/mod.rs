@@ -1,6 +1,7 @@
 //! From a syntax tree to rules: names resolved, parameters typed, interactions laid out as a flat program.
 
 mod as_reference;
+mod clauses;
 mod header;
 mod interactions;
 mod params;
@@ -9,6 +10,7 @@ mod space;
 mod sprites;
 mod terminations;
 
+pub use clauses::{Clauses, InteractionClause, Party, Term, TerminationClause, Terms, TypeClause};
 pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;

@@ -1,0 +1,479 @@
+//! The rules of a game as plain clauses, for those who compare games: names resolved, what is inherited spelled out, what
+//! is as it would be anyhow left out.
+
+use super::Names;
+use super::interactions::{Partner, partner};
+use super::params::{Value, convert};
+use crate::game::{Game, Rules, SpriteType, TypeInfo};
+use crate::geometry::Direction;
+use crate::ontology::class::SpriteClass;
+use crate::ontology::effects::{self, Arguments, Effect, Undeclared};
+use crate::ontology::terminations::{Condition, Decision};
+use crate::ontology::traits::Traits;
+use crate::syntax::{InteractionLine, Param, Word};
+
+/// The value of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Term {
+    /// `True` or `False`.
+    Flag(bool),
+    /// A number, whole or not.
+    Number(f64),
+    /// Several numbers: an entry for each counter of the game.
+    Numbers(Vec<f64>),
+    /// A direction.
+    Direction(Direction),
+    /// The keyword of an effect.
+    Effect(&'static str),
+    /// Sprite types, in the order of the file.
+    Types(Vec<SpriteType>),
+}
+
+/// Parameters that are not as they would be if nobody wrote them.
+pub type Terms = Vec<(&'static str, Term)>;
+
+/// A sprite type.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TypeClause {
+    /// The type.
+    pub stype: SpriteType,
+    /// Its class, inherited or not; none for bare grouping nodes.
+    pub class: Option<SpriteClass>,
+    /// The type above it in the SpriteSet.
+    pub parent: Option<SpriteType>,
+    /// Whether it has no types below it.
+    pub leaf: bool,
+    /// Whether the file declares it: `wall` and `avatar` are there in any case.
+    pub declared: bool,
+    /// Its parameters, inherited or not, as they differ from those of its class. Looks are left out.
+    pub terms: Terms,
+}
+
+/// A side of an interaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Party {
+    /// Sprites of a type and of those related to it.
+    Type(SpriteType),
+    /// The edge of the screen.
+    Edge,
+    /// The clock.
+    Clock,
+    /// Nobody: a line that runs by the clock on no sprite.
+    Nobody,
+}
+
+/// An interaction of two parties; a line with several partners is several clauses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InteractionClause {
+    /// Who is acted upon; never the edge.
+    pub first: Party,
+    /// Its partner.
+    pub second: Party,
+    /// The keyword of the effect.
+    pub effect: &'static str,
+    /// Its parameters, as they differ from the defaults.
+    pub terms: Terms,
+    /// Index of the line in [`Description::interactions`](crate::Description).
+    pub line: usize,
+}
+
+/// A termination.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TerminationClause {
+    /// Its class.
+    pub class: &'static str,
+    /// Whether the player wins by it, or may.
+    pub win: bool,
+    /// Its other parameters, as they differ from the defaults.
+    pub terms: Terms,
+}
+
+/// All rules of a game.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clauses {
+    /// What holds for the game as a whole. The size of a cell in pixels is part of it only where continuous physics, which
+    /// counts in pixels, makes it matter.
+    pub header: Terms,
+    /// By type.
+    pub types: Vec<TypeClause>,
+    /// What each level character that stands for something places; characters that every game has, but this one does not
+    /// declare, are left out.
+    pub mapping: Vec<(char, Vec<SpriteType>)>,
+    /// Interactions in the order of the file; those that are not enabled are left out.
+    pub interactions: Vec<InteractionClause>,
+    /// Terminations in the order of the file.
+    pub terminations: Vec<TerminationClause>,
+}
+
+impl Game {
+    /// The rules as clauses. Two games of equal clauses play alike; the converse does not hold. Cost: O(types + interactions).
+    pub fn clauses(&self) -> Clauses {
+        let rules = &*self.0;
+        let of_type = |(at, info): (usize, &TypeInfo)| type_clause(rules, SpriteType(at as u16), info);
+        Clauses {
+            header: header(rules),
+            types: rules.types.iter().enumerate().map(of_type).collect(),
+            mapping: mapping(rules),
+            interactions: interactions(rules),
+            terminations: terminations(rules),
+        }
+    }
+}
+
+/// What can be the value of a field.
+trait IntoTerm: Copy + PartialEq {
+    fn term(self) -> Term;
+}
+
+impl IntoTerm for bool {
+    fn term(self) -> Term {
+        Term::Flag(self)
+    }
+}
+
+impl IntoTerm for i32 {
+    fn term(self) -> Term {
+        Term::Number(f64::from(self))
+    }
+}
+
+impl IntoTerm for f64 {
+    fn term(self) -> Term {
+        Term::Number(self)
+    }
+}
+
+impl IntoTerm for Direction {
+    fn term(self) -> Term {
+        Term::Direction(self)
+    }
+}
+
+fn note<T: IntoTerm>(terms: &mut Terms, key: &'static str, value: T, default: T) {
+    if value != default {
+        terms.push((key, value.term()));
+    }
+}
+
+fn note_types(terms: &mut Terms, key: &'static str, types: impl IntoIterator<Item = SpriteType>) {
+    let types: Vec<SpriteType> = types.into_iter().filter(|&stype| stype != SpriteType::NONE).collect();
+    if !types.is_empty() {
+        terms.push((key, Term::Types(types)));
+    }
+}
+
+fn declared(rules: &Rules, name: &str) -> bool {
+    rules.description.sprite_lines().iter().any(|(_, line)| line.name.text == name)
+}
+
+fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause {
+    let mut terms = Terms::new();
+    if let Some(class) = info.class {
+        let mut default = Traits::of_class(class);
+        default.settle();
+        let own = &info.traits;
+        macro_rules! fields {
+            ($($field:ident)*) => { $(note(&mut terms, stringify!($field), own.$field, default.$field);)* };
+        }
+        // All of them but those that pictures, and whoever has read the class, know.
+        fields! {
+            speed cooldown orientation is_oriented rotate_in_place is_static only_active stationary solid width_factor
+            height_factor health max_health limit_health time_to_live portal is_npc is_from_avatar last_move is_first_tick
+            on_ground hidden invisible limit value age spread_probability cons fleeing max_distance prob total
+            spawn_orientation start min_ammo ammo_cost continuous off_grid mass gravity friction max_speed jump_strength
+            angle_diff rotation facing facing_dir last_block_time ground_speedup air_slowdown air_steering probability
+            epsilon random_target
+        }
+        note(&mut terms, "singleton", info.singleton, false);
+        note_types(&mut terms, "stype", own.stypes.iter().copied());
+        note_types(&mut terms, "ammo", own.ammo.iter().copied());
+        note_types(&mut terms, "spawnBehind", own.spawn_behind);
+        note_types(&mut terms, "resource", Some(own.resource).filter(|&resource| resource != stype));
+    }
+    let declared = declared(rules, &info.name);
+    let parent = info.path.iter().rev().nth(1).copied();
+    TypeClause { stype, class: info.class, parent, leaf: info.leaf, declared, terms }
+}
+
+fn header(rules: &Rules) -> Terms {
+    let mut terms = Terms::new();
+    note(&mut terms, "no_counters", rules.counters as i32, 0);
+    note(&mut terms, "canEnd", rules.can_end, true);
+    note(&mut terms, "obs", rules.finds_paths, false);
+    if rules.types.iter().any(|info| info.traits.continuous) {
+        note(&mut terms, "square_size", rules.square_size.unwrap_or(0), 0);
+    }
+    note_types(&mut terms, "obs", rules.obstacles.iter().copied());
+    terms
+}
+
+fn mapping(rules: &Rules) -> Vec<(char, Vec<SpriteType>)> {
+    let written = |symbol: char| rules.description.mapping.iter().any(|line| line.symbol == symbol);
+    let all = (0u8..).map(char::from).zip(&rules.mapping).filter(|(_, types)| !types.is_empty());
+    let meant = all.filter(|(symbol, types)| {
+        written(*symbol) || types.iter().all(|stype| declared(rules, &rules.types[stype.index()].name))
+    });
+    meant.map(|(symbol, types)| (symbol, types.to_vec())).collect()
+}
+
+fn interactions(rules: &Rules) -> Vec<InteractionClause> {
+    let names = Names { types: &rules.types };
+    let mut clauses = Vec::new();
+    for (at, line) in rules.description.interactions.iter().enumerate() {
+        let mut written = Written { line, names, terms: Terms::new(), planned: None };
+        let keyword = effects::NAMES.iter().find(|known| **known == line.effect.text).copied();
+        let built = keyword.and_then(|keyword| effects::build(keyword, &mut written));
+        let (Some(effect), Some(built)) = (keyword, built) else { continue };
+        written.common(&built);
+        if !written.truth("enabled", true) {
+            continue;
+        }
+        if let Some(counting) =
+            rules.effects.iter().find(|info| info.line == at).and_then(|info| info.counting.as_ref())
+        {
+            let numbers = |list: &[Option<i32>]| {
+                Term::Numbers(list.iter().map(|by| f64::from(by.unwrap_or(0))).collect())
+            };
+            written.terms.push(("counter", numbers(&counting.counter)));
+            written.terms.push(("counterElse", numbers(&counting.counter_else)));
+            written.flag("count", true);
+            written.flag("countElse", true);
+        }
+        let party = |word: &Word| match partner(word, names, &mut Vec::new()) {
+            Partner::Sprite(stype) => Party::Type(stype),
+            Partner::Edge => Party::Edge,
+            Partner::Clock => Party::Clock,
+            Partner::Unknown => Party::Nobody,
+        };
+        let (first, seconds) = (party(&line.first), line.second.iter().map(party).collect::<Vec<Party>>());
+        let acted_upon = match (first, &seconds[..]) {
+            (Party::Clock, [other, ..]) => Some(*other),
+            (_, [Party::Clock, ..]) => Some(first),
+            _ => None,
+        };
+        let pairs: Vec<(Party, Party)> = match acted_upon {
+            Some(target) => {
+                written.clock();
+                let target = if let Party::Type(_) = target { target } else { Party::Nobody };
+                vec![(target, Party::Clock)]
+            }
+            None => seconds.into_iter().map(|second| (first, second)).collect(),
+        };
+        for (first, second) in pairs {
+            let (first, second) = if first == Party::Edge { (second, first) } else { (first, second) };
+            let terms = written.terms.clone();
+            clauses.push(InteractionClause { first, second, effect, terms, line: at });
+        }
+    }
+    clauses
+}
+
+fn terminations(rules: &Rules) -> Vec<TerminationClause> {
+    let clause = |end: &crate::ontology::terminations::Termination| {
+        let mut terms = Terms::new();
+        let (class, types, limit): (_, &[SpriteType], i32) = match &end.condition {
+            Condition::SpriteCounter { stype, limit } => {
+                ("SpriteCounter", std::slice::from_ref(stype), *limit)
+            }
+            Condition::SpriteCounterMore { stype, limit } => {
+                ("SpriteCounterMore", std::slice::from_ref(stype), *limit)
+            }
+            Condition::MultiSpriteCounter { stypes, limit, min } => {
+                note(&mut terms, "min", *min, false);
+                ("MultiSpriteCounter", stypes, *limit)
+            }
+            Condition::MultiSpriteCounterSubTypes { stype, limit, kinds } => {
+                note(&mut terms, "subTypesNum", *kinds, -1);
+                ("MultiSpriteCounterSubTypes", std::slice::from_ref(stype), *limit)
+            }
+            Condition::StopCounter { stypes, limit, min } => {
+                note(&mut terms, "min", *min, false);
+                ("StopCounter", stypes, *limit)
+            }
+            Condition::Timeout { limit } => ("Timeout", &[], *limit),
+        };
+        note(&mut terms, "limit", limit, 0);
+        match end.decided_by {
+            Decision::Line => {}
+            Decision::Score => note(&mut terms, "count_score", true, false),
+            Decision::Difference => note(&mut terms, "compare", true, false),
+            Decision::Value(value) => terms.push(("use_counter", value.term())),
+        }
+        note_types(&mut terms, "stype", types.iter().copied());
+        TerminationClause { class, win: end.win, terms }
+    };
+    rules.terminations.iter().map(clause).collect()
+}
+
+/// Reads a line that has compiled once more, and notes what differs from the defaults.
+struct Written<'a> {
+    line: &'a InteractionLine,
+    names: Names<'a>,
+    terms: Terms,
+    planned: Option<&'static str>,
+}
+
+impl<'a> Written<'a> {
+    /// The last parameter of that name counts.
+    fn param(&self, key: &str) -> Option<&'a Param> {
+        self.line.params.iter().rev().find(|param| param.key.text == key)
+    }
+
+    fn whole(&self, key: &str, default: i32) -> i32 {
+        match self.param(key).map(|param| convert(key, &param.value.text)) {
+            Some(Value::Int(int)) => int,
+            _ => default,
+        }
+    }
+
+    fn truth(&self, key: &str, default: bool) -> bool {
+        match self.param(key).map(|param| convert(key, &param.value.text)) {
+            Some(Value::Bool(bool)) => bool,
+            _ => default,
+        }
+    }
+
+    /// The parameters of every effect.
+    fn common(&mut self, effect: &Effect) {
+        self.score("scoreChange");
+        self.flag("applyScore", true);
+        self.int("repeat", 1);
+        self.flag("inBatch", matches!(effect, Effect::WallBounce | Effect::WallReverse));
+        if self.planned.is_some() {
+            self.clock();
+        }
+    }
+
+    /// When a line that runs by the clock does so.
+    fn clock(&mut self) {
+        self.int("timer", -1);
+        self.flag("repeating", false);
+        // Any value but −1 means the same.
+        let put_off = self.whole("nextExecution", -1) != -1;
+        note(&mut self.terms, "nextExecution", put_off, false);
+    }
+
+    fn types(&self, key: &str) -> Vec<SpriteType> {
+        let text = self.param(key).map_or("", |param| param.value.text.as_str());
+        text.split(',').filter_map(|name| self.names.find(name)).collect()
+    }
+}
+
+impl Arguments for Written<'_> {
+    fn int(&mut self, key: &'static str, default: i32) -> i32 {
+        let value = self.whole(key, default);
+        note(&mut self.terms, key, value, default);
+        value
+    }
+
+    fn number(&mut self, key: &'static str, default: f64) -> f64 {
+        let value = match self.param(key).map(|param| convert(key, &param.value.text)) {
+            Some(Value::Int(int)) => f64::from(int),
+            Some(Value::Double(double)) => double,
+            _ => default,
+        };
+        note(&mut self.terms, key, value, default);
+        value
+    }
+
+    fn flag(&mut self, key: &'static str, default: bool) -> bool {
+        let value = self.truth(key, default);
+        note(&mut self.terms, key, value, default);
+        value
+    }
+
+    fn score(&mut self, key: &'static str) -> i32 {
+        let text = self.param(key).map_or("", |param| param.value.text.as_str());
+        let value = text.split(',').next().unwrap_or_default().parse().unwrap_or(0);
+        note(&mut self.terms, key, value, 0);
+        value
+    }
+
+    fn sprite(&mut self, key: &'static str) -> SpriteType {
+        self.optional_sprite(key, Undeclared::Void).unwrap_or(SpriteType::NONE)
+    }
+
+    fn sprite_or_none(&mut self, key: &'static str) -> SpriteType {
+        self.sprite(key)
+    }
+
+    fn optional_sprite(&mut self, key: &'static str, _: Undeclared) -> Option<SpriteType> {
+        let found = self.types(key).first().copied();
+        note_types(&mut self.terms, key, found);
+        found
+    }
+
+    fn numbered(&mut self, _: &'static str) -> Option<SpriteType> {
+        None
+    }
+
+    fn sprites(&mut self, key: &'static str) -> Vec<SpriteType> {
+        let found = self.types(key);
+        note_types(&mut self.terms, key, found.iter().copied());
+        found
+    }
+
+    fn keyword(&mut self, key: &'static str) -> u16 {
+        let text = self.param(key).map_or("", |param| param.value.text.as_str());
+        let at = effects::NAMES.iter().position(|known| *known == text);
+        self.terms.extend(at.map(|at| (key, Term::Effect(effects::NAMES[at]))));
+        at.map_or(u16::MAX, |at| at as u16)
+    }
+
+    fn timed(&mut self) -> u16 {
+        let at = self.keyword("ftype");
+        self.planned = effects::NAMES.get(usize::from(at)).copied();
+        // The parameters of the planned effect stand on the same line.
+        if let Some(planned) = self.planned.filter(|&planned| planned != "addTimer") {
+            effects::build(planned, self);
+        }
+        0
+    }
+
+    fn relatives(&self, _: SpriteType) -> Box<[SpriteType]> {
+        Box::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GAME: &str = "BasicGame square_size=30\n  SpriteSet\n    egg > Immovable color=RED\n    moving > speed=0.5\n      fox > Chaser stype=hen\n      hen > RandomNPC speed=1\n    avatar > MovingAvatar\n  LevelMapping\n    e > egg fox\n  InteractionSet\n    egg avatar hen > killSprite scoreChange=2\n    avatar EOS > stepBack\n    EOS fox > wrapAround offset=0\n    fox TIME > addTimer ftype=transformTo stype=hen timer=9\n  TerminationSet\n    SpriteCounter stype=egg limit=0 win=True\n    Timeout limit=99\n";
+
+    fn clauses(source: &str) -> Clauses {
+        Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")).clauses()
+    }
+
+    #[test]
+    fn what_is_inherited_and_what_is_the_default_is_not_told_apart() {
+        let of = clauses(GAME);
+        let spelled = GAME
+            .replace("moving > speed=0.5", "moving >")
+            .replace("fox > Chaser stype=hen", "fox > Chaser stype=hen speed=0.5 cooldown=1")
+            .replace("color=RED", "img=pearl is_static=True");
+        assert_eq!(of.types[3..], clauses(&spelled).types[3..]);
+        assert_eq!(of.interactions, clauses(&spelled).interactions);
+        assert_ne!(of.types, clauses(&GAME.replace("0.5", "0.4")).types);
+    }
+
+    #[test]
+    fn lines_are_told_pair_by_pair() {
+        let of = clauses(GAME);
+        let effects: Vec<&str> = of.interactions.iter().map(|clause| clause.effect).collect();
+        assert_eq!(effects, ["killSprite", "killSprite", "stepBack", "wrapAround", "addTimer"]);
+        assert_eq!(of.interactions[0].terms, [("scoreChange", Term::Number(2.0))]);
+        assert_eq!(of.interactions[3].terms, []);
+        assert_eq!(of.interactions[3].second, Party::Edge);
+        let planned = &of.interactions[4];
+        assert_eq!(planned.second, Party::Clock);
+        let keys: Vec<&str> = planned.terms.iter().map(|(key, _)| *key).collect();
+        assert!(["ftype", "stype", "timer"].iter().all(|key| keys.contains(key)), "{keys:?}");
+        assert_eq!(of.terminations[0].terms.len(), 1);
+        assert!(of.terminations[0].win && !of.terminations[1].win);
+        assert_eq!(of.header, []);
+        // The file does not declare `wall`, so that what `w` places is no rule of it.
+        let symbols: Vec<char> = of.mapping.iter().map(|(symbol, _)| *symbol).collect();
+        assert_eq!(symbols, ['A', 'e']);
+    }
+}
