@@ -1,0 +1,72 @@
+//! Colour refinement: nodes told apart by what they are joined to (Weisfeiler and Leman 1968).
+//!
+//! A colour is a hash of what it stands for, so that the colours of different games can be compared.
+
+use super::graph::RuleGraph;
+use engine::Digest;
+
+/// What a node looks like.
+pub(super) type Colour = u64;
+
+/// The colour that stands for `bytes`.
+pub(super) fn colour(bytes: &[u8]) -> Colour {
+    let digest = Digest::of(bytes);
+    Colour::from_le_bytes(digest.as_bytes()[..8].try_into().expect("eight of 32 bytes"))
+}
+
+/// A graph laid out for refinement.
+pub(super) struct Neighbours {
+    /// By node: its neighbours, each with the role in which the one names the other, direction included.
+    of: Vec<Vec<(Colour, usize)>>,
+}
+
+impl Neighbours {
+    pub(super) fn of(graph: &RuleGraph) -> Neighbours {
+        let mut of = vec![Vec::new(); graph.nodes.len()];
+        for (at, node) in graph.nodes.iter().enumerate() {
+            for (role, to) in &node.edges {
+                of[at].push((colour(format!("to {role}").as_bytes()), *to));
+                of[*to].push((colour(format!("from {role}").as_bytes()), at));
+            }
+        }
+        Neighbours { of }
+    }
+
+    /// The colours after one more look at the neighbours. Cost: O(edges).
+    pub(super) fn refined(&self, colours: &[Colour]) -> Vec<Colour> {
+        let mut bytes = Vec::new();
+        let mut refine = |(at, neighbours): (usize, &Vec<(Colour, usize)>)| {
+            let mut seen: Vec<(Colour, Colour)> =
+                neighbours.iter().map(|&(role, to)| (role, colours[to])).collect();
+            seen.sort_unstable();
+            bytes.clear();
+            bytes.extend(colours[at].to_le_bytes());
+            for (role, to) in seen {
+                bytes.extend(role.to_le_bytes());
+                bytes.extend(to.to_le_bytes());
+            }
+            colour(&bytes)
+        };
+        self.of.iter().enumerate().map(&mut refine).collect()
+    }
+
+    /// The colours when looking on tells no more nodes apart.
+    pub(super) fn settled(&self, mut colours: Vec<Colour>) -> Vec<Colour> {
+        let mut kinds = count(&colours);
+        loop {
+            colours = self.refined(&colours);
+            let now = count(&colours);
+            if now == kinds {
+                return colours;
+            }
+            kinds = now;
+        }
+    }
+}
+
+fn count(colours: &[Colour]) -> usize {
+    let mut sorted = colours.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    sorted.len()
+}

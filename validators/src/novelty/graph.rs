@@ -1,0 +1,209 @@
+//! The rules of a game as a graph: nodes for types, rules and what level characters place; edges from a rule to the types
+//! that it names.
+
+use crate::game_measures::{ClassFamily, EffectFamily};
+use engine::{Analysis, Clauses, Game, InteractionClause, Party, Term, Terms, TypeClause};
+use std::fmt::Write;
+
+/// How much a label tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Grain {
+    /// Families of classes and effects, no parameters.
+    Coarse,
+    /// Classes and effects, parameters without their sizes.
+    Medium,
+    /// All.
+    Fine,
+}
+
+impl Grain {
+    pub(super) const ALL: [Grain; 3] = [Grain::Coarse, Grain::Medium, Grain::Fine];
+}
+
+/// A node.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    /// What it is, by grain, names of types apart.
+    pub(super) labels: [String; 3],
+    /// How much it says about the game.
+    pub(super) weight: u32,
+    /// What it names: in which role, which type.
+    pub(super) edges: Vec<(String, usize)>,
+}
+
+/// The graph of a game. The types come first among the nodes.
+#[derive(Clone, Debug)]
+pub(super) struct RuleGraph {
+    pub(super) nodes: Vec<Node>,
+    /// How many of the nodes are types.
+    pub(super) types: usize,
+}
+
+/// Weights: what is a frame in nearly every game (what stops at walls and at the edge of the screen, what a character
+/// places) says least of it, when it ends says most.
+const FRAME: u32 = 1;
+const TYPE: u32 = 2;
+const RULE: u32 = 4;
+const ENDING: u32 = 6;
+
+impl RuleGraph {
+    pub(super) fn of(game: &Game) -> RuleGraph {
+        let clauses = game.clauses();
+        let analysis = Analysis::of(game);
+        let used = used(&clauses);
+        let kept: Vec<&TypeClause> =
+            clauses.types.iter().filter(|clause| clause.declared || used[clause.stype.index()]).collect();
+        let mut place = vec![usize::MAX; clauses.types.len()];
+        kept.iter().enumerate().for_each(|(at, clause)| place[clause.stype.index()] = at);
+        let edges = |terms: &Terms, ordered: bool| {
+            let mut edges = Vec::new();
+            for (key, term) in terms {
+                let Term::Types(types) = term else { continue };
+                for (at, stype) in types.iter().enumerate() {
+                    let role = if ordered { format!("{key}{at}") } else { (*key).to_owned() };
+                    edges.push((role, place[stype.index()]));
+                }
+            }
+            edges
+        };
+        let mut nodes: Vec<Node> = kept
+            .iter()
+            .map(|clause| {
+                // Without sprites of its own a parent is but the sum of those below it.
+                let stands = clause.leaf || analysis.facts(clause.stype).possible;
+                let terms = if stands { &clause.terms } else { &Terms::new() };
+                let mut edges = edges(terms, true);
+                edges.extend(clause.parent.map(|parent| ("below".to_owned(), place[parent.index()])));
+                Node { labels: labels_of_type(clause, stands), weight: TYPE, edges }
+            })
+            .collect();
+        let types = nodes.len();
+        for clause in &clauses.interactions {
+            let mut edges = edges(&clause.terms, false);
+            for (role, party) in [("first", clause.first), ("second", clause.second)] {
+                if let Party::Type(stype) = party {
+                    edges.push((role.to_owned(), place[stype.index()]));
+                }
+            }
+            let weight = if is_frame(clause) { FRAME } else { RULE };
+            nodes.push(Node { labels: labels_of_interaction(clause), weight, edges });
+        }
+        for clause in &clauses.terminations {
+            let coarse = format!("end {} {}", clause.class, clause.win);
+            let labels = [
+                coarse.clone(),
+                format!("{coarse}{}", spell(&clause.terms, Grain::Medium)),
+                format!("{coarse}{}", spell(&clause.terms, Grain::Fine)),
+            ];
+            nodes.push(Node { labels, weight: ENDING, edges: edges(&clause.terms, false) });
+        }
+        let mut sets: Vec<Vec<usize>> = Vec::new();
+        for (_, placed) in &clauses.mapping {
+            let mut set: Vec<usize> = placed.iter().map(|stype| place[stype.index()]).collect();
+            set.retain(|&at| at != usize::MAX);
+            set.sort_unstable();
+            if !set.is_empty() && !sets.contains(&set) {
+                sets.push(set);
+            }
+        }
+        for set in sets {
+            let label = || format!("places {}", set.len());
+            let edges = set.iter().map(|&at| ("placed".to_owned(), at)).collect();
+            nodes.push(Node { labels: [label(), label(), label()], weight: FRAME, edges });
+        }
+        if !clauses.header.is_empty() {
+            let spelled = |grain| format!("game{}", spell(&clauses.header, grain));
+            let labels = Grain::ALL.map(spelled);
+            nodes.push(Node { labels, weight: FRAME, edges: edges(&clauses.header, false) });
+        }
+        RuleGraph { nodes, types }
+    }
+}
+
+/// By type: whether rules name it, or a character places it. Of `wall` and `avatar`, which every game has, those that the file
+/// does without are no part of its rules.
+fn used(clauses: &Clauses) -> Vec<bool> {
+    let mut used = vec![false; clauses.types.len()];
+    let mut named = |terms: &Terms| {
+        for (_, term) in terms {
+            if let Term::Types(types) = term {
+                types.iter().for_each(|stype| used[stype.index()] = true);
+            }
+        }
+    };
+    named(&clauses.header);
+    clauses.types.iter().for_each(|clause| named(&clause.terms));
+    clauses.interactions.iter().for_each(|clause| named(&clause.terms));
+    clauses.terminations.iter().for_each(|clause| named(&clause.terms));
+    for party in clauses.interactions.iter().flat_map(|clause| [clause.first, clause.second]) {
+        if let Party::Type(stype) = party {
+            used[stype.index()] = true;
+        }
+    }
+    clauses.mapping.iter().flat_map(|(_, placed)| placed).for_each(|stype| used[stype.index()] = true);
+    used
+}
+
+/// What nearly every game has: what is held up, at no price and for no reward, and what happens at the edge of the screen.
+fn is_frame(clause: &InteractionClause) -> bool {
+    let blocks = EffectFamily::of(clause.effect) == Some(EffectFamily::Block);
+    clause.second == Party::Edge || (blocks && clause.terms.is_empty())
+}
+
+fn labels_of_type(clause: &TypeClause, stands: bool) -> [String; 3] {
+    let Some(class) = clause.class.filter(|_| stands) else { return [(); 3].map(|()| "group".to_owned()) };
+    let name = class.name();
+    [
+        format!("type {}", ClassFamily::of(class).name()),
+        format!("type {name}{}", spell(&clause.terms, Grain::Medium)),
+        format!("type {name}{}", spell(&clause.terms, Grain::Fine)),
+    ]
+}
+
+fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
+    let kind = |party: Party| match party {
+        Party::Type(_) => "type",
+        Party::Edge => "edge",
+        Party::Clock => "clock",
+        Party::Nobody => "nobody",
+    };
+    let family = EffectFamily::of(clause.effect).map_or("", EffectFamily::name);
+    let (effect, parties) = (clause.effect, format!("{} {}", kind(clause.first), kind(clause.second)));
+    [
+        format!("rule {parties} {family}"),
+        format!("rule {parties} {effect}{}", spell(&clause.terms, Grain::Medium)),
+        format!("rule {parties} {effect}{}", spell(&clause.terms, Grain::Fine)),
+    ]
+}
+
+/// Numbers of which it matters for the kind of a rule that they are given and positive.
+const TELLING: [&str; 5] = ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
+
+/// Parameters in the order of their keys; types are edges and not spelled.
+fn spell(terms: &Terms, grain: Grain) -> String {
+    let mut spelled: Vec<String> = Vec::new();
+    for (key, term) in terms {
+        let value = match (term, grain) {
+            (Term::Types(_), _) | (_, Grain::Coarse) => continue,
+            (Term::Flag(flag), _) => flag.to_string(),
+            (Term::Effect(keyword), _) => (*keyword).to_owned(),
+            (Term::Direction(to), _) => format!("{:?},{:?}", to.x + 0.0, to.y + 0.0),
+            (Term::Number(number), Grain::Medium) => match *number {
+                number if number < 0.0 => "-".to_owned(),
+                0.0 => "0".to_owned(),
+                _ if TELLING.contains(key) => "+".to_owned(),
+                _ => continue,
+            },
+            (Term::Numbers(_), Grain::Medium) => String::new(),
+            (Term::Number(number), Grain::Fine) => format!("{number:?}"),
+            (Term::Numbers(numbers), Grain::Fine) => format!("{numbers:?}"),
+        };
+        spelled.push(format!("{key}={value}"));
+    }
+    spelled.sort_unstable();
+    let mut text = String::new();
+    for entry in spelled {
+        let _ = write!(text, " {entry}");
+    }
+    text
+}
