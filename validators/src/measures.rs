@@ -3,7 +3,9 @@
 use crate::ladder::{Fared, Ladder};
 use crate::panel::Report;
 use engine::analysis::Deed;
-use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteType, State, Watch};
+use engine::{
+    Action, Analysis, Episode, Game, Level, Meeting, Outcome, Sampler, Seed, SpriteType, State, Watch,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -149,7 +151,7 @@ pub fn is_guard(game: &Game, line: usize) -> bool {
 }
 
 /// The actions of a state, doing nothing included.
-fn actions(game: &Game, state: &State) -> Vec<Action> {
+pub(crate) fn actions(game: &Game, state: &State) -> Vec<Action> {
     let known = game.actions(state);
     let idle = (!known.contains(&Action::Nil)).then_some(Action::Nil);
     known.iter().copied().chain(idle).collect()
@@ -175,18 +177,23 @@ fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
             let mut after = state.fork(future.child("chance", 0));
             let mut keys = future.child("keys", 0).sampler();
             game.step(&mut after, action);
-            for _ in 1..FORESIGHT {
-                if after.is_over() {
-                    break;
-                }
-                let key = *keys.choose(game.actions(&after));
-                game.step(&mut after, key);
-            }
+            wander(game, &mut after, &mut keys, FORESIGHT - 1);
             lost += u64::from(after.outcome() == Outcome::Lost);
             all += 1;
         }
     }
     lost as f64 / all.max(1) as f64
+}
+
+/// Plays at random for so many ticks, or until the game is over.
+pub(crate) fn wander(game: &Game, state: &mut State, keys: &mut Sampler, ticks: usize) {
+    for _ in 0..ticks {
+        if state.is_over() {
+            return;
+        }
+        let key = *keys.choose(game.actions(state));
+        game.step(state, key);
+    }
 }
 
 /// How many sprites were pushed in a tick and moved by it, or went away. A push against something that holds is undone in the
@@ -240,18 +247,18 @@ impl Watch for Ear {
 
 /// A mean that grows; 0 of nothing.
 #[derive(Default)]
-struct Mean {
+pub(crate) struct Mean {
     sum: f64,
     count: u64,
 }
 
 impl Mean {
-    fn add(&mut self, value: f64) {
+    pub(crate) fn add(&mut self, value: f64) {
         self.sum += value;
         self.count += 1;
     }
 
-    fn value(&self) -> f64 {
+    pub(crate) fn value(&self) -> f64 {
         self.sum / self.count.max(1) as f64
     }
 }

@@ -34,6 +34,7 @@ pub use requirement::{MAX_GOALS, Reason, Requirement};
 pub use role::Role;
 pub use taxonomy::{Genre, Spatiality, Taxonomy, Time};
 pub use touch::{Harm, Removal, Touch};
+pub use ways::Means;
 
 use crate::game::{Game, SpriteType};
 use crate::geometry::Direction;

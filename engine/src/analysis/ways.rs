@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// How a win comes about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Means {
+pub enum Means {
     /// The avatar touches what leads out.
     Exit,
     /// The avatar touches things that lie about.
@@ -46,6 +46,14 @@ pub(super) struct Ways<'a> {
     met: Vec<bool>,
     /// By type: how the player makes one.
     made: Vec<BTreeSet<Means>>,
+}
+
+impl Analysis {
+    /// How the wins come about that play can bring about, in the order of [`Means`]; empty if there are none. Cost: O(types ×
+    /// avatars + interactions × relatives).
+    pub fn means(&self) -> Vec<Means> {
+        Ways::of(self).means().into_iter().collect()
+    }
 }
 
 impl Ways<'_> {

@@ -1,5 +1,11 @@
 //! What a game is like, in numbers and kinds: the axes of archives of games, and lines of the report on their generators.
 
 mod families;
+mod futures;
+mod kinds;
+mod play;
 
 pub use families::{ClassFamily, EffectFamily};
+pub use futures::{FUTURES, SIGHT};
+pub use kinds::{AvatarKind, ChanceKind, GameKind, GoalKind, guards};
+pub use play::PlayMeasures;

@@ -26,7 +26,7 @@ pub struct GameForm {
 }
 
 /// Games that are nearer to each other than this are duplicates: the same rules with other numbers or in another fiction.
-pub const NEAR: f64 = 0.2;
+pub const NEAR: f64 = 0.3;
 
 impl GameForm {
     /// The form of a game. Cost: some milliseconds, no forward-model calls.

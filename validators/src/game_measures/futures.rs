@@ -1,0 +1,79 @@
+//! What random play makes of a moment, beside what was really played: who leads, and how far one must see.
+
+use crate::measures::wander;
+use engine::{Game, Outcome, Seed, State};
+use std::cmp::Ordering;
+
+/// Ticks that random futures are played for.
+pub const SIGHT: usize = 64;
+/// Random futures of a moment.
+pub const FUTURES: u64 = 8;
+/// After how many ticks futures are looked at.
+const LOOKS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
+/// So many futures must be worse for a line of play to be seen to be better.
+const WORSE: usize = 6;
+
+/// How a game stands: won or not first, then by score.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Standing {
+    outcome: i8,
+    score: f64,
+}
+
+impl Standing {
+    pub(super) fn of(state: &State) -> Standing {
+        let outcome = match state.outcome() {
+            Outcome::Won => 1,
+            Outcome::Lost => -1,
+            Outcome::Ongoing | Outcome::Ended | Outcome::Stopped(_) => 0,
+        };
+        Standing { outcome, score: state.score() }
+    }
+
+    fn beats(self, other: Standing) -> bool {
+        let order = self.outcome.cmp(&other.outcome).then(self.score.total_cmp(&other.score));
+        order == Ordering::Greater
+    }
+}
+
+/// Random futures of a moment, as they stand after 1, 2, 4 … [`SIGHT`] ticks.
+pub(super) struct Futures(Vec<[Standing; LOOKS.len()]>);
+
+impl Futures {
+    /// Each with a chance of its own. Cost: at most [`FUTURES`] × [`SIGHT`] forward-model calls.
+    pub(super) fn of(game: &Game, state: &State, seed: Seed) -> Futures {
+        let play = |number: u64| {
+            let seed = seed.child("future", number);
+            let mut after = state.fork(seed.child("chance", 0));
+            let mut keys = seed.child("keys", 0).sampler();
+            let mut played = 0;
+            LOOKS.map(|ticks| {
+                wander(game, &mut after, &mut keys, ticks - played);
+                played = ticks;
+                Standing::of(&after)
+            })
+        };
+        Futures((0..FUTURES).map(play).collect())
+    }
+
+    /// By how many more of the futures are won than lost at the end, as a share: from −1 to 1. What is not decided counts for
+    /// neither side.
+    pub(super) fn lead(&self) -> f64 {
+        let sum: i32 = self.0.iter().map(|future| i32::from(future[LOOKS.len() - 1].outcome)).sum();
+        f64::from(sum) / FUTURES as f64
+    }
+
+    /// After how many ticks a line of play, given by how it stands from the moment on, tick by tick, stands better than most
+    /// of the futures; [`SIGHT`], if later or never; none if the futures win as well.
+    pub(super) fn sight(&self, line: &[Standing]) -> Option<usize> {
+        let last = line.len() - 1;
+        let seen = |look: &usize| {
+            let stands = line[LOOKS[*look].min(last)];
+            self.0.iter().filter(|future| stands.beats(future[*look])).count() >= WORSE
+        };
+        match (0..LOOKS.len()).find(seen) {
+            Some(look) => Some(LOOKS[look]),
+            None => (line[SIGHT.min(last)].outcome != 1).then_some(SIGHT),
+        }
+    }
+}

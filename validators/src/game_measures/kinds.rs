@@ -1,0 +1,377 @@
+//! What kind of game it is, by its rules alone: who one is, what one is after, what there is to reckon with.
+
+use super::families::{ClassFamily, EffectFamily};
+use crate::measures::is_guard;
+use engine::analysis::{Attainable, Condition, Genre, Key, Means, Motion, Role, Steering};
+use engine::{Analysis, SpriteClass, SpriteType, Term};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// What the avatar that episodes start with can do: how it gets about, and whether the use key makes something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AvatarKind {
+    /// Goes up, left, down and right.
+    Walks,
+    /// Goes four ways, but turns before it goes.
+    Turns,
+    /// Goes four ways, and shoots, hits or puts something ahead.
+    WalksAndShoots,
+    /// Goes along a line.
+    Slides,
+    /// Goes along a line, and shoots.
+    SlidesAndShoots,
+    /// Always goes ahead, and can be turned or not.
+    Runs,
+    /// Always goes ahead, and shoots or leaves something behind.
+    RunsAndShoots,
+    /// Stays where it is, aims and shoots.
+    Aims,
+    /// Has thrust and momentum, armed or not.
+    Flies,
+    /// Falls and jumps.
+    Jumps,
+    /// Does nothing; or there is none at the start.
+    Watches,
+}
+
+impl AvatarKind {
+    /// Of a game. Cost: O(1).
+    pub fn of(analysis: &Analysis) -> AvatarKind {
+        let Some(avatar) = analysis.start_avatar() else { return AvatarKind::Watches };
+        let class = analysis.game().class(avatar.stype);
+        let turns = class.is_some_and(|class| class.is_a(SpriteClass::OrientedAvatar));
+        match (avatar.steering, !avatar.shots.is_empty()) {
+            (Steering::FourWay, true) => AvatarKind::WalksAndShoots,
+            (Steering::FourWay, false) if turns => AvatarKind::Turns,
+            (Steering::FourWay, false) => AvatarKind::Walks,
+            (Steering::Horizontal | Steering::Vertical, true) => AvatarKind::SlidesAndShoots,
+            (Steering::Horizontal | Steering::Vertical, false) => AvatarKind::Slides,
+            (Steering::Ongoing | Steering::Unsteered, true) => AvatarKind::RunsAndShoots,
+            (Steering::Ongoing | Steering::Unsteered, false) => AvatarKind::Runs,
+            (Steering::Fixed, true) => AvatarKind::Aims,
+            (Steering::Fixed, false) => AvatarKind::Watches,
+            (Steering::Thrust, _) => AvatarKind::Flies,
+            (Steering::Jumping, _) => AvatarKind::Jumps,
+        }
+    }
+
+    /// As in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            AvatarKind::Walks => "walks",
+            AvatarKind::Turns => "turns",
+            AvatarKind::WalksAndShoots => "walks-and-shoots",
+            AvatarKind::Slides => "slides",
+            AvatarKind::SlidesAndShoots => "slides-and-shoots",
+            AvatarKind::Runs => "runs",
+            AvatarKind::RunsAndShoots => "runs-and-shoots",
+            AvatarKind::Aims => "aims",
+            AvatarKind::Flies => "flies",
+            AvatarKind::Jumps => "jumps",
+            AvatarKind::Watches => "watches",
+        }
+    }
+}
+
+/// What a win asks for, by the signed goals: where several fit, the first in this order counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GoalKind {
+    /// Others make for the same goal, and who comes first wins.
+    Race,
+    /// What is pushed has to come to where it belongs.
+    Deliver,
+    /// There have to be many of something that is made.
+    Grow,
+    /// What the avatar shoots, or puts in the way, has to end others.
+    Eliminate,
+    /// What moves has to be caught.
+    Hunt,
+    /// Things that lie about have to be taken: all of a type, or many of a resource that an exit asks for.
+    Collect,
+    /// A place has to be reached.
+    Reach,
+    /// Others have to do something, or to be brought together.
+    Herd,
+    /// Something other than the avatar has to be kept from harm for a while.
+    Guard,
+    /// Some tick has to be reached alive.
+    Survive,
+    /// There is no goal but the score: play brings no win about, or the clock wins whatever happens.
+    Score,
+}
+
+/// Of so many it is about having many.
+const MANY: i32 = 3;
+
+impl GoalKind {
+    /// Of a game. Cost: O(types × avatars + interactions × relatives).
+    pub fn of(analysis: &Analysis) -> GoalKind {
+        let means = analysis.means();
+        let has = |wanted: Means| means.contains(&wanted);
+        let in_play = |win: bool| {
+            let goals = analysis.goals().iter();
+            goals.filter(move |goal| goal.win == win && goal.attainable == Attainable::InPlay)
+        };
+        let is_avatar = |stype: &SpriteType| analysis.avatars().iter().any(|avatar| avatar.stype == *stype);
+        let grows = in_play(true).any(|goal| match &goal.condition {
+            Condition::AtLeast(types, limit) | Condition::Exactly(types, limit) => {
+                *limit >= MANY && !types.iter().any(is_avatar)
+            }
+            Condition::AtMost(..) | Condition::Tick(_) => false,
+        });
+        let many = analysis
+            .locks()
+            .iter()
+            .any(|lock| matches!(lock.key, Key::Resource { amount, .. } if amount >= MANY));
+        let guards = analysis.of_role(Role::Ward).any(|ward| analysis.aims().protect.contains(&ward));
+        let can_lose = in_play(false).any(|goal| !matches!(goal.condition, Condition::Tick(_)));
+        let waits = has(Means::Wait);
+        let fits = [
+            (GoalKind::Race, analysis.taxonomy().genres.contains(&Genre::Race)),
+            (GoalKind::Deliver, has(Means::Push)),
+            (GoalKind::Grow, grows),
+            (GoalKind::Eliminate, has(Means::Shoot) || has(Means::Tool)),
+            (GoalKind::Hunt, has(Means::Catch)),
+            (GoalKind::Collect, has(Means::Take) || (has(Means::Exit) && many)),
+            (GoalKind::Reach, has(Means::Exit)),
+            (GoalKind::Herd, has(Means::Others)),
+            (GoalKind::Guard, waits && guards),
+            (GoalKind::Survive, waits && can_lose),
+        ];
+        fits.into_iter().find(|(_, fits)| *fits).map_or(GoalKind::Score, |(kind, _)| kind)
+    }
+
+    /// As in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            GoalKind::Race => "race",
+            GoalKind::Deliver => "deliver",
+            GoalKind::Grow => "grow",
+            GoalKind::Eliminate => "eliminate",
+            GoalKind::Hunt => "hunt",
+            GoalKind::Collect => "collect",
+            GoalKind::Reach => "reach",
+            GoalKind::Herd => "herd",
+            GoalKind::Guard => "guard",
+            GoalKind::Survive => "survive",
+            GoalKind::Score => "score",
+        }
+    }
+}
+
+/// What is left to chance, where chance can decide anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ChanceKind {
+    /// Nothing.
+    None,
+    /// How others move.
+    Movers,
+    /// When others appear.
+    Makers,
+    /// What interactions do.
+    Rules,
+    /// Several of these.
+    Several,
+}
+
+impl ChanceKind {
+    /// Of a game. Cost: O(types + interactions).
+    pub fn of(analysis: &Analysis) -> ChanceKind {
+        if !analysis.chance_decides() {
+            return ChanceKind::None;
+        }
+        let game = analysis.game();
+        let clauses = game.clauses();
+        let possible = || clauses.types.iter().filter(|clause| analysis.facts(clause.stype).possible);
+        let unsure = |terms: &engine::Terms, keys: &[&str]| {
+            let below = |term: &Term| matches!(term, Term::Number(share) if *share > 0.0 && *share < 1.0);
+            terms.iter().any(|(key, term)| keys.contains(key) && below(term))
+        };
+        let makes = possible().any(|clause| unsure(&clause.terms, &["prob", "spread_probability"]));
+        let moves = possible().any(|clause| {
+            let class = clause.class;
+            let random = class.is_some_and(|class| {
+                use SpriteClass as C;
+                matches!(class, C::ErraticMissile | C::RandomMissile | C::RandomBomber | C::WalkerJumper)
+            });
+            let motion = analysis.facts(clause.stype).motion;
+            random || matches!(motion, Motion::Wandering | Motion::Chasing(_) | Motion::Fleeing(_))
+        });
+        let rolls = clauses.interactions.iter().any(|clause| {
+            let rolls = ["flipDirection", "attractGaze", "teleportToExit", "transformToRandomChild"];
+            rolls.contains(&clause.effect) || unsure(&clause.terms, &["prob"])
+        });
+        match [(moves, ChanceKind::Movers), (makes, ChanceKind::Makers), (rolls, ChanceKind::Rules)]
+            .into_iter()
+            .filter_map(|(is, kind)| is.then_some(kind))
+            .collect::<Vec<ChanceKind>>()[..]
+        {
+            [one] => one,
+            // Chance decides, in a way that is none of these: the bounces of missiles, for one.
+            [] => ChanceKind::Movers,
+            _ => ChanceKind::Several,
+        }
+    }
+
+    /// As in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            ChanceKind::None => "none",
+            ChanceKind::Movers => "movers",
+            ChanceKind::Makers => "makers",
+            ChanceKind::Rules => "rules",
+            ChanceKind::Several => "several",
+        }
+    }
+}
+
+/// What kind of game it is, by its rules alone. Cost: some milliseconds at most, no forward-model calls.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GameKind {
+    /// What one can do.
+    pub avatar: AvatarKind,
+    /// What one is after.
+    pub goal: GoalKind,
+    /// What is left to chance.
+    pub chance: ChanceKind,
+    /// The families of the effects of its interactions, guards included, in the order of [`EffectFamily`].
+    pub effects: Vec<EffectFamily>,
+    /// The classes of what moves by itself and can be there, in alphabetical order.
+    pub npcs: Vec<String>,
+    /// The classes of what makes others by itself and can be there, in alphabetical order.
+    pub producers: Vec<String>,
+    /// Lines of the InteractionSet, guards apart.
+    pub interactions: usize,
+    /// Lines that only keep sprites from leaving the board or going through walls: see [`guards`].
+    pub guards: usize,
+}
+
+impl GameKind {
+    /// Of a game.
+    pub fn of(analysis: &Analysis) -> GameKind {
+        let game = analysis.game();
+        let lines = &game.description().interactions;
+        let families = lines.iter().filter_map(|line| EffectFamily::of(&line.effect.text));
+        let classes = |family: &[ClassFamily]| {
+            let types = game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
+            let classes = types.filter_map(|stype| game.class(stype));
+            let of_family = classes.filter(|class| family.contains(&ClassFamily::of(*class)));
+            let names: BTreeSet<&str> = of_family.map(SpriteClass::name).collect();
+            names.into_iter().map(str::to_owned).collect::<Vec<String>>()
+        };
+        let guards = guards(analysis).into_iter().filter(|guard| *guard).count();
+        GameKind {
+            avatar: AvatarKind::of(analysis),
+            goal: GoalKind::of(analysis),
+            chance: ChanceKind::of(analysis),
+            effects: families.collect::<BTreeSet<_>>().into_iter().collect(),
+            npcs: classes(&[ClassFamily::Npc, ClassFamily::Missile, ClassFamily::Walker]),
+            producers: classes(&[ClassFamily::Producer]),
+            interactions: lines.len() - guards,
+            guards,
+        }
+    }
+}
+
+/// By interaction line: whether it is a guard, one that nobody would call a mechanic. It is with the edge of the screen; or it
+/// takes back a move into walls ([`Role::Wall`]: they stand still, always block, and nothing removes them), at no price.
+/// Cost: O(interactions × types).
+pub fn guards(analysis: &Analysis) -> Vec<bool> {
+    let game = analysis.game();
+    let is_wall = |name: &str| {
+        let Some(written) = game.sprite_type(name) else { return false };
+        let below = game.sprite_types().filter(|&stype| analysis.applies(written, stype));
+        let mut there = below.filter(|&stype| analysis.facts(stype).possible).peekable();
+        there.peek().is_some() && there.all(|stype| analysis.role(stype) == Role::Wall)
+    };
+    let walls = |line: &engine::syntax::InteractionLine| {
+        let free = line.params.iter().all(|param| param.key.text != "scoreChange" || param.value.text == "0");
+        let blocks = EffectFamily::of(&line.effect.text) == Some(EffectFamily::Block);
+        blocks && free && line.second.iter().all(|second| is_wall(&second.text))
+    };
+    let lines = game.description().interactions.iter().enumerate();
+    lines.map(|(at, line)| is_guard(game, at) || walls(line)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Game;
+
+    fn kind(sprites: &str, interactions: &str, terminations: &str) -> GameKind {
+        let indent = |text: &str| text.split("; ").map(|line| format!("    {line}\n")).collect::<String>();
+        let source = format!(
+            "BasicGame\n  SpriteSet\n{}  LevelMapping\n    p > prop\n    o > other\n  InteractionSet\n{}  TerminationSet\n{}",
+            indent(sprites),
+            indent(interactions),
+            indent(terminations)
+        );
+        let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"));
+        GameKind::of(&Analysis::of(&game))
+    }
+
+    #[track_caller]
+    fn goal(sprites: &str, interactions: &str, terminations: &str, expect: GoalKind) {
+        assert_eq!(kind(sprites, interactions, terminations).goal, expect);
+    }
+
+    const WALKER: &str = "prop > Passive; other > Immovable; avatar > MovingAvatar";
+    const ROAMER: &str = "prop > RandomNPC; other > Immovable; avatar > MovingAvatar";
+
+    #[test]
+    fn goals_are_told_by_what_brings_the_win_about() {
+        let none_left = "SpriteCounter stype=prop win=True; SpriteCounter stype=avatar";
+        let push = "prop avatar > bounceForward; prop other > killSprite";
+        goal(WALKER, push, none_left, GoalKind::Deliver);
+        goal(WALKER, "prop avatar > killSprite", none_left, GoalKind::Collect);
+        goal(ROAMER, "prop avatar > killSprite", none_left, GoalKind::Hunt);
+        let door = "prop > Door; other > Immovable; avatar > MovingAvatar";
+        goal(door, "prop avatar > killSprite", none_left, GoalKind::Reach);
+        let gun = "prop > RandomNPC; other > Missile; avatar > ShootAvatar stype=other";
+        goal(gun, "prop other > killBoth", none_left, GoalKind::Eliminate);
+        goal(ROAMER, "prop other > killSprite", none_left, GoalKind::Herd);
+        let time = "Timeout limit=90 win=True; SpriteCounter stype=avatar";
+        goal(ROAMER, "avatar prop > killSprite", time, GoalKind::Survive);
+        let ward = "Timeout limit=90 win=True; SpriteCounter stype=other";
+        goal(ROAMER, "other prop > killSprite", ward, GoalKind::Guard);
+        goal(ROAMER, "prop avatar > killSprite scoreChange=1", "Timeout limit=90 win=True", GoalKind::Score);
+        let many = "SpriteCounterMore stype=other limit=9 win=True";
+        goal(WALKER, "prop avatar > transformTo stype=other", many, GoalKind::Grow);
+    }
+
+    #[test]
+    fn avatars_are_told_by_what_they_can_do() {
+        let check = |class: &str, expect: AvatarKind| {
+            let sprites = format!("prop > Passive; other > Missile; avatar > {class}");
+            let found = kind(&sprites, "prop avatar > killSprite", "SpriteCounter stype=prop win=True");
+            assert_eq!(found.avatar, expect, "{class}");
+        };
+        check("MovingAvatar", AvatarKind::Walks);
+        check("OrientedAvatar", AvatarKind::Turns);
+        check("ShootAvatar stype=other", AvatarKind::WalksAndShoots);
+        check("VerticalAvatar", AvatarKind::Slides);
+        check("FlakAvatar stype=other", AvatarKind::SlidesAndShoots);
+        check("OngoingAvatar", AvatarKind::Runs);
+        check("ShootOnlyAvatar stype=other", AvatarKind::Aims);
+        check("PlatformerAvatar", AvatarKind::Jumps);
+        check("NullAvatar", AvatarKind::Watches);
+    }
+
+    #[test]
+    fn guards_and_classes_are_counted_apart() {
+        let sprites = "prop > RandomNPC; other > SpawnPoint stype=prop prob=0.5; avatar > MovingAvatar";
+        let rules = "avatar wall > stepBack; prop wall EOS > stepBack; avatar EOS > stepBack; prop avatar > killSprite; prop other > stepBack";
+        let found = kind(sprites, rules, "SpriteCounter stype=other win=True; Timeout limit=50");
+        assert_eq!((found.interactions, found.guards), (2, 3), "{found:?}");
+        assert_eq!(found.effects, [EffectFamily::Kill, EffectFamily::Block]);
+        assert_eq!(
+            (found.npcs, found.producers),
+            (vec!["RandomNPC".to_owned()], vec!["SpawnPoint".to_owned()])
+        );
+        assert_eq!(found.chance, ChanceKind::Several);
+    }
+}

@@ -1,0 +1,237 @@
+//! What a game is like to play, from what was played of it.
+
+use super::futures::{Futures, Standing};
+use super::kinds::guards;
+use crate::measures::{Mean, actions};
+use crate::recording::Recorded;
+use engine::{Analysis, Episode, Game, Level, Outcome, Seed, SpriteRecord, State, Watch};
+use serde::{Deserialize, Serialize};
+
+/// What a game is like to play: means over its levels, of each of which one episode counts, the first that is won, or the first
+/// if none is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlayMeasures {
+    /// From 0 to 1: the share of ticks in which something other than the avatar moves, turns, appears, goes away or changes.
+    pub pace: f64,
+    /// Executions of interactions a tick, guards ([`guards`]) apart. One that puts the same sprite back to the same place
+    /// tick after tick counts once.
+    pub density: f64,
+    /// From 0 to 1: the share of actions, at some ticks, that lead to something else under another chance.
+    pub chance: f64,
+    /// Different interactions, guards apart, that won episodes execute: all of them together.
+    pub mechanics: usize,
+    /// Planning depth, in ticks, from 1 to [`SIGHT`](super::SIGHT): how far one has to look ahead to see that what was played
+    /// is better than random play, which is either that it wins or does not lose, or that it scores more. A game that pays
+    /// for every step, or kills who does not act, has little of it; one in which the good move looks like any other for long,
+    /// or worse than a greedy one, has much. Moments from which random play wins as well do not count; 0 if none does.
+    pub sight: f64,
+    /// From 0 to 1: how desperate the game is on the way to a win. The lead at a moment is by how many more of some random
+    /// futures win than lose within [`SIGHT`](super::SIGHT) ticks, as a share. Drama is the mean over the moments of the square
+    /// root of the deficit where the lead is the game's, and of 0 where it is the player's or nobody's: the measure of Browne
+    /// and Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with the game for the opponent, random futures for the
+    /// position's value, and all moments in the mean, so that a single bad one does not make a drama. What random play can
+    /// neither win nor lose has none.
+    pub drama: f64,
+    /// How often the lead goes from one side to the other on the way to the win, which the player leads in the end: the mean
+    /// over the episodes (Browne and Maire's *lead change*, not divided by the number of moves).
+    pub lead_changes: f64,
+    /// Of how many levels an episode was measured.
+    pub levels: usize,
+}
+
+/// Ticks of an episode that futures start from, evenly spread.
+const MOMENTS: usize = 12;
+/// Chances that an action is tried under.
+const CHANCES: u64 = 3;
+/// Won episodes of a level that are searched for mechanics.
+const WINS: usize = 12;
+
+impl PlayMeasures {
+    /// Of the recorded episodes of a game; none if there are none. The same arguments give the same numbers on every machine.
+    /// Cost: the episodes are played again, and for each level at most 12 × 8 × 64 forward-model calls for futures, and
+    /// 12 × 6 × 3 for chance.
+    pub fn of(analysis: &Analysis, recording: &[Recorded<'_>], seed: Seed) -> Option<PlayMeasures> {
+        let game = analysis.game();
+        let guards = guards(analysis);
+        let mut all: [Mean; 6] = Default::default();
+        let mut levels = 0;
+        let mut used = vec![false; guards.len()];
+        for (number, recorded) in (0u64..).zip(recording) {
+            let won = || recorded.episodes.iter().filter(|episode| episode.outcome == Outcome::Won);
+            let Some(episode) = won().next().or(recorded.episodes.first()) else { continue };
+            let seed = seed.child("level", number);
+            let measured = Measured::of(analysis, &guards, recorded.level, episode, seed);
+            for (mean, value) in all.iter_mut().zip(measured.0) {
+                if let Some(value) = value {
+                    mean.add(value);
+                }
+            }
+            levels += 1;
+            for episode in won().take(WINS) {
+                let rules = crate::used_rules(game, recorded.level, episode);
+                rules.into_iter().for_each(|line| used[line] = true);
+            }
+        }
+        let [pace, density, chance, sight, drama, lead_changes] = all.map(|mean| mean.value());
+        let mechanics = used.iter().zip(&guards).filter(|(used, guard)| **used && !**guard).count();
+        let measures = PlayMeasures { pace, density, chance, mechanics, sight, drama, lead_changes, levels };
+        (levels > 0).then_some(measures)
+    }
+}
+
+/// Pace, density, chance, sight, drama and lead changes of an episode.
+struct Measured([Option<f64>; 6]);
+
+impl Measured {
+    fn of(analysis: &Analysis, guards: &[bool], level: &Level, episode: &Episode, seed: Seed) -> Measured {
+        let game = analysis.game();
+        let mut state = game.start(level, episode.seed);
+        let mut counter = Counter { guards, executions: 0 };
+        let (mut pace, mut chance) = (Mean::default(), Mean::default());
+        let stride = episode.actions.len().div_ceil(MOMENTS).max(1);
+        let mut line = vec![Standing::of(&state)];
+        let mut moments: Vec<(usize, Futures)> = Vec::new();
+        let mut before = others(game, &state);
+        for (tick, &action) in episode.actions.iter().enumerate() {
+            if tick % stride == 0 {
+                let seed = seed.child("tick", tick as u64);
+                moments.push((tick, Futures::of(game, &state, seed)));
+                chance.add(unsure(analysis, &state, seed));
+            }
+            game.step_watched(&mut state, action, &mut counter);
+            let after = others(game, &state);
+            pace.add(f64::from(u8::from(before != after)));
+            before = after;
+            line.push(Standing::of(&state));
+        }
+        let mut sight = Mean::default();
+        let mut sights = 0;
+        for far in moments.iter().filter_map(|(tick, futures)| futures.sight(&line[*tick..])) {
+            sight.add(far as f64);
+            sights += 1;
+        }
+        let mut drama = Mean::default();
+        let leads: Vec<f64> = moments.iter().map(|(_, futures)| futures.lead()).collect();
+        leads.iter().for_each(|lead| drama.add((-lead).max(0.0).sqrt()));
+        let ends = (state.outcome() == Outcome::Won).then_some(1.0);
+        let density = counter.executions as f64 / episode.actions.len().max(1) as f64;
+        let changes = changes(leads.into_iter().chain(ends));
+        Measured([
+            Some(pace.value()),
+            Some(density),
+            Some(chance.value()),
+            (sights > 0).then(|| sight.value()),
+            Some(drama.value()),
+            Some(changes as f64),
+        ])
+    }
+}
+
+/// How often the sign changes; zeros have none.
+fn changes(leads: impl Iterator<Item = f64>) -> usize {
+    let signs: Vec<bool> = leads.filter(|lead| *lead != 0.0).map(|lead| lead > 0.0).collect();
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+/// All sprites but the avatar.
+fn others(game: &Game, state: &State) -> Vec<SpriteRecord> {
+    let avatar = state.avatar_id();
+    let mut records = game.records(state);
+    records.retain(|record| Some(record.id) != avatar);
+    records
+}
+
+/// The share of the actions that lead to something else under another chance. Cost: actions × [`CHANCES`] calls; none where
+/// chance decides nothing.
+fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
+    if !analysis.chance_decides() {
+        return 0.0;
+    }
+    let game = analysis.game();
+    let actions = actions(game, state);
+    let differs = |action| {
+        let after = |number: u64| {
+            let mut after = state.fork(seed.child("chance", number));
+            game.step(&mut after, action);
+            (game.records(&after), after.score(), after.outcome())
+        };
+        let first = after(0);
+        (1..CHANCES).any(|number| after(number) != first)
+    };
+    let unsure = actions.iter().filter(|&&action| differs(action)).count();
+    unsure as f64 / actions.len() as f64
+}
+
+/// Counts executions of what is no guard.
+struct Counter<'a> {
+    guards: &'a [bool],
+    executions: u64,
+}
+
+impl Watch for Counter<'_> {
+    fn interaction(&mut self, line: usize) {
+        self.executions += u64::from(!self.guards[line]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game_measures::SIGHT;
+    use engine::Action;
+    use engine::Action::{Nil, Right};
+
+    /// Crates into pits; wasps fly along a row; a beetle strolls.
+    const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    crate > Passive\n    wasp > Missile orientation=LEFT speed=1\n    beetle > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    s > wasp\n    b > beetle\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    crate pit > killSprite scoreChange=1\n    avatar wasp > killSprite\n    wasp wall > reverseDirection\n    beetle wall avatar > stepBack\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    SpriteCounter stype=avatar win=False\n";
+
+    fn check(level: &str, actions: &[Action]) -> PlayMeasures {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level(level).unwrap();
+        let (mut episode, mut state) = Episode::begin(&game, &level, Seed::from_text("play"));
+        for &action in actions {
+            episode.play(&game, &mut state, action);
+        }
+        let recording = [Recorded { level: &level, episodes: &[episode] }];
+        let of = || PlayMeasures::of(&Analysis::of(&game), &recording, Seed::from_text("futures")).unwrap();
+        assert_eq!(of(), of());
+        of()
+    }
+
+    #[test]
+    fn a_puzzle_waits_for_the_player() {
+        // Two steps through the open; then the crate moves; then it falls.
+        let found = check("wwwwwwww\nwA  c ow\nw      w\nwwwwwwww\n", &[Nil, Right, Right, Right, Right]);
+        assert_eq!(found.pace, 2.0 / 5.0, "{found:?}");
+        // `bounceForward` twice, `killSprite` once; the guards do not count.
+        assert_eq!((found.density, found.mechanics), (3.0 / 5.0, 2), "{found:?}");
+        // Nothing can be lost, and chance plays no part without a beetle.
+        assert_eq!((found.drama, found.lead_changes, found.chance), (0.0, 0.0, 0.0), "{found:?}");
+        // The win is seen 8, 4, 4, 2 and 1 tick ahead.
+        assert_eq!(found.sight, 3.8, "{found:?}");
+    }
+
+    #[test]
+    fn what_moves_by_itself_sets_the_pace() {
+        let flight = check("wwwwwwww\nwA c   ow\nwwwwwwww\nwo   s w\nwwwwwwww\n", &[Nil; 4]);
+        // Missiles set out in their second tick.
+        assert_eq!((flight.pace, flight.chance, flight.mechanics), (0.75, 0.0, 0), "{flight:?}");
+        let stroll = check("wwwwwwww\nwA c  ow\nwwwwwwww\nwob    w\nwwwwwwww\n", &[Nil; 12]);
+        assert_eq!(stroll.chance, 1.0, "{stroll:?}");
+    }
+
+    #[test]
+    fn danger_makes_drama_and_shortens_the_sight() {
+        // The wasp is ahead of who stays in the row; below, the crate is one push away from its pit.
+        let danger = check("wwwwwwwww\nwA     sw\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);
+        assert!(danger.drama > 0.9, "{danger:?}");
+        let calm = check("wwwwwwwww\nwA      w\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);
+        assert_eq!((calm.drama, calm.sight), (0.0, SIGHT as f64), "{calm:?}");
+    }
+
+    #[test]
+    fn the_lead_changes_with_its_sign() {
+        assert_eq!(changes([0.0, -0.5, 0.0, 0.25, 0.5, -0.25, 1.0].into_iter()), 3);
+        assert_eq!(changes([0.0, 1.0].into_iter()), 0);
+    }
+}
