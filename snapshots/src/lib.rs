@@ -59,6 +59,7 @@ mod problem;
 mod recipe;
 mod regenerate;
 mod shape;
+mod striving;
 mod verify;
 mod witness;
 

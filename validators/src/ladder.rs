@@ -182,6 +182,12 @@ impl Climb {
         self.measure(&self.climb(case))
     }
 
+    /// How the players fare, and all that they played.
+    pub fn play(&self, case: Case<'_>) -> (Ladder, Vec<Episode>) {
+        let climbed = self.climb(case);
+        (self.measure(&climbed), climbed.plays.into_iter().flatten().map(|play| play.episode).collect())
+    }
+
     /// Lets all play equally often. Rounds go on until the plays, or the calls, are spent.
     pub(crate) fn climb(&self, case: Case<'_>) -> Climbed {
         let patient = |witness: &Episode| self.patience.saturating_mul(witness.actions.len()) + GRACE;

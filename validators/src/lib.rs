@@ -47,7 +47,7 @@ pub use panel::{Judgement, Panel, Report};
 pub use random::NotRandom;
 pub use reachable::Reachable;
 pub use readable::Readable;
-pub use recording::Recorded;
+pub use recording::{Recorded, executions};
 pub use rule_ref::{RuleRef, RuleRefError};
 pub use rule_use::RuleUse;
 pub use skill::SkillPays;

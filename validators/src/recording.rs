@@ -121,6 +121,13 @@ impl Usage {
     }
 }
 
+/// By interaction line, the level and the episode of up to 24 recorded executions, each in an episode of its own: where to look
+/// for what a rule does. Cost: that of the episodes, at most 100,000 ticks a level.
+pub fn executions(game: &Game, recording: &[Recorded<'_>]) -> Vec<Vec<[usize; 2]>> {
+    let places = |uses: Vec<Use>| uses.iter().map(|at| [at.level, at.episode]).collect();
+    Usage::of(game, recording).lines.into_iter().map(places).collect()
+}
+
 /// Ways to try on each level, when some rule was never seen.
 const TRIES: u64 = 400;
 /// Random keys of a way.

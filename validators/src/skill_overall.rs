@@ -110,7 +110,6 @@ fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::{Criteria, Panel};
     use engine::{Game, Seed};
 
@@ -139,15 +138,15 @@ mod tests {
     const FAR: &str = "wwwwwww\nwA   ww\nww w  w\nwr w gw\nwwwwwww\n";
 
     #[track_caller]
-    fn check(game: &str, level: &str, passes: bool, words: &str) {
+    fn check(game: &str, level: &str, players: [&str; 2], passes: bool, words: &str) {
         let game = Game::from_source(game).unwrap();
         let level = game.level(level).unwrap();
         let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
         let criteria = Criteria {
             ask: names(&["winnable", "skill", "skill-overall"]),
             budget: 20_000,
-            ladder: names(&["do-nothing", "random", "olets:200"]),
-            held_out: names(&["olets:300"]),
+            ladder: names(&["do-nothing", "random", players[0]]),
+            held_out: names(&[players[1]]),
             ..Criteria::default()
         };
         let report = Panel::new(&criteria).judge_game(&game, &[level], Seed::from_text("overall"));
@@ -158,13 +157,13 @@ mod tests {
 
     #[test]
     fn what_only_a_plan_wins_pays_and_what_anybody_wins_does_not() {
-        check(GAME, FAR, true, "olets:300 wins");
-        check(GAME, "wwwwww\nwAg rw\nwwwwww\n", false, "olets:200 wins");
+        check(GAME, FAR, ["olets:200", "olets:300"], true, "olets:300 wins");
+        check(GAME, "wwwwww\nwAg rw\nwwwwww\n", ["olets:200", "olets:300"], false, "olets:200 wins");
     }
 
     #[test]
     fn where_nothing_is_left_to_chance_who_knows_the_way_is_a_player() {
         let plain = GAME.replace("RandomNPC cooldown=4", "Immovable");
-        check(&plain, FAR, true, "knows the way");
+        check(&plain, FAR, ["mcts:5", "mcts:6"], true, "knows the way");
     }
 }

@@ -47,29 +47,71 @@ pub(crate) struct Levels<'a> {
 }
 
 impl Levels<'_> {
-    /// All levels, from the easiest asked for to the hardest; None as soon as one cannot be had, or if the game does not meet
-    /// a criterion on all of them together.
+    /// All levels that meet the criteria, with what was found of them together; None as soon as one cannot be had, or if the
+    /// game does not meet a criterion on all of them together.
     pub(crate) fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
-        let mut levels: Vec<FoundLevel> = Vec::new();
-        for number in 0..self.count {
-            let taken: Vec<Digest> = levels.iter().map(|found| found.level.digest()).collect();
+        let levels = self.each(game, tally)?;
+        let together = self.together(game, &levels, tally)?;
+        Some(FoundLevels { levels, together })
+    }
+
+    /// All levels, from the easiest asked for to the hardest; None as soon as one cannot be had.
+    pub(crate) fn each(&self, game: &Game, tally: &mut Tally) -> Option<Vec<FoundLevel>> {
+        let mut levels: Vec<(u32, FoundLevel)> = Vec::new();
+        // The hardest may be too hard, and the easiest too easy: what is to fail should fail soon.
+        let ends = [self.count - 1, 0].into_iter().take(self.count as usize);
+        for number in ends.chain(1..self.count.max(1) - 1) {
+            let taken: Vec<Digest> = levels.iter().map(|(_, found)| found.level.digest()).collect();
             match self.level(game, number, &taken, tally) {
-                Some(level) => levels.push(level),
+                Some(level) => levels.push((number, level)),
                 None => {
                     tally.game_rejected(&format!("no level {number}"));
                     return None;
                 }
             }
         }
+        levels.sort_by_key(|(number, _)| *number);
+        Some(levels.into_iter().map(|(_, level)| level).collect())
+    }
+
+    /// What the judges of the game find; None if one of them says no.
+    pub(crate) fn together(
+        &self,
+        game: &Game,
+        levels: &[FoundLevel],
+        tally: &mut Tally,
+    ) -> Option<Vec<Judgement>> {
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|found| (found.level.clone(), found.report.clone())).unzip();
-        let together =
-            self.panel.judge_together(game, &boards, &reports, self.seed.child("judges of the game", 0));
-        if let Some(obstacle) = together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {
-            tally.game_rejected(obstacle.criterion);
-            return None;
+        let seed = self.seed.child("judges of the game", 0);
+        let together = self.panel.judge_together(game, &boards, &reports, seed);
+        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        match together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {
+            Some(obstacle) => {
+                tally.game_rejected(obstacle.criterion);
+                None
+            }
+            None => Some(together),
         }
-        Some(FoundLevels { levels, together })
+    }
+
+    /// A level that was found for another game, in which all that was played ends as in this one: judged again, but for the
+    /// ladder, whose plays are carried over.
+    pub(crate) fn again(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
+        let level = game.level(&found.level.to_string()).ok()?;
+        let seed = self.seed.child("again", 0).child(&level.digest().to_string(), 0);
+        let ask = self.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
+        let panel = Panel::new(&Criteria { ask, ..self.criteria.clone() });
+        let (place, mut carried) = ((found.difficulty, found.candidate), found.report.judgements.clone());
+        let mut found = self.judged(&panel, game, level, place, seed, tally)?;
+        carried.retain(|judgement| PLAYED.contains(&judgement.criterion));
+        for judgement in &mut carried {
+            for episode in &mut judgement.finding.episodes {
+                *episode = recorded(game, &found.level, episode);
+            }
+        }
+        found.report.judgements.append(&mut carried);
+        Some(found)
     }
 
     fn level(&self, game: &Game, number: u32, taken: &[Digest], tally: &mut Tally) -> Option<FoundLevel> {
@@ -97,17 +139,43 @@ impl Levels<'_> {
                     continue;
                 }
             };
-            let report = self.panel.screen(game, &level, seed.child("judges", 0));
-            let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
-            tally.level(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum(), obstacle);
-            if let (None, Some(witness)) = (obstacle, &report.witness) {
-                let mcts = mcts_rate(game, &level, witness, self.criteria, seed.child("mcts verdict", 0));
-                tally.calls(mcts.calls);
-                return Some(FoundLevel { level, report, mcts, difficulty, candidate });
+            if let Some(found) = self.judged(self.panel, game, level, (difficulty, candidate), seed, tally) {
+                return Some(found);
             }
         }
         None
     }
+
+    /// A level that meets all criteria.
+    fn judged(
+        &self,
+        panel: &Panel,
+        game: &Game,
+        level: Level,
+        (difficulty, candidate): (f64, u32),
+        seed: Seed,
+        tally: &mut Tally,
+    ) -> Option<FoundLevel> {
+        let report = panel.screen(game, &level, seed.child("judges", 0));
+        let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
+        tally.level(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum(), obstacle);
+        let witness = report.witness.as_ref().filter(|_| obstacle.is_none())?;
+        let mcts = mcts_rate(game, &level, witness, self.criteria, seed.child("mcts verdict", 0));
+        tally.calls(mcts.calls);
+        Some(FoundLevel { level, report, mcts, difficulty, candidate })
+    }
+}
+
+/// The criteria whose plays are dear.
+const PLAYED: [&str; 1] = ["skill"];
+
+/// An episode played again, as one of another game.
+fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
+    let (mut episode, mut state) = Episode::begin(game, level, played.seed);
+    for &action in &played.actions {
+        episode.play(game, &mut state, action);
+    }
+    episode
 }
 
 impl FoundLevel {

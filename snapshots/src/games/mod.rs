@@ -1,9 +1,20 @@
-//! Whole games on request: candidates of a generator of rules, their levels, and the judges of both.
+//! Whole games on request: what `arcade generate games` makes, and what a release is minted of.
+//!
+//! Rules come from a generator, or from a search that is told how weak players fare on a few quick levels. Then levels are
+//! found, what nobody would miss is taken away, and the panel has the last word, with dice of its own and with players that no
+//! search has seen. No byte depends on the number of threads.
 
 mod candidate;
+mod gate;
 mod levels;
+mod look;
+mod make;
+mod order;
+mod shrink;
 
 pub(crate) use candidate::Candidate;
 pub use candidate::MadeGame;
 pub(crate) use levels::Levels;
 pub use levels::{FoundLevel, FoundLevels};
+pub use make::{GameSet, GamesError, Progress, make_games};
+pub use order::{GameEffort, GameOrder};

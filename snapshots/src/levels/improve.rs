@@ -5,17 +5,14 @@ use super::aim::Aim;
 use super::axes::Axes;
 use super::look::{Look, Looker};
 use super::make::{Attempt, Cost, LevelSet, Maker, NO_BOARD, TWICE, made};
+use crate::striving::{Finalists, spread, strive};
 use engine::{Digest, Level};
 use generators::Variation;
 use generators::levels::LevelSearch;
-use generators::{
-    Annealing, AnnealingConfig, Archive, Evaluation, Judged, MapElites, MapElitesConfig, Search,
-};
+use generators::{Annealing, AnnealingConfig, Evaluation, MapElites, MapElitesConfig, Search};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Levels that come before the panel after a search, at most.
-const FINALISTS: usize = 3;
 /// The feasibility of a level that a look took for feasible and the panel did not.
 const REFUSED: f64 = 0.95;
 /// Levels that are made from nothing to see in what those of a game differ.
@@ -39,11 +36,11 @@ impl Maker<'_> {
             // Half of them to find a start that is worth improving: levels differ more than edits can change them.
             let config = AnnealingConfig { starts: looks / 2, ..AnnealingConfig::of(looks) };
             let mut search = Annealing::new(variation, config, seed.child("round", round));
-            let mut best = Finalists::default();
+            let mut best = Finalists::new();
             self.strive(&mut search, looks, &looker, &mut cost, |level, evaluation| {
-                best.note(level, evaluation)
+                best.note(level, level.digest(), evaluation)
             });
-            for level in best.levels {
+            for level in best.into_candidates() {
                 if refused.contains(&self.likeness.digest(&level)) {
                     cost.reject(TWICE);
                     continue;
@@ -121,86 +118,20 @@ impl Maker<'_> {
         cost: &mut Cost,
         mut note: impl FnMut(&Level, &mut Evaluation),
     ) {
-        let mut asked = 0;
-        while asked < looks {
-            let levels = search.ask(self.order.effort.batch.min(looks - asked));
-            if levels.is_empty() {
-                cost.reject(NO_BOARD);
-                return;
-            }
-            asked += levels.len();
-            let looks: Vec<Look> = levels
-                .par_iter()
-                .map(|level| {
-                    let look = looker.look(level);
-                    self.progress.looked();
-                    look
-                })
-                .collect();
-            looks.iter().for_each(|look| cost.looked(look));
-            let told = levels.into_iter().zip(looks).map(|(level, look)| (level, look.evaluation));
-            let mut told: Vec<(Level, Evaluation)> = told.collect();
-            told.iter_mut().for_each(|(level, evaluation)| note(level, evaluation));
-            search.tell(told);
-        }
-    }
-}
-
-/// The best feasible levels of a search, the very best first.
-#[derive(Default)]
-struct Finalists {
-    levels: Vec<Level>,
-    objectives: Vec<f64>,
-}
-
-impl Finalists {
-    fn note(&mut self, level: &Level, evaluation: &Evaluation) {
-        if !evaluation.is_feasible() || self.levels.contains(level) {
-            return;
-        }
-        let place = self.objectives.partition_point(|&objective| objective >= evaluation.objective);
-        if place < FINALISTS {
-            self.levels.insert(place, level.clone());
-            self.objectives.insert(place, evaluation.objective);
-            self.levels.truncate(FINALISTS);
-            self.objectives.truncate(FINALISTS);
-        }
-    }
-}
-
-/// An elite of an archive, with its cell and the bins of that.
-type Elite<'a> = (usize, Vec<usize>, &'a Judged<Level>);
-
-/// Levels of an archive that have not been shown, with their cells, as far apart in it as can be: the best one first, then always
-/// the one that is farthest from all that have been picked, the better one of equals.
-fn spread(
-    archive: &Archive<Level>,
-    wanted: usize,
-    shown: &mut BTreeSet<Digest>,
-    key: impl Fn(&Level) -> Digest,
-) -> Vec<(usize, Level)> {
-    let mut left: Vec<Elite<'_>> = archive
-        .elites()
-        .filter(|(_, elite)| !shown.contains(&key(&elite.candidate)))
-        .map(|(cell, elite)| (cell, archive.bins(cell), elite))
-        .collect();
-    let mut picked: Vec<Elite<'_>> = Vec::new();
-    while picked.len() < wanted && !left.is_empty() {
-        let apart = |bins: &[usize]| {
-            let steps = |(_, other, _): &Elite<'_>| {
-                bins.iter().zip(other).map(|(a, b)| a.abs_diff(*b)).sum::<usize>()
-            };
-            picked.iter().map(steps).min().unwrap_or(0)
+        let look = |level: &Level| {
+            let look = looker.look(level);
+            self.progress.looked();
+            look
         };
-        let better = |(_, a, one): &Elite<'_>, (_, b, two): &Elite<'_>| {
-            let objectives = one.evaluation.objective.total_cmp(&two.evaluation.objective);
-            apart(a).cmp(&apart(b)).then(objectives)
-        };
-        let at = (0..left.len()).max_by(|&a, &b| better(&left[a], &left[b]).then(b.cmp(&a)));
-        picked.push(left.swap_remove(at.expect("some are left")));
+        let effort = (looks, self.order.effort.batch);
+        let asked_all = strive(search, effort, look, |level, look| {
+            cost.looked(&look);
+            let mut evaluation = look.evaluation;
+            note(level, &mut evaluation);
+            evaluation
+        });
+        if !asked_all {
+            cost.reject(NO_BOARD);
+        }
     }
-    let levels: Vec<(usize, Level)> =
-        picked.into_iter().map(|(cell, _, elite)| (cell, elite.candidate.clone())).collect();
-    shown.extend(levels.iter().map(|(_, level)| key(level)));
-    levels
 }

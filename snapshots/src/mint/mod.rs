@@ -270,7 +270,7 @@ impl Mint<'_> {
                 }
                 let mut tally = games[at].tally.clone();
                 games[at] = self.fill(places[at], candidate + 1)?;
-                tally.twin();
+                tally.taken_back("same rules as another game");
                 games[at].tally.add(&tally);
             }
         }

@@ -46,9 +46,10 @@ impl Tally {
         self.calls += calls;
     }
 
-    pub(crate) fn twin(&mut self) {
+    /// A game that was accepted is not taken after all.
+    pub(crate) fn taken_back(&mut self, why: &str) {
         self.games_accepted -= 1;
-        *self.rejections.entry("same rules as another game".to_owned()).or_default() += 1;
+        *self.rejections.entry(why.to_owned()).or_default() += 1;
     }
 
     /// Adds the counts of another place.

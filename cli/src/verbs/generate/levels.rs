@@ -1,5 +1,6 @@
 //! `arcade generate levels`.
 
+use super::pretty;
 use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named};
@@ -234,13 +235,6 @@ fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure
         }
     }
     Ok(())
-}
-
-fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
-    let mut text = serde_json::to_vec_pretty(value)
-        .map_err(|error| Failure::surroundings(error, "what was found cannot be written as JSON"))?;
-    text.push(b'\n');
-    Ok(text)
 }
 
 /// What is told of the levels: the same bytes for the same flags.

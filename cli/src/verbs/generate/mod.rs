@@ -1,13 +1,15 @@
-//! `arcade generate`: new levels for a game.
+//! `arcade generate`: new games, and new levels for a game.
 
+mod games;
 mod levels;
 
 use crate::console::Console;
-use crate::failure::Answer;
+use crate::failure::{Answer, Failure};
 
-/// Makes new levels for a game, hand-made or generated.
+/// Makes new games, or new levels for a game, hand-made or generated.
 ///
-/// Example: arcade generate levels --game hailglass --count 5 --out new-levels
+/// Examples: arcade generate games --count 5 --out new-games
+/// and: arcade generate levels --game hailglass --count 5 --out new-levels
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]
@@ -16,11 +18,21 @@ pub(crate) struct Args {
 
 #[derive(clap::Subcommand)]
 enum What {
+    Games(Box<games::Args>),
     Levels(Box<levels::Args>),
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     match &args.what {
+        What::Games(args) => games::run(args, console),
         What::Levels(args) => levels::run(args, console),
     }
+}
+
+/// JSON for people and programs.
+fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
+    let mut text = serde_json::to_vec_pretty(value)
+        .map_err(|error| Failure::surroundings(error, "what was found cannot be written as JSON"))?;
+    text.push(b'\n');
+    Ok(text)
 }

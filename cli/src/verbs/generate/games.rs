@@ -1,0 +1,194 @@
+//! `arcade generate games`.
+
+use super::pretty;
+use crate::console::{Console, Stopwatch};
+use crate::embedded;
+use crate::failure::{Answer, Failure};
+use crate::verbs::release::in_pool;
+use crate::verbs::verify::failure;
+use engine::{Digest, Game, Seed};
+use generators::games::Kind;
+use indicatif::ProgressBar;
+use serde_json::json;
+use snapshots::card::Card;
+use snapshots::games::{GameOrder, GameSet, GamesError, MadeGame, Progress, make_games};
+use snapshots::levels::Method;
+use snapshots::{Draft, Witness};
+use std::fmt::Write;
+use std::path::PathBuf;
+use validators::GameForm;
+
+/// Writes new games: rules, a fiction, and levels from easy to hard. The same flags give the same bytes, on any number of
+/// threads.
+///
+/// Each game comes with an episode that wins each of its levels, and has shown that neither idle nor random players win, that
+/// skill pays, that every rule is used and matters, and that it is near to no corpus game and no other of the set. The folder
+/// holds a folder for each, as a release does: game.vgdl, lvl0.txt and so on, card.json, witness/; `arcade play DIR/GAME` and
+/// `arcade run DIR` take it as it is. It is complete or absent.
+///
+/// Exit status 0: all games that were asked for. 1: fewer, or none. 2: a flag is malformed.
+///
+/// Example: arcade generate games --method search --count 5 --seed autumn --out new-games
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// constructive: patterns that go together; search: each game improved step by step; evolutionary: an archive of games that
+    /// differ
+    #[arg(long, value_name = "METHOD", default_value = "constructive")]
+    method: Method,
+    /// Games
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    count: u32,
+    /// Text that the seeds come from
+    #[arg(long, value_name = "TEXT", default_value = "games")]
+    seed: String,
+    /// Games of this kind only, such as shooter or rescue. May be given again
+    #[arg(long, value_name = "KIND", value_parser = kind)]
+    kind: Vec<Kind>,
+    /// Levels of each game
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=20))]
+    levels: u32,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+    /// The folder of the new games: absent or empty
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+fn kind(text: &str) -> Result<Kind, String> {
+    let names = || Kind::ALL.iter().map(|kind| kind.name());
+    Kind::ALL.iter().copied().find(|kind| kind.name() == text).ok_or_else(|| {
+        let near = engine::nearest(text, names());
+        let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        format!("there is no such kind{help} There are {}", names().collect::<Vec<_>>().join(", "))
+    })
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let order = order(args);
+    let known = corpus_forms()?;
+    // Before minutes of work: is there a place to write to?
+    let draft = Draft::create(&args.out).map_err(failure)?;
+    let bar = Bar(console.progress(u64::from(args.count), "games"));
+    let started = Stopwatch::start();
+    let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
+    let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
+    let made = in_pool(args.jobs, || make_games(&order, &known, &canary, seed, &bar))?;
+    bar.0.finish_and_clear();
+    let set = match made {
+        Ok(set) => set,
+        Err(error @ GamesError::NoneAccepted { .. }) => {
+            console.remark(format_args!("{error}"));
+            return Ok(false);
+        }
+        Err(error) => return Err(Failure::malformed(error)),
+    };
+    for game in &set.games {
+        write(&draft, game)?;
+    }
+    draft.write("games.json", &pretty(&document(args, &set))?).map_err(failure)?;
+    draft.commit().map_err(failure)?;
+    let seconds = started.seconds();
+    console.document(&document(args, &set))?;
+    console.say(summary(args, &set, seconds).trim_end());
+    Ok(set.games.len() == args.count as usize)
+}
+
+fn order(args: &Args) -> GameOrder {
+    let order = GameOrder { levels: args.levels, ..GameOrder::new(args.method, args.count) };
+    match args.kind[..] {
+        [] => order,
+        _ => GameOrder { kinds: args.kind.clone(), ..order },
+    }
+}
+
+/// The rules of the corpus games, which new games have to differ from.
+fn corpus_forms() -> Result<Vec<GameForm>, Failure> {
+    let form = |game: &snapshots::CorpusGame| {
+        let compiled = Game::from_source(&game.source);
+        compiled.map(|compiled| GameForm::of(&compiled)).map_err(|problems| {
+            Failure::malformed(format!("the corpus game `{}` does not compile: {problems}", game.name))
+        })
+    };
+    embedded::corpus()?.games.iter().map(form).collect()
+}
+
+struct Bar(ProgressBar);
+
+impl Progress for Bar {
+    fn looked(&self) {
+        self.0.tick();
+    }
+
+    fn made(&self, title: &str) {
+        self.0.set_message(title.to_owned());
+        self.0.inc(1);
+    }
+}
+
+/// A game, its card, its levels and the episodes that win them.
+fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
+    let folder = &made.card.id;
+    draft.write(&format!("{folder}/game.vgdl"), made.text.as_bytes()).map_err(failure)?;
+    draft.write(&format!("{folder}/card.json"), &pretty(&made.card)?).map_err(failure)?;
+    for (number, (level, episode)) in made.levels.iter().zip(&made.witnesses).enumerate() {
+        let text = level.level.to_string();
+        draft.write(&format!("{folder}/lvl{number}.txt"), text.as_bytes()).map_err(failure)?;
+        let witness = Witness { canary: made.card.canary.clone(), episode: episode.clone() };
+        draft.write(&format!("{folder}/witness/lvl{number}.json"), &pretty(&witness)?).map_err(failure)?;
+    }
+    Ok(())
+}
+
+/// What is told of the games: the same bytes for the same flags.
+fn document(args: &Args, set: &GameSet) -> serde_json::Value {
+    let cards: Vec<&Card> = set.games.iter().map(|game| &game.card).collect();
+    json!({
+        "method": args.method,
+        "seed": args.seed,
+        "asked": { "count": args.count, "kinds": args.kind, "levels": args.levels },
+        "generation": generators::GENERATION,
+        "semantics": engine::SEMANTICS,
+        "games": cards,
+        "looks": set.looks,
+        "tally": set.tally,
+    })
+}
+
+/// The games, for a person.
+fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
+    let mut text = String::new();
+    let width = set.games.iter().map(|game| game.card.title.chars().count()).max().unwrap_or(0);
+    for Card { title, kind, goal, levels, id, .. } in set.games.iter().map(|game| &game.card) {
+        let ticks: Vec<String> = levels.iter().map(|level| level.witness_ticks.to_string()).collect();
+        let _ = writeln!(text, "  {title:<width$}  {kind:<18} won in {} ticks", ticks.join(", "));
+        let _ = writeln!(text, "  {:<width$}  {goal}", "");
+        let _ = writeln!(text, "  {:<width$}  {id}", "");
+    }
+    let tally = &set.tally;
+    let _ = writeln!(
+        text,
+        "\n{} of {} games in {seconds:.1} s; {} looked at, {} judged, {} levels tried; {:.1} million forward-model calls",
+        set.games.len(),
+        args.count,
+        set.looks,
+        tally.games_tried,
+        tally.levels_tried,
+        tally.calls as f64 / 1e6
+    );
+    if !tally.rejections.is_empty() {
+        let _ = writeln!(text, "turned down: {}", tally.reasons());
+    }
+    let missing = args.count as usize - set.games.len();
+    if missing > 0 {
+        let _ = writeln!(
+            text,
+            "{missing} could not be made: ask for less, for other kinds, or take another seed"
+        );
+    }
+    let out = args.out.display();
+    if let Some(first) = set.games.first() {
+        let _ = writeln!(text, "in {out}; play: arcade play {out}/{} 0", first.card.id);
+    }
+    text
+}

@@ -1,0 +1,141 @@
+//! A quick look at a game: what a search is told of it.
+
+use super::order::GameOrder;
+use crate::games::Candidate;
+use engine::{Analysis, Episode, Level, Outcome, Seed};
+use generators::games::GameGenome;
+use generators::levels::{ConstructiveLevels, LevelConfig};
+use generators::{Axis, Evaluation, Generator};
+use validators::game_measures::{AvatarKind, GameKind, GoalKind, PlayMeasures};
+use validators::{Case, Climb, Ladder, Recorded, Rung};
+
+/// The levels of a look: how hard the generator is told to make them.
+const DIFFICULTIES: [f64; 3] = [0.0, 0.5, 1.0];
+/// Boards that are tried for each.
+const BOARDS: u64 = 3;
+/// Who plays in a look: none of those that only acceptance asks.
+const PLAYERS: [&str; 4] = ["do-nothing", "random", "mcts:30", "olets:50"];
+/// Plays of each player on each level.
+const PLAYS: u64 = 4;
+/// Forward-model calls of all of them on a level, after which no further round of plays begins.
+const CALLS: u64 = 300_000;
+/// Ticks of a play.
+const TICKS: usize = 400;
+/// The greatest share of plays that those who do not look ahead may win.
+const LUCK: f64 = 0.1;
+/// The least share that somebody who looks ahead has to win, more than they do.
+const EDGE: f64 = 0.4;
+/// Interactions of a won play, guards apart, that are enough.
+const MECHANICS: f64 = 6.0;
+/// Ticks of foresight that are enough.
+const SIGHT: f64 = 24.0;
+/// The share of plays that the best player wins where a game is neither too easy nor too hard.
+const CHALLENGE: f64 = 0.75;
+
+/// Looks at games for one order, cheaply: three levels, few and weak players.
+pub(super) struct Looker<'a> {
+    order: &'a GameOrder,
+    seed: Seed,
+}
+
+/// What a look found.
+pub(super) struct Look {
+    /// What the search is told.
+    pub(super) evaluation: Evaluation,
+    /// Forward-model calls.
+    pub(super) calls: u64,
+}
+
+/// The axes of an archive of games: what one is after, what one can do, and how much happens without one.
+pub(super) fn axes() -> Vec<Axis> {
+    let kinds = |name: &str, last: usize| Axis::new(name, (0.0, last as f64 + 1.0), last + 1);
+    vec![
+        kinds("goal", GoalKind::Score as usize),
+        kinds("avatar", AvatarKind::Watches as usize),
+        Axis::new("pace", (0.0, 1.0), 3),
+    ]
+}
+
+/// How one level went.
+struct Played {
+    level: Level,
+    ladder: Ladder,
+    episodes: Vec<Episode>,
+}
+
+impl<'a> Looker<'a> {
+    pub(super) fn new(order: &'a GameOrder, seed: Seed) -> Looker<'a> {
+        Looker { order, seed }
+    }
+
+    /// Looks at a game. Cost: 48 plays of at most 400 ticks, and [`PlayMeasures`].
+    pub(super) fn look(&self, genome: &GameGenome) -> Look {
+        let seed = self.seed.child(&genome.key().to_string(), 0);
+        let made = genome.build().and_then(|made| Candidate::generated(made, "", 0));
+        let Ok(Candidate { game, .. }) = made else { return Look::of([0.0; 4], 0.0, vec![0.0; 3], 0) };
+        let analysis = Analysis::of(&game);
+        let kind = GameKind::of(&analysis);
+        let played: Vec<Played> = (0..)
+            .zip(DIFFICULTIES)
+            .filter_map(|(number, difficulty)| self.play(&analysis, difficulty, seed.child("level", number)))
+            .collect();
+        let calls = played.iter().flat_map(|played| &played.ladder.rungs).map(|fared| fared.rate.calls).sum();
+        let recording: Vec<Recorded<'_>> = played
+            .iter()
+            .map(|played| Recorded { level: &played.level, episodes: &played.episodes })
+            .collect();
+        let measures = PlayMeasures::of(&analysis, &recording, seed.child("measures", 0));
+        let place = |pace| vec![kind.goal as usize as f64, kind.avatar as usize as f64, pace];
+        let drawn = played.len() as f64 / DIFFICULTIES.len() as f64;
+        let Some(measures) = measures else {
+            return Look::of([drawn, 0.0, 0.0, 0.0], 0.0, place(0.0), calls);
+        };
+
+        let share = |at: usize| {
+            let rates = || played.iter().map(|played| &played.ladder.rungs[at].rate);
+            let plays: u64 = rates().map(|rate| rate.plays).sum();
+            rates().map(|rate| rate.wins).sum::<u64>() as f64 / plays.max(1) as f64
+        };
+        let [idle, random, weak, strong] = [share(0), share(1), share(2), share(3)];
+        let (floor, best) = (idle.max(random), weak.max(strong));
+        let lucky = if floor <= LUCK { 1.0 } else { 1.0 - floor };
+        let edge = ((best - floor) / EDGE).clamp(0.0, 1.0);
+        let run = |episode: &&Episode| episode.outcome == Outcome::Won;
+        let won = played.iter().filter(|played| played.episodes.iter().any(|e| run(&e))).count();
+        let constraints = [drawn, lucky, edge, won as f64 / DIFFICULTIES.len() as f64];
+        let objective = 0.35 * (best - floor).max(0.0)
+            + 0.25 * (measures.mechanics as f64 / MECHANICS).min(1.0)
+            + 0.15 * (1.0 - (best - CHALLENGE).abs() / CHALLENGE)
+            + 0.15 * (measures.sight / SIGHT).min(1.0)
+            + 0.1 * measures.drama;
+        Look::of(constraints, objective.clamp(0.0, 1.0), place(measures.pace), calls)
+    }
+
+    fn play(&self, analysis: &Analysis, difficulty: f64, seed: Seed) -> Option<Played> {
+        let game = analysis.game();
+        let board = &self.order.board;
+        let config =
+            LevelConfig { columns: board.columns, rows: board.rows, difficulty, ..LevelConfig::default() };
+        let generator = ConstructiveLevels::new(game, config).ok()?;
+        let level = (0..BOARDS).find_map(|board| generator.generate(seed.child("board", board)).ok())?;
+        let rung = |name: &&str| Rung::new(name, 1).expect("a player with its calls");
+        let climb = Climb {
+            rungs: PLAYERS.iter().map(rung).collect(),
+            held_out: Vec::new(),
+            plays: PLAYS,
+            calls: CALLS,
+            ticks: TICKS,
+            patience: 1,
+        };
+        let case = Case { game, level: &level, seed: seed.child("plays", 0), analysis, witness: None };
+        let (ladder, episodes) = climb.play(case);
+        Some(Played { level, ladder, episodes })
+    }
+}
+
+impl Look {
+    fn of(constraints: [f64; 4], objective: f64, measures: Vec<f64>, calls: u64) -> Look {
+        let feasibility = constraints.iter().sum::<f64>() / constraints.len() as f64;
+        Look { evaluation: Evaluation { feasibility, objective, measures }, calls }
+    }
+}

@@ -1,0 +1,252 @@
+//! How games of each method are made.
+
+use super::candidate::MadeGame;
+use super::gate::{Gate, NEAR_KNOWN};
+use super::look::{Looker, axes};
+use super::order::GameOrder;
+use crate::levels::Method;
+use crate::mint::Tally;
+use crate::striving::{Finalists, spread, strive};
+use engine::Seed;
+use generators::games::{GameConfig, GameGenome, GameVariation, Kind};
+use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Variation};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use validators::CriteriaError;
+use validators::novelty::GameForm;
+
+/// The games of an order.
+#[derive(Clone, Debug)]
+pub struct GameSet {
+    /// Those that could be made, in the order of their numbers.
+    pub games: Vec<MadeGame>,
+    /// What was tried, and why the others failed.
+    pub tally: Tally,
+    /// Games that a search looked at.
+    pub looks: u64,
+}
+
+/// Why no game was made.
+#[derive(Debug, thiserror::Error)]
+pub enum GamesError {
+    /// The criteria are not sensible.
+    #[error("the criteria: {0}")]
+    Criteria(#[from] CriteriaError),
+    /// No candidate passed.
+    #[error("no game was accepted of {looks} that were looked at and {tried} that were judged: {why}")]
+    NoneAccepted {
+        /// Candidates that a search looked at.
+        looks: u64,
+        /// Candidates before the last judges.
+        tried: u64,
+        /// Their obstacles.
+        why: String,
+    },
+}
+
+/// Told how the making goes; from several threads.
+pub trait Progress: Sync {
+    /// A game was looked at, or judged.
+    fn looked(&self) {}
+    /// A game is accepted.
+    fn made(&self, _title: &str) {}
+}
+
+impl Progress for () {}
+
+/// Makes the games of an order; no two of them, and none of them and a `known` game, are nearer than
+/// [`NEAR`](validators::novelty::NEAR). `canary` marks their files. Cost: some ten seconds of one core a game, on all threads
+/// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
+///
+/// Games that could not be made are missing in the set.
+///
+/// # Errors
+/// The criteria are not sensible, or not one game was accepted.
+pub fn make_games(
+    order: &GameOrder,
+    known: &[GameForm],
+    canary: &str,
+    seed: Seed,
+    progress: &dyn Progress,
+) -> Result<GameSet, GamesError> {
+    order.check()?;
+    let gate = Gate::new(order, known, canary);
+    let maker = Maker { order, gate, seed, progress };
+    let set = match order.method {
+        Method::Constructive | Method::Search => maker.one_by_one(),
+        Method::Evolutionary => maker.evolved(),
+    };
+    if set.games.is_empty() && order.count > 0 {
+        let why = set.tally.reasons();
+        return Err(GamesError::NoneAccepted { looks: set.looks, tried: set.tally.games_tried, why });
+    }
+    Ok(set)
+}
+
+struct Maker<'a> {
+    order: &'a GameOrder,
+    gate: Gate<'a>,
+    seed: Seed,
+    progress: &'a dyn Progress,
+}
+
+/// What came of the attempts for one game.
+struct Attempted {
+    /// The game, and the attempt after the one that it comes from.
+    made: Option<(MadeGame, u32)>,
+    tally: Tally,
+    looks: u64,
+}
+
+impl Maker<'_> {
+    /// Each game by itself; one that is near to an earlier one makes way for the next of its place.
+    fn one_by_one(&self) -> GameSet {
+        let numbers = (0..self.order.count).into_par_iter();
+        let mut attempted: Vec<Attempted> = numbers.map(|number| self.attempt(number, 0)).collect();
+        let mut forms: Vec<GameForm> = Vec::new();
+        let mut set = GameSet { games: Vec::new(), tally: Tally::default(), looks: 0 };
+        for (number, attempted) in (0..).zip(&mut attempted) {
+            while let Some((game, next)) = attempted.made.take() {
+                let form = GameForm::of(&game.game);
+                if !forms.iter().any(|other| form.is_near(other)) {
+                    forms.push(form);
+                    set.games.push(game);
+                    break;
+                }
+                attempted.tally.taken_back(NEAR_KNOWN);
+                let again = self.attempt(number, next);
+                attempted.made = again.made;
+                attempted.tally.add(&again.tally);
+                attempted.looks += again.looks;
+            }
+            set.tally.add(&attempted.tally);
+            set.looks += attempted.looks;
+        }
+        set
+    }
+
+    /// Attempts from one on, until a game is accepted.
+    fn attempt(&self, number: u32, from: u32) -> Attempted {
+        let mut attempted = Attempted { made: None, tally: Tally::default(), looks: 0 };
+        let kind = self.kind(number);
+        let variation = GameVariation::new(GameConfig { kinds: vec![kind] });
+        let seed = self.seed.child("game", u64::from(number));
+        for attempt in from..self.order.effort.attempts {
+            let seed = seed.child("attempt", u64::from(attempt));
+            let proposed: Vec<GameGenome> = match self.order.method {
+                Method::Constructive => self.drawn(&variation, seed, &mut attempted).into_iter().collect(),
+                _ => self.searched(&variation, seed.child("search", 0), &mut attempted),
+            };
+            if proposed.is_empty() {
+                attempted.tally.game_rejected("look");
+            }
+            for (at, genome) in (0..).zip(&proposed) {
+                let made = self.gate.judge(genome, attempt, seed.child("judges", at), &mut attempted.tally);
+                self.progress.looked();
+                if let Some(made) = made {
+                    self.progress.made(&made.card.title);
+                    attempted.made = Some((made, attempt + 1));
+                    return attempted;
+                }
+            }
+        }
+        attempted
+    }
+
+    /// Kinds take turns, in an order that is drawn.
+    fn kind(&self, number: u32) -> Kind {
+        let mut kinds = self.order.kinds.clone();
+        self.seed.child("kinds", 0).sampler().shuffle(&mut kinds);
+        kinds[number as usize % kinds.len()]
+    }
+
+    /// A game as it is drawn, if a look finds nothing against it.
+    fn drawn(&self, variation: &GameVariation, seed: Seed, attempted: &mut Attempted) -> Option<GameGenome> {
+        let genome = variation.create(seed.child("rules", 0))?;
+        let look = Looker::new(self.order, seed.child("look", 0)).look(&genome);
+        attempted.note(&look);
+        look.evaluation.is_feasible().then_some(genome)
+    }
+
+    /// The best games of a search that starts from constructive ones.
+    fn searched(&self, variation: &GameVariation, seed: Seed, attempted: &mut Attempted) -> Vec<GameGenome> {
+        let looks = self.order.effort.looks as usize;
+        let looker = Looker::new(self.order, seed.child("look", 0));
+        let config = AnnealingConfig { starts: looks / 3, ..AnnealingConfig::of(looks) };
+        let mut search = Annealing::new(variation, config, seed.child("annealing", 0));
+        let mut best = Finalists::new();
+        let look = |genome: &GameGenome| {
+            self.progress.looked();
+            looker.look(genome)
+        };
+        strive(&mut search, (looks, self.order.effort.batch), look, |genome, look| {
+            attempted.note(&look);
+            best.note(genome, genome.key(), &look.evaluation);
+            look.evaluation
+        });
+        best.into_candidates().collect()
+    }
+
+    /// Fills an archive of games that differ, and picks games that lie far apart in it until enough are accepted.
+    fn evolved(&self) -> GameSet {
+        let looker = Looker::new(self.order, self.seed.child("look", 0));
+        let variation = GameVariation::new(GameConfig { kinds: self.order.kinds.clone() });
+        let wanted = self.order.count as usize;
+        let looks = self.order.effort.looks as usize * wanted;
+        let config = MapElitesConfig { initial: (looks / 3).max(1), ..MapElitesConfig::default() };
+        let mut search =
+            MapElites::new(&variation, GameGenome::key, axes(), config, self.seed.child("archive", 0));
+        let mut forms: Vec<GameForm> = Vec::new();
+        let mut set = GameSet { games: Vec::new(), tally: Tally::default(), looks: 0 };
+        let mut shown = BTreeSet::new();
+        for round in 0..self.order.effort.attempts {
+            // The first round fills the archive, the others mend it where the judges said no.
+            let looks = if round == 0 { looks } else { looks / 4 };
+            let look = |genome: &GameGenome| {
+                self.progress.looked();
+                looker.look(genome)
+            };
+            strive(&mut search, (looks, self.order.effort.batch), look, |_, look| {
+                set.looks += 1;
+                set.tally.calls(look.calls);
+                look.evaluation
+            });
+            let picked = spread(search.archive(), wanted - set.games.len(), &mut shown, GameGenome::key);
+            let judge = |(cell, genome): &(usize, GameGenome)| {
+                let mut tally = Tally::default();
+                let seed = self.seed.child("judges", 0).child(&genome.key().to_string(), 0);
+                let made = self.gate.judge(genome, round, seed, &mut tally);
+                self.progress.looked();
+                (*cell, made, tally)
+            };
+            let judged: Vec<_> = picked.par_iter().map(judge).collect();
+            for (cell, made, mut tally) in judged {
+                let form = made.as_ref().map(|made| GameForm::of(&made.game));
+                match (made, form) {
+                    (Some(made), Some(form)) if !forms.iter().any(|other| form.is_near(other)) => {
+                        self.progress.made(&made.card.title);
+                        forms.push(form);
+                        set.games.push(made);
+                    }
+                    (Some(_), _) => tally.taken_back(NEAR_KNOWN),
+                    _ => search.refuse(cell, REFUSED),
+                }
+                set.tally.add(&tally);
+            }
+            if set.games.len() == wanted {
+                break;
+            }
+        }
+        set
+    }
+}
+
+/// The feasibility of a game that a look took for feasible and the last judges did not.
+const REFUSED: f64 = 0.95;
+
+impl Attempted {
+    fn note(&mut self, look: &super::look::Look) {
+        self.looks += 1;
+        self.tally.calls(look.calls);
+    }
+}

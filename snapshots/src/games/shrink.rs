@@ -1,0 +1,102 @@
+//! Smaller games that play the same: what nobody would miss is taken away.
+
+use super::candidate::Candidate;
+use super::levels::FoundLevel;
+use engine::{Episode, Game, Level};
+use generators::games::GameGenome;
+use std::collections::BTreeSet;
+use validators::{Recorded, executions};
+
+/// Things that are taken away from one game at most.
+const STEPS: usize = 12;
+/// Executions of a rule that is taken away that are looked at before everything is.
+const USES: usize = 8;
+
+/// The smallest game that comes of taking away one thing after another without which every episode that the judges of the
+/// levels have played ends as it did: after the same keys, with the same outcome and score. None if nothing can go.
+///
+/// Cost: some tens of builds for each thing. What is missed is missed in the first episodes that show it; for each thing that
+/// can go all episodes are played again.
+pub(super) fn shrunk(
+    genome: &GameGenome,
+    first: &Candidate,
+    levels: &[FoundLevel],
+    candidate: impl Fn(&GameGenome) -> Option<Candidate>,
+) -> Option<Candidate> {
+    let played = Played::of(levels);
+    let mut smallest: Option<(GameGenome, Candidate)> = None;
+    for _ in 0..STEPS {
+        let (from, game) =
+            smallest.as_ref().map_or((genome, &first.game), |(genome, candidate)| (genome, &candidate.game));
+        let uses = played.executions(game);
+        let smaller = from.shrunk_once().into_iter().find_map(|smaller| {
+            let candidate = candidate(&smaller)?;
+            played.alike(game, &candidate.game, &uses).then_some((smaller, candidate))
+        });
+        match smaller {
+            Some(smaller) => smallest = Some(smaller),
+            None => break,
+        }
+    }
+    smallest.map(|(_, candidate)| candidate)
+}
+
+/// The texts of the levels, and what was played on them.
+struct Played {
+    levels: Vec<(String, Vec<Episode>)>,
+}
+
+impl Played {
+    fn of(levels: &[FoundLevel]) -> Played {
+        let level = |found: &FoundLevel| (found.level.to_string(), found.report.episodes());
+        Played { levels: levels.iter().map(level).collect() }
+    }
+
+    fn read(&self, game: &Game) -> Option<Vec<Level>> {
+        self.levels.iter().map(|(text, _)| game.level(text).ok()).collect()
+    }
+
+    /// Where the rules of a game, by their text, are executed.
+    fn executions(&self, game: &Game) -> Vec<Vec<[usize; 2]>> {
+        let Some(levels) = self.read(game) else { return Vec::new() };
+        let recorded =
+            levels.iter().zip(&self.levels).map(|(level, (_, episodes))| Recorded { level, episodes });
+        executions(game, &recorded.collect::<Vec<_>>())
+    }
+
+    /// Whether a smaller game plays as a game does, of which `uses` says where its rules are executed.
+    fn alike(&self, game: &Game, smaller: &Game, uses: &[Vec<[usize; 2]>]) -> bool {
+        let Some(levels) = self.read(smaller) else { return false };
+        let same = |[level, episode]: [usize; 2]| {
+            ends_alike(smaller, &levels[level], &self.levels[level].1[episode])
+        };
+        let kept: BTreeSet<String> = rules(smaller).collect();
+        let gone = rules(game).zip(uses).filter(|(rule, _)| !kept.contains(rule));
+        let telling = gone.flat_map(|(_, uses)| uses.iter().take(USES).copied());
+        let witnesses = (0..levels.len()).map(|level| [level, 0]);
+        let all = self.levels.iter().enumerate();
+        let all = all.flat_map(|(level, (_, episodes))| (0..episodes.len()).map(move |at| [level, at]));
+        telling.chain(witnesses).chain(all).all(same)
+    }
+}
+
+/// The interactions, each as one text.
+fn rules(game: &Game) -> impl Iterator<Item = String> + '_ {
+    game.description().interactions.iter().map(|line| {
+        let words = line.second.iter().chain([&line.effect]).map(|word| word.text.as_str());
+        let params =
+            line.params.iter().flat_map(|param| [param.key.text.as_str(), param.value.text.as_str()]);
+        [line.first.text.as_str()].into_iter().chain(words).chain(params).collect::<Vec<_>>().join(" ")
+    })
+}
+
+fn ends_alike(game: &Game, level: &Level, episode: &Episode) -> bool {
+    let mut state = game.start(level, episode.seed);
+    for &action in &episode.actions {
+        if state.is_over() {
+            return false;
+        }
+        game.step(&mut state, action);
+    }
+    state.outcome() == episode.outcome && state.score() == episode.score
+}

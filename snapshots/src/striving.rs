@@ -1,0 +1,99 @@
+//! What searches for levels and searches for games have in common: candidates are looked at on all threads, the best are
+//! kept, and what is picked from an archive lies far apart in it.
+
+use engine::Digest;
+use generators::{Archive, Evaluation, Judged, Search};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// Lets a search ask for so many candidates, `batch` at a time, looks at them on all threads, and tells it what `told` makes
+/// of each look. Whether it asked for all: false as soon as it knows nothing to propose.
+pub(crate) fn strive<S: Search<Candidate: Sync>, L: Send>(
+    search: &mut S,
+    (looks, batch): (usize, usize),
+    look: impl Fn(&S::Candidate) -> L + Sync,
+    mut told: impl FnMut(&S::Candidate, L) -> Evaluation,
+) -> bool {
+    let mut asked = 0;
+    while asked < looks {
+        let candidates = search.ask(batch.min(looks - asked));
+        if candidates.is_empty() {
+            return false;
+        }
+        asked += candidates.len();
+        let looks: Vec<L> = candidates.par_iter().map(&look).collect();
+        let evaluated = candidates.into_iter().zip(looks).map(|(candidate, look)| {
+            let evaluation = told(&candidate, look);
+            (candidate, evaluation)
+        });
+        search.tell(evaluated.collect());
+    }
+    true
+}
+
+/// Candidates that come before the last judges after a search, at most.
+const FINALISTS: usize = 3;
+
+/// The best feasible candidates of a search, the very best first.
+pub(crate) struct Finalists<C> {
+    best: Vec<(C, Digest, f64)>,
+}
+
+impl<C: Clone> Finalists<C> {
+    pub(crate) fn new() -> Finalists<C> {
+        Finalists { best: Vec::new() }
+    }
+
+    /// Takes a candidate in, if it is feasible, new by its key and good enough.
+    pub(crate) fn note(&mut self, candidate: &C, key: Digest, evaluation: &Evaluation) {
+        if !evaluation.is_feasible() || self.best.iter().any(|(_, known, _)| *known == key) {
+            return;
+        }
+        let place = self.best.partition_point(|(.., objective)| *objective >= evaluation.objective);
+        if place < FINALISTS {
+            self.best.insert(place, (candidate.clone(), key, evaluation.objective));
+            self.best.truncate(FINALISTS);
+        }
+    }
+
+    pub(crate) fn into_candidates(self) -> impl Iterator<Item = C> {
+        self.best.into_iter().map(|(candidate, ..)| candidate)
+    }
+}
+
+/// An elite of an archive, with its cell and the bins of that.
+type Elite<'a, C> = (usize, Vec<usize>, &'a Judged<C>);
+
+/// Candidates of an archive that have not been shown, with their cells, as far apart in it as can be: the best one first, then
+/// always the one that is farthest from all that have been picked, the better one of equals.
+pub(crate) fn spread<C: Clone>(
+    archive: &Archive<C>,
+    wanted: usize,
+    shown: &mut BTreeSet<Digest>,
+    key: impl Fn(&C) -> Digest,
+) -> Vec<(usize, C)> {
+    let mut left: Vec<Elite<'_, C>> = archive
+        .elites()
+        .filter(|(_, elite)| !shown.contains(&key(&elite.candidate)))
+        .map(|(cell, elite)| (cell, archive.bins(cell), elite))
+        .collect();
+    let mut picked: Vec<Elite<'_, C>> = Vec::new();
+    while picked.len() < wanted && !left.is_empty() {
+        let apart = |bins: &[usize]| {
+            let steps = |(_, other, _): &Elite<'_, C>| {
+                bins.iter().zip(other).map(|(a, b)| a.abs_diff(*b)).sum::<usize>()
+            };
+            picked.iter().map(steps).min().unwrap_or(0)
+        };
+        let better = |(_, a, one): &Elite<'_, C>, (_, b, two): &Elite<'_, C>| {
+            let objectives = one.evaluation.objective.total_cmp(&two.evaluation.objective);
+            apart(a).cmp(&apart(b)).then(objectives)
+        };
+        let at = (0..left.len()).max_by(|&a, &b| better(&left[a], &left[b]).then(b.cmp(&a)));
+        picked.push(left.swap_remove(at.expect("some are left")));
+    }
+    let candidates: Vec<(usize, C)> =
+        picked.into_iter().map(|(cell, _, elite)| (cell, elite.candidate.clone())).collect();
+    shown.extend(candidates.iter().map(|(_, candidate)| key(candidate)));
+    candidates
+}
