@@ -16,7 +16,8 @@ pub(crate) fn complete(draft: &mut Draft) {
     let derived: Vec<Rule> = movement(draft, &order).into_iter().chain(harm(draft)).collect();
     draft.rules.extend(derived);
     draft.rules.sort_by_key(|rule| rule.phase);
-    if !draft.harms.is_empty() {
+    let wanes = draft.rules.iter().any(|rule| matches!(rule.effect, Effect::Wane { .. }));
+    if wanes || !draft.harms.is_empty() {
         draft.endings.insert(0, (Ending::Gone(vec![AVATAR]), false));
     }
     // Losing comes before winning, time last.

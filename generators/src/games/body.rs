@@ -32,6 +32,8 @@ pub(crate) enum Body {
     Walker,
     /// Goes straight, and turns round at obstacles.
     Patroller,
+    /// Goes straight, and any other way from obstacles.
+    Drifter,
     /// Is shot by a foe, or falls; ends at obstacles.
     FoeShot,
     /// A cloud, a flame, a puddle: is there for a while, not inside obstacles.
@@ -48,7 +50,7 @@ impl Body {
         use Body as B;
         match self {
             B::Hero => matches!(obstacle, B::Wall | B::Solid | B::Den | B::Crate),
-            B::Walker | B::Patroller | B::Carrier | B::FoeShot | B::Puff => {
+            B::Walker | B::Patroller | B::Drifter | B::Carrier | B::FoeShot | B::Puff => {
                 matches!(obstacle, B::Wall | B::Solid | B::Soft | B::Crate)
             }
             B::Shot => matches!(obstacle, B::Wall | B::Solid | B::Den | B::Soft | B::Crate),
@@ -62,6 +64,7 @@ impl Body {
         match self {
             Body::Hero | Body::Walker | Body::Crate => &[Effect::StepBack],
             Body::Patroller | Body::Carrier => &[Effect::ReverseDirection, Effect::StepBack],
+            Body::Drifter => &[Effect::FlipDirection, Effect::StepBack],
             Body::FoeShot | Body::Puff | Body::Shot => &[Effect::KillSprite],
             _ => &[],
         }

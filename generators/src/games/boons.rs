@@ -13,19 +13,28 @@ pub(crate) const BOONS: &[Pattern] = &[
         name: "boon/hearts",
         weight: 4,
         roles: &[Role::Medicine],
-        gives: &[],
+        gives: &[Feature::Health],
         needs: &[Feature::Harm, Feature::Four],
-        bars: &[],
+        bars: &[Feature::Health],
         build: hearts,
     },
     Pattern {
         name: "boon/ward",
         weight: 3,
         roles: &[Role::Ward],
-        gives: &[Feature::Wards],
+        gives: &[Feature::Wards, Feature::Health],
         needs: &[Feature::Harm, Feature::Four],
-        bars: &[Feature::Precious],
+        bars: &[Feature::Precious, Feature::Health],
         build: ward,
+    },
+    Pattern {
+        name: "boon/shop",
+        weight: 4,
+        roles: &[Role::Coin, Role::Forge, Role::Medicine],
+        gives: &[Feature::Health],
+        needs: &[Feature::Harm, Feature::Four],
+        bars: &[Feature::Health],
+        build: shop,
     },
     Pattern {
         name: "boon/coins",
@@ -57,6 +66,30 @@ fn hearts(draft: &mut Draft, sampler: &mut Sampler) {
     draft.scored(Phase::Take, AVATAR, &[medicine], heal, 1);
     let clause =
         format!("{} wounds are the end, but {} heals", super::english::number(health), draft.say(medicine));
+    draft.tell(clause);
+}
+
+/// Wounds are healed with what coins buy.
+fn shop(draft: &mut Draft, sampler: &mut Sampler) {
+    let health = draw(sampler, 2, 3);
+    let price = draw(sampler, 1, 2);
+    draft.stamina = Stamina::Hearts(health);
+    draft.give(AVATAR, "healthPoints", Value::Count(health));
+    draft.give(AVATAR, "limitHealthPoints", Value::Count(health + 2));
+    let coin = draft.place(Role::Coin, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(4))]);
+    let shop = draft.place(Role::Forge, SpriteClass::Immovable, Body::Spot, &[]);
+    let medicine = draft.spawn(Role::Medicine, SpriteClass::Immovable, Body::Item, &[]);
+    draft.scored(Phase::Take, coin, &[AVATAR], Effect::CollectResource { stays: false }, 1);
+    let buy = Effect::SpawnIfHasMore { resource: coin, limit: price, stype: medicine };
+    draft.rule(Phase::Take, AVATAR, &[shop], buy);
+    draft.scored(Phase::Take, AVATAR, &[medicine], Effect::AddHealthPointsToMax { value: 1 }, 1);
+    let wounds = super::english::number(health);
+    let cost = if price == 1 { draft.one(coin) } else { format!("two {}", draft.many(coin)) };
+    let clause = format!(
+        "{wounds} wounds are the end, but the {} gives {} for {cost}, which heals",
+        draft.say(shop),
+        draft.say(medicine)
+    );
     draft.tell(clause);
 }
 

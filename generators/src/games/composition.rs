@@ -50,12 +50,14 @@ impl Composition {
                 composition.patterns.push(obstacle);
             }
         }
-        if sampler.ratio(1, 2)
-            && let Some(boon) = composition.pick(BOONS.iter(), sampler)
-        {
-            composition.patterns.push(boon);
+        let boons = sampler.weighted(&[1, 4, 2]).unwrap_or(0);
+        for _ in 0..boons {
+            if let Some(boon) = composition.pick(BOONS.iter(), sampler) {
+                composition.patterns.push(boon);
+            }
         }
-        Some(composition)
+        // Something has to stand in the way.
+        is_challenge(&composition.patterns).then_some(composition)
     }
 
     /// Whether some pattern brings this.
@@ -102,6 +104,14 @@ fn go_together(one: &Pattern, two: &Pattern) -> bool {
     !one.roles.iter().any(|role| two.roles.contains(role)) && !bars(one, two) && !bars(two, one)
 }
 
+/// Whether something endangers the hero, works against it, or stands in its way.
+pub(crate) fn is_challenge(patterns: &[&'static Pattern]) -> bool {
+    let company = |pattern: &&&Pattern| ["threat", "obstacle"].contains(&family(pattern));
+    let works_against = |feature: &Feature| [Feature::Harm, Feature::Movers].contains(feature);
+    patterns.iter().any(|pattern| company(&pattern))
+        || patterns.get(1).is_some_and(|goal| goal.gives.iter().any(works_against))
+}
+
 /// The family of a pattern: `threat` of `threat/patrol`.
 pub(crate) fn family(pattern: &Pattern) -> &'static str {
     pattern.name.split_once('/').map_or(pattern.name, |(family, _)| family)
@@ -128,6 +138,7 @@ pub(crate) fn is_coherent(goal: &'static Goal, patterns: &[&'static Pattern]) ->
         && within("obstacle", goal.obstacles)
         && count("boon") <= BOONS_AT_MOST
         && patterns.iter().all(|pattern| pattern.needs.iter().all(gives))
+        && is_challenge(patterns)
         && (!gives(&Feature::Strikes) || gives(&Feature::Prey))
         && pairs.into_iter().all(|(one, two)| go_together(patterns[one], patterns[two]))
 }

@@ -19,6 +19,8 @@ pub(crate) enum Effect<P = Part> {
     StepBack,
     /// Turns the first round.
     ReverseDirection,
+    /// Turns the first any way.
+    FlipDirection,
     /// Lets the second push the first.
     BounceForward,
     /// Lets the second carry the first.
@@ -37,6 +39,8 @@ pub(crate) enum Effect<P = Part> {
     CollectResource { stays: bool },
     /// Takes one of a resource from the first, and kills the second.
     Spend { resource: P },
+    /// Takes a health point from the first every so many ticks.
+    Wane { timer: u32 },
     /// Takes a health point from the first; it dies of the last one, for another score.
     SubtractHealthPoints { score_if_killed: i32 },
     /// Gives health points to the first, at the cost of the second.
@@ -54,6 +58,7 @@ impl<P: Copy> Effect<P> {
             Effect::KillIfHasLess { .. } => "killIfHasLess",
             Effect::StepBack => "stepBack",
             Effect::ReverseDirection => "reverseDirection",
+            Effect::FlipDirection => "flipDirection",
             Effect::BounceForward => "bounceForward",
             Effect::PullWithIt => "pullWithIt",
             Effect::TeleportToExit => "teleportToExit",
@@ -63,7 +68,7 @@ impl<P: Copy> Effect<P> {
             Effect::SpawnBehind { .. } => "spawnBehind",
             Effect::CollectResource { .. } => "collectResource",
             Effect::Spend { .. } => "changeResource",
-            Effect::SubtractHealthPoints { .. } => "subtractHealthPoints",
+            Effect::Wane { .. } | Effect::SubtractHealthPoints { .. } => "subtractHealthPoints",
             Effect::AddHealthPointsToMax { .. } => "addHealthPointsToMax",
         }
     }
@@ -82,6 +87,7 @@ impl<P: Copy> Effect<P> {
             }
             Effect::StepBack => Effect::StepBack,
             Effect::ReverseDirection => Effect::ReverseDirection,
+            Effect::FlipDirection => Effect::FlipDirection,
             Effect::BounceForward => Effect::BounceForward,
             Effect::PullWithIt => Effect::PullWithIt,
             Effect::TeleportToExit => Effect::TeleportToExit,
@@ -97,6 +103,7 @@ impl<P: Copy> Effect<P> {
             Effect::SpawnBehind { stype } => Effect::SpawnBehind { stype: name(stype)? },
             Effect::CollectResource { stays } => Effect::CollectResource { stays },
             Effect::Spend { resource } => Effect::Spend { resource: name(resource)? },
+            Effect::Wane { timer } => Effect::Wane { timer },
             Effect::SubtractHealthPoints { score_if_killed } => {
                 Effect::SubtractHealthPoints { score_if_killed }
             }
@@ -152,6 +159,12 @@ impl Effect {
                 let score = ("scoreChangeIfKilled", Value::Score(score_if_killed));
                 (score_if_killed != 0).then_some(score).into_iter().collect()
             }
+            // The first time comes after as long as the others, too.
+            Effect::Wane { timer } => vec![
+                ("timer", Value::Count(timer)),
+                ("repeating", Value::Flag(true)),
+                ("nextExecution", Value::Count(0)),
+            ],
             Effect::AddHealthPointsToMax { value } => {
                 vec![("value", Value::Count(value)), ("killSecond", Value::Flag(true))]
             }

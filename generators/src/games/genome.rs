@@ -7,14 +7,16 @@ use super::draft::{Draft, Ending, HERO};
 use super::edit::Edit;
 use super::english;
 use super::kind::Kind;
+use super::mechanics;
 use super::pattern::{Feature, Goal, Pattern};
 use super::theme::Theme;
 use crate::GenerateError;
 use engine::{Digest, Game, Seed, syntax};
 use std::fmt;
 
-/// Compositions that are drawn for one game: a goal may find no company.
-const DRAWS: u64 = 16;
+/// Compositions that are drawn for one game: a goal may find no company, and mechanics may have nothing to do with each
+/// other.
+const DRAWS: u64 = 64;
 /// Ticks of one unit of a goal's time.
 const TIME: u32 = 50;
 /// The same where the hero has to hold out: every tick counts.
@@ -69,14 +71,18 @@ impl GameGenome {
             return Err(GenerateError::Unsuitable("no kinds of games are allowed".to_owned()));
         }
         let drawn = (0..DRAWS).find_map(|draw| {
-            Composition::draw(&config.kinds, &mut seed.child("composition", draw).sampler())
+            let sampler = &mut seed.child("composition", draw).sampler();
+            let genome = GameGenome::compose(Composition::draw(&config.kinds, sampler)?, seed);
+            (mechanics::dependencies(&genome.draft().0) > 0).then_some(genome)
         });
-        let Some(Composition { goal, patterns }) = drawn else {
-            return Err(GenerateError::Unlucky("no goal found company".to_owned()));
-        };
+        drawn.ok_or_else(|| GenerateError::Unlucky("no goal found company".to_owned()))
+    }
+
+    /// These patterns, with a fiction for them.
+    fn compose(Composition { goal, patterns }: Composition, seed: Seed) -> GameGenome {
         let (least, most) = goal.ticks;
         let genes = patterns.into_iter().enumerate();
-        Ok(GameGenome {
+        GameGenome {
             fiction: Fiction::draw(goal.kind, seed),
             goal,
             genes: genes
@@ -84,7 +90,7 @@ impl GameGenome {
                 .collect(),
             time: seed.child("time", 0).sampler().between(least as usize, most as usize) as u32,
             edits: Vec::new(),
-        })
+        }
     }
 
     /// What sort of game it is.
@@ -105,7 +111,8 @@ impl GameGenome {
     pub fn build(&self) -> Result<GeneratedGame, GenerateError> {
         let draft = self.draft().0;
         let game = self.lay_out(draft);
-        match Game::compile(&game.description) {
+        // From the print: what is built is what is frozen.
+        match Game::from_source(&syntax::print(&game.description)) {
             Ok(compiled) if compiled.warnings().is_empty() => Ok(game),
             Ok(compiled) => {
                 Err(GenerateError::Unlucky(format!("warned of: {}", compiled.warnings()[0].message)))
@@ -184,9 +191,6 @@ fn summary(draft: &Draft) -> String {
         outfit => format!(", {outfit},"),
     };
     let first = format!("{}{outfit} {}.", english::capital(&hero), draft.setting().place);
-    let clauses: Vec<String> = draft.clauses.iter().map(|clause| clause.text.clone()).collect();
-    match clauses[..] {
-        [] => first,
-        _ => format!("{first} {}.", english::capital(&english::series(&clauses))),
-    }
+    let sentences = draft.clauses.iter().map(|clause| format!(" {}.", english::capital(&clause.text)));
+    first + &sentences.collect::<String>()
 }

@@ -8,6 +8,7 @@
 mod assemble;
 mod body;
 mod boons;
+mod changes;
 mod composition;
 mod constructive;
 mod draft;
@@ -19,6 +20,7 @@ mod goals;
 mod grafts;
 mod kind;
 mod masked;
+mod mechanics;
 mod movement;
 mod naming;
 mod obstacles;
@@ -29,6 +31,7 @@ mod shrinking;
 mod theme;
 mod themes;
 mod threats;
+mod tree;
 mod variation;
 mod ways;
 

@@ -90,6 +90,24 @@ pub(crate) const MOVEMENTS: &[Pattern] = &[
         bars: &[],
         build: slide,
     },
+    Pattern {
+        name: "movement/climb",
+        weight: 4,
+        roles: &[],
+        gives: &[Feature::Column],
+        needs: &[],
+        bars: &[],
+        build: climb,
+    },
+    Pattern {
+        name: "movement/drive",
+        weight: 3,
+        roles: &[],
+        gives: &[Feature::Four, Feature::Movers],
+        needs: &[],
+        bars: &[Feature::Crates, Feature::Followers, Feature::Errands],
+        build: drive,
+    },
 ];
 
 fn walk(draft: &mut Draft, _: &mut Sampler) {
@@ -198,4 +216,16 @@ fn slide(draft: &mut Draft, _: &mut Sampler) {
     draft.set_hero(SpriteClass::HorizontalAvatar, &[]);
     let clause = format!("the {} only moves left and right", draft.say(HERO));
     draft.tell(clause);
+}
+
+fn climb(draft: &mut Draft, _: &mut Sampler) {
+    draft.set_hero(SpriteClass::VerticalAvatar, &[]);
+    let clause = format!("the {} only moves up and down", draft.say(HERO));
+    draft.tell(clause);
+}
+
+/// A vehicle: it can be turned, not stopped.
+fn drive(draft: &mut Draft, sampler: &mut Sampler) {
+    draft.set_hero(SpriteClass::OngoingAvatar, &[("cooldown", Value::Count(draw(sampler, 2, 3)))]);
+    draft.outfit = "unable to stop".into();
 }

@@ -1,10 +1,12 @@
 //! What is in the hero's way, and how it is overcome.
 
 use super::body::Body;
-use super::draft::{AVATAR, Draft, Phase, Value, draw};
+use super::draft::{AVATAR, Draft, Harm, Part, Phase, Value, draw};
 use super::effect::Effect;
+use super::english;
 use super::pattern::{Feature, Pattern};
 use super::role::Role;
+use super::threats;
 use engine::{Sampler, SpriteClass};
 
 const fn obstacle(
@@ -36,7 +38,19 @@ pub(crate) const OBSTACLES: &[Pattern] = &[
         bars: &[Feature::Crates],
         ..obstacle("obstacle/cart", 2, &[Role::Cart], cart)
     },
-    Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/crates", 3, &[Role::Crate], crates) },
+    Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/crates", 1, &[Role::Crate], crates) },
+    obstacle("obstacle/toll", 4, &[Role::Coin, Role::Gate], toll),
+    Pattern {
+        gives: &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Precious],
+        needs: &[Feature::Four, Feature::Strikes],
+        bars: &[Feature::Scarce, Feature::Wards],
+        ..obstacle("obstacle/guard", 5, &[Role::Key, Role::Door, Role::Wanderer], guard)
+    },
+    Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/ford", 3, &[Role::Crate, Role::Pool], ford) },
+    Pattern {
+        gives: &[Feature::Crates],
+        ..obstacle("obstacle/weight", 3, &[Role::Crate, Role::Plate, Role::Gate], weight)
+    },
 ];
 
 /// Doors that open to the key: it is used up, or opens them all.
@@ -115,8 +129,69 @@ fn cart(draft: &mut Draft, sampler: &mut Sampler) {
 
 /// Something that the hero can push, but that nothing else can pass.
 fn crates(draft: &mut Draft, _: &mut Sampler) {
+    let block = pushable(draft);
+    let clause = format!("{} can be pushed", draft.many(block));
+    draft.tell(clause);
+}
+
+fn pushable(draft: &mut Draft) -> Part {
     let block = draft.place(Role::Crate, SpriteClass::Passive, Body::Crate, &[]);
     draft.rule(Phase::Push, block, &[AVATAR], Effect::BounceForward);
-    let clause = format!("{} can be pushed", draft.many(block));
+    block
+}
+
+/// Coins that lie about pay for the way on.
+fn toll(draft: &mut Draft, sampler: &mut Sampler) {
+    let price = draw(sampler, 1, 3);
+    let params = [("limit", Value::Count(price + 2))];
+    let coin = draft.place(Role::Coin, SpriteClass::Resource, Body::Item, &params);
+    let gate = draft.place(Role::Gate, SpriteClass::Door, Body::Solid, &[]);
+    draft.scored(Phase::Take, coin, &[AVATAR], Effect::CollectResource { stays: false }, 1);
+    let open = Effect::KillIfOtherHasMore { resource: coin, limit: price, subtract: true };
+    draft.scored(Phase::Open, gate, &[AVATAR], open, 2);
+    let toll =
+        if price == 1 { draft.one(coin) } else { format!("{} {}", english::number(price), draft.many(coin)) };
+    let clause = format!("every {} takes {toll} to pass", draft.say(gate));
+    draft.tell(clause);
+}
+
+/// The key is behind the guard, and the way on behind the key.
+fn guard(draft: &mut Draft, sampler: &mut Sampler) {
+    let params = threats::straying(sampler);
+    let guard = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &params);
+    let key = draft.spawn(Role::Key, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(3))]);
+    let door = draft.place(Role::Door, SpriteClass::Door, Body::Solid, &[]);
+    draft.harm(guard, Harm::Lasting);
+    draft.prey_leaves(guard, key, 2);
+    draft.scored(Phase::Take, key, &[AVATAR], Effect::CollectResource { stays: false }, 1);
+    let open = Effect::KillIfOtherHasMore { resource: key, limit: 1, subtract: false };
+    draft.scored(Phase::Open, door, &[AVATAR], open, 2);
+    let clause = format!(
+        "{} that is struck down leaves {}, which opens every {}",
+        draft.one(guard),
+        draft.one(key),
+        draft.say(door)
+    );
+    draft.tell(clause);
+}
+
+/// What is pushed in fills it, and the way is free.
+fn ford(draft: &mut Draft, _: &mut Sampler) {
+    let block = pushable(draft);
+    let pool = draft.place(Role::Pool, SpriteClass::Immovable, Body::Solid, &[]);
+    draft.settle(block, pool);
+    draft.scored(Phase::Push, pool, &[block], Effect::KillBoth, 2);
+    let clause = format!("{} pushed into the {} fills it", draft.one(block), draft.say(pool));
+    draft.tell(clause);
+}
+
+/// A weight on the plate opens the way on.
+fn weight(draft: &mut Draft, _: &mut Sampler) {
+    let block = pushable(draft);
+    let plate = draft.place(Role::Plate, SpriteClass::Immovable, Body::Flat, &[]);
+    let gate = draft.place(Role::Gate, SpriteClass::Door, Body::Solid, &[]);
+    draft.rule(Phase::Meet, plate, &[block], Effect::KillAll { stype: gate });
+    draft.scored(Phase::Meet, plate, &[block], Effect::KillSprite, 2);
+    let clause = format!("{} on the {} opens every {}", draft.one(block), draft.say(plate), draft.say(gate));
     draft.tell(clause);
 }

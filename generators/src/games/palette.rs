@@ -63,7 +63,7 @@ fn suiting(role: Role) -> &'static [&'static str] {
         R::Door | R::Gate | R::Chest | R::Crate | R::Cart => &["BROWN", "ORANGE"],
         R::Soil | R::Plot | R::Idol | R::Archway => &["BROWN", "LIGHTORANGE"],
         R::Rubble | R::Statue | R::Cover => &["LIGHTGRAY", "GRAY"],
-        R::Dark | R::PortalIn => &["DARKBLUE", "BLACK"],
+        R::Dark | R::PortalIn | R::Pool => &["DARKBLUE", "BLACK"],
         R::Chaser | R::Trap | R::Pest => &["RED", "LIGHTRED"],
         R::Wanderer | R::Patroller | R::Rover | R::Bomber | R::Snuffer | R::Slug => {
             &["LIGHTRED", "ORANGE", "RED", "PINK"]

@@ -12,6 +12,10 @@ pub(crate) enum Feature {
     Four,
     /// The hero moves along one row.
     Row,
+    /// The hero moves along one column.
+    Column,
+    /// What the hero can take is settled.
+    Health,
     /// The hero strikes or shoots.
     Armed,
     /// What it strikes with flies or swings: no explosions.

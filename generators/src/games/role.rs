@@ -10,7 +10,6 @@ macro_rules! roles {
         impl Role {
             /// All of them.
             #[cfg(test)]
-            #[cfg(test)]
             pub(crate) const ALL: &[Role] = &[$(Role::$role),*];
         }
 
@@ -57,6 +56,8 @@ roles! {
     Crate pushed;
     /// Where crates belong.
     Socket socket;
+    /// What stops all until something pushed fills it.
+    Pool pool;
     /// What is carried, one at a time.
     Parcel parcel;
     /// Where loads are due.

@@ -2,7 +2,7 @@
 
 use super::{exit, goal};
 use crate::games::body::Body;
-use crate::games::draft::{AVATAR, Draft, Harm, Part, Phase, Value, Weapon, draw};
+use crate::games::draft::{AVATAR, Draft, HERO, Harm, Part, Phase, Value, Weapon, draw};
 use crate::games::effect::Effect;
 use crate::games::english;
 use crate::games::kind::Kind;
@@ -12,6 +12,8 @@ use crate::games::threats;
 use engine::{Sampler, SpriteClass};
 
 const HUNT: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey];
+
+const FEAST: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::States, Feature::Errands];
 
 pub(super) const GOALS: &[Goal] = &[
     hunt("goal/hunt-strays", &[Role::Wanderer], hunt_strays),
@@ -40,6 +42,14 @@ pub(super) const GOALS: &[Goal] = &[
         threats: (1, 2),
         obstacles: (0, 0),
         ..goal("goal/demolish", Kind::Demolition, &[Role::Idol, Role::Soil], &[Feature::Ruins], demolish)
+    },
+    Goal {
+        threats: (0, 1),
+        pattern: Pattern {
+            bars: &[Feature::Armed, Feature::Wards, Feature::Health],
+            ..goal("goal/feast", Kind::Lure, &[Role::Chaser, Role::Bush, Role::Berry], FEAST, feast).pattern
+        },
+        ..goal("goal/feast", Kind::Lure, &[], &[], feast)
     },
     lure("goal/lure", &[Role::Chaser, Role::Trap], lure_placed),
     lure("goal/lure-all", &[Role::Nest, Role::Chaser, Role::Trap], lure_spawned),
@@ -210,5 +220,32 @@ fn lure_into(draft: &mut Draft, foe: Part, all: &[Part]) {
     draft.win_without(all);
     draft.goal = format!("lead every {} into {}", draft.say(foe), draft.one(trap));
     let clause = format!("{} give chase, and {} harm all alike", draft.many(foe), draft.many(trap));
+    draft.tell(clause);
+}
+
+/// One bite gives strength for one catch: until then the hero is the prey.
+fn feast(draft: &mut Draft, sampler: &mut Sampler) {
+    let params = threats::pursuing(AVATAR, sampler);
+    let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    let berry =
+        draft.spawn(Role::Berry, SpriteClass::Immovable, Body::Item, &[("singleton", Value::Flag(true))]);
+    let params = [("stype", Value::Part(berry)), ("cooldown", Value::Count(draw(sampler, 6, 12)))];
+    let bush = draft.place(Role::Bush, SpriteClass::SpawnPoint, Body::Spot, &params);
+    let bold = draft.hero_state("bold");
+    let strengthen = Effect::TransformTo { stype: bold, kill_second: true };
+    draft.scored(Phase::Take, HERO, &[berry], strengthen, 1);
+    draft.scored(Phase::Strike, foe, &[bold], Effect::KillSprite, 4);
+    // In this order: whoever has just made a catch is not its prey.
+    draft.scored(Phase::Harm, HERO, &[foe], Effect::KillSprite, -2);
+    draft.rule(Phase::Harm, bold, &[foe], Effect::TransformTo { stype: HERO, kill_second: false });
+    draft.lose_without(AVATAR);
+    draft.win_without(&[foe]);
+    draft.goal = format!(
+        "eat {} from the {} and catch one {} with each, until none is left",
+        draft.many(berry),
+        draft.say(bush),
+        draft.say(foe)
+    );
+    let clause = format!("{} give chase, and whoever has not eaten is their prey", draft.many(foe));
     draft.tell(clause);
 }

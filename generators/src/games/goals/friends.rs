@@ -35,6 +35,7 @@ pub(super) const GOALS: &[Goal] = &[
         (0, 1),
         herd_hunted,
     ),
+    friends("goal/wake", Kind::Rescue, &[Role::Friend, Role::Snuffer], FOLLOWED, (0, 1), wake),
 ];
 
 const fn friends(
@@ -60,6 +61,17 @@ fn shy(draft: &mut Draft, sampler: &mut Sampler) -> Part {
 fn fleeing(draft: &mut Draft, sampler: &mut Sampler) -> Part {
     let params = [("stype", Value::Part(AVATAR)), ("cooldown", Value::Count(draw(sampler, 2, 4)))];
     draft.place(Role::Friend, SpriteClass::Fleeing, Body::Walker, &params)
+}
+
+/// A friend that strays slowly and gives way to whoever nudges it.
+fn driven(draft: &mut Draft, sampler: &mut Sampler) -> Part {
+    let params =
+        [("cooldown", Value::Count(draw(sampler, 10, 16))), ("cons", Value::Count(draw(sampler, 0, 2)))];
+    let friend = draft.place(Role::Friend, SpriteClass::RandomNPC, Body::Walker, &params);
+    draft.rule(Phase::Push, friend, &[AVATAR], Effect::BounceForward);
+    let clause = format!("{} stray about, and go where you nudge them", draft.many(friend));
+    draft.tell(clause);
+    friend
 }
 
 /// A friend that comes along.
@@ -128,16 +140,31 @@ fn escort_hunted(draft: &mut Draft, sampler: &mut Sampler) {
 }
 
 fn herd(draft: &mut Draft, sampler: &mut Sampler) {
-    let friend = fleeing(draft, sampler);
+    let friend = driven(draft, sampler);
     let haven = housed(draft, friend);
     draft.goal = format!("drive every {} into the {}", draft.say(friend), draft.say(haven));
-    let clause = format!("{} run from you", draft.many(friend));
-    draft.tell(clause);
 }
 
 fn herd_hunted(draft: &mut Draft, sampler: &mut Sampler) {
-    let friend = fleeing(draft, sampler);
+    let friend = driven(draft, sampler);
     let haven = housed(draft, friend);
     draft.goal = format!("drive every {} into the {}", draft.say(friend), draft.say(haven));
     hunter(draft, sampler, friend);
+}
+
+/// Who is woken comes along, and may be put to sleep again.
+fn wake(draft: &mut Draft, sampler: &mut Sampler) {
+    let asleep = draft.place(Role::Friend, SpriteClass::Immovable, Body::Spot, &[]);
+    let params = [("stype", Value::Part(AVATAR)), ("cooldown", Value::Count(draw(sampler, 2, 3)))];
+    let awake = draft.state(asleep, "woken", SpriteClass::Chaser, Body::Walker, &params);
+    let params = threats::straying(sampler);
+    let lulling = draft.place(Role::Snuffer, SpriteClass::RandomNPC, Body::Walker, &params);
+    let turn = |stype| Effect::TransformTo { stype, kill_second: false };
+    draft.scored(Phase::Meet, awake, &[lulling], turn(asleep), -2);
+    draft.scored(Phase::Take, asleep, &[AVATAR], turn(awake), 2);
+    draft.win_without(&[asleep]);
+    draft.goal = format!("have every {} awake at once", draft.say(asleep));
+    let clause =
+        format!("those that you wake follow you, and {} send them to sleep again", draft.many(lulling));
+    draft.tell(clause);
 }

@@ -9,6 +9,7 @@ use crate::games::english;
 use crate::games::kind::Kind;
 use crate::games::pattern::{Feature, Goal};
 use crate::games::role::Role;
+use crate::games::threats;
 use engine::{Sampler, SpriteClass};
 
 pub(super) const GOALS: &[Goal] = &[
@@ -23,6 +24,16 @@ pub(super) const GOALS: &[Goal] = &[
             &[Role::Gem, Role::Patroller, Role::Rover],
             &[Feature::Movers, Feature::Harm, Feature::Prey],
             forage,
+        )
+    },
+    Goal {
+        threats: (0, 1),
+        ..goal(
+            "goal/rivals",
+            Kind::CollectAndAvoid,
+            &[Role::Gem, Role::Pest],
+            &[Feature::Movers, Feature::Prey],
+            rivals,
         )
     },
 ];
@@ -69,4 +80,22 @@ fn forage(draft: &mut Draft, sampler: &mut Sampler) {
     let gem = pickings(draft, Role::Gem, 2);
     draft.win_without(&[gem]);
     draft.goal = format!("gather every {} between the lanes", draft.say(gem));
+}
+
+/// Others are after the same things: too many in their hands, and all is lost.
+fn rivals(draft: &mut Draft, sampler: &mut Sampler) {
+    let gem = pickings(draft, Role::Gem, 2);
+    let params = threats::pursuing(gem, sampler);
+    let rival = draft.place(Role::Pest, SpriteClass::Chaser, Body::Walker, &params);
+    let taken = draft.state(gem, "gnawed", SpriteClass::Immovable, Body::Flat, &[]);
+    let spoil = Effect::TransformTo { stype: taken, kill_second: false };
+    draft.scored(Phase::Meet, gem, &[rival], spoil, -2);
+    draft.prey(rival, 2);
+    let limit = draw(sampler, 2, 4);
+    draft.lose_with(taken, limit);
+    draft.win_without(&[gem]);
+    draft.goal =
+        format!("gather every {} before {} of them are spoiled", draft.say(gem), english::number(limit));
+    let clause = format!("{} spoil every {} that they reach", draft.many(rival), draft.say(gem));
+    draft.tell(clause);
 }

@@ -3,7 +3,7 @@
 use super::goal;
 use crate::games::body::Body;
 use crate::games::boons;
-use crate::games::draft::{AVATAR, Draft, Ending, Harm, Phase, Value, WALL, draw};
+use crate::games::draft::{AVATAR, Draft, Ending, Harm, Part, Phase, Stamina, Value, WALL, draw};
 use crate::games::effect::Effect;
 use crate::games::english;
 use crate::games::kind::Kind;
@@ -13,6 +13,8 @@ use crate::games::threats;
 use engine::{Sampler, SpriteClass};
 
 const SIEGE: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey];
+/// The same, with what the hero can take settled.
+const STORM: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Health];
 
 pub(super) const GOALS: &[Goal] = &[
     Goal {
@@ -28,7 +30,7 @@ pub(super) const GOALS: &[Goal] = &[
     },
     Goal {
         hero: &[Feature::Row],
-        ticks: (6, 8),
+        ticks: (8, 12),
         threats: (0, 0),
         obstacles: (0, 0),
         pattern: Pattern {
@@ -37,7 +39,7 @@ pub(super) const GOALS: &[Goal] = &[
                 "goal/dodge",
                 Kind::Survival,
                 &[Role::Bomber, Role::Drop, Role::Tree, Role::Fruit],
-                SIEGE,
+                STORM,
                 dodge,
             )
             .pattern
@@ -72,6 +74,31 @@ pub(super) const GOALS: &[Goal] = &[
         },
         ..goal("goal/catch-falling", Kind::Catching, &[], &[], catch)
     },
+    Goal {
+        hero: &[Feature::Column],
+        ticks: (8, 12),
+        threats: (0, 0),
+        obstacles: (0, 0),
+        ..goal(
+            "goal/headwind",
+            Kind::Survival,
+            &[Role::Bomber, Role::Drop, Role::Tree, Role::Fruit],
+            STORM,
+            headwind,
+        )
+    },
+    Goal {
+        hero: &[Feature::Row, Feature::Armed],
+        threats: (0, 1),
+        obstacles: (0, 0),
+        ..goal(
+            "goal/waves",
+            Kind::Defence,
+            &[Role::Tree, Role::Pest],
+            &[Feature::Movers, Feature::Prey],
+            waves,
+        )
+    },
 ];
 
 fn survive(draft: &mut Draft, sampler: &mut Sampler) {
@@ -94,8 +121,19 @@ fn outlast(draft: &mut Draft) {
 
 /// Some of what falls is good.
 fn dodge(draft: &mut Draft, sampler: &mut Sampler) {
-    let (bomber, drop) = threats::bombers(draft, sampler);
-    let params = [("orientation", Value::Word("DOWN")), ("cooldown", Value::Count(2))];
+    let thrown = threats::bombers(draft, sampler);
+    windfalls(draft, sampler, thrown, "DOWN");
+}
+
+/// The same from the side.
+fn headwind(draft: &mut Draft, sampler: &mut Sampler) {
+    let thrown = threats::throwers(draft, sampler, ["UP", "DOWN"], "LEFT");
+    windfalls(draft, sampler, thrown, "LEFT");
+}
+
+/// Good things come the same way as the bad ones, and time is on the hero's side.
+fn windfalls(draft: &mut Draft, sampler: &mut Sampler, (bomber, drop): (Part, Part), way: &'static str) {
+    let params = [("orientation", Value::Word(way)), ("cooldown", Value::Count(2))];
     let fruit = draft.spawn(Role::Fruit, SpriteClass::Missile, Body::FoeShot, &params);
     let params = [
         ("stype", Value::Part(fruit)),
@@ -103,16 +141,53 @@ fn dodge(draft: &mut Draft, sampler: &mut Sampler) {
         ("prob", Value::Hundredths(10 * draw(sampler, 4, 8))),
     ];
     let tree = draft.place(Role::Tree, SpriteClass::SpawnPoint, Body::Flat, &params);
-    draft.scored(Phase::Take, fruit, &[AVATAR], Effect::KillSprite, 2);
+    let health = draw(sampler, 1, 2);
+    draft.stamina = Stamina::Hearts(health);
+    draft.give(AVATAR, "healthPoints", Value::Count(health));
+    draft.give(AVATAR, "limitHealthPoints", Value::Count(health + 1));
+    draft.scored(Phase::Take, AVATAR, &[fruit], Effect::AddHealthPointsToMax { value: 1 }, 2);
     outlast(draft);
+    let verb = if way == "DOWN" { "drop" } else { "throw" };
+    let wounds =
+        if health == 1 { "one wound is".into() } else { format!("{} wounds are", english::number(health)) };
     let clause = format!(
-        "{} drop {}, but {} from the {} are worth two points each",
+        "{} {verb} {}, and {wounds} the end, but {} from the {} heal",
         draft.many(bomber),
         draft.many(drop),
         draft.many(fruit),
         draft.say(tree)
     );
-    draft.tell_points(clause);
+    draft.tell(clause);
+}
+
+/// What comes down must be shot before it lands.
+fn waves(draft: &mut Draft, sampler: &mut Sampler) {
+    let params = [("orientation", Value::Word("DOWN")), ("cooldown", Value::Count(draw(sampler, 2, 4)))];
+    let pest = draft.spawn(Role::Pest, SpriteClass::Missile, Body::FoeShot, &params);
+    let landed = draft.state(pest, "landed", SpriteClass::Immovable, Body::Flat, &[]);
+    let total = draw(sampler, 2, 4);
+    let params = [
+        ("stype", Value::Part(pest)),
+        ("cooldown", Value::Count(draw(sampler, 10, 24))),
+        ("prob", Value::Hundredths(10 * draw(sampler, 4, 8))),
+        ("total", Value::Count(total)),
+    ];
+    let tree = draft.place(Role::Tree, SpriteClass::SpawnPoint, Body::Flat, &params);
+    let limit = draw(sampler, 2, 4);
+    draft.prey(pest, 2);
+    draft.settle(pest, WALL);
+    let land = Effect::TransformTo { stype: landed, kill_second: false };
+    draft.scored(Phase::Strike, pest, &[WALL], land, -1);
+    draft.lose_with(landed, limit);
+    draft.win_without(&[tree, pest]);
+    draft.goal = format!(
+        "shoot down the {} that come from every {}: {} that land are too many",
+        draft.many(pest),
+        draft.say(tree),
+        english::number(limit)
+    );
+    let clause = format!("{} of them come from each", english::number(total));
+    draft.tell(clause);
 }
 
 fn defend(draft: &mut Draft, sampler: &mut Sampler) {

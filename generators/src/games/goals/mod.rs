@@ -46,7 +46,7 @@ const fn goal(
         kind,
         hero: &[Feature::Four],
         threats: (1, 2),
-        obstacles: (0, 1),
+        obstacles: (0, 2),
         ticks: (6, 12),
     }
 }

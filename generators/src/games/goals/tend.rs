@@ -18,6 +18,7 @@ pub(super) const GOALS: &[Goal] = &[
         &[Feature::Movers, Feature::States, Feature::Errands],
         sow,
     ),
+    tending("goal/overrun", &[Role::Plot, Role::Pest], &[Feature::Movers, Feature::Errands], overrun),
 ];
 
 const fn tending(
@@ -74,5 +75,33 @@ fn sow(draft: &mut Draft, sampler: &mut Sampler) {
         draft.one(sprout)
     );
     let clause = format!("{} undo your work", draft.many(pest));
+    draft.tell(clause);
+}
+
+/// What spreads has to be cleared faster than it spreads.
+fn overrun(draft: &mut Draft, sampler: &mut Sampler) {
+    let plot = draft.place(Role::Plot, SpriteClass::Immovable, Body::Spot, &[]);
+    let pest = draft.spawn(Role::Pest, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
+    let params = [
+        ("stype", Value::Part(pest)),
+        ("cooldown", Value::Count(draw(sampler, 14, 28))),
+        ("prob", Value::Hundredths(10 * draw(sampler, 3, 6))),
+    ];
+    let overrun = draft.state(plot, "overrun", SpriteClass::SpawnPoint, Body::Spot, &params);
+    draft.show(overrun);
+    let settle = Effect::TransformTo { stype: overrun, kill_second: true };
+    draft.scored(Phase::Meet, plot, &[pest], settle, -1);
+    draft.scored(Phase::Take, pest, &[AVATAR], Effect::KillSprite, 1);
+    let clear = Effect::TransformTo { stype: plot, kill_second: false };
+    draft.scored(Phase::Take, overrun, &[AVATAR], clear, 3);
+    draft.lose_without(plot);
+    draft.win_without(&[overrun, pest]);
+    draft.goal = format!(
+        "clear every {} and catch every {} before the last free {} is lost",
+        draft.say(overrun),
+        draft.say(pest),
+        draft.say(plot)
+    );
+    let clause = format!("{} come out of it and overrun others", draft.many(pest));
     draft.tell(clause);
 }

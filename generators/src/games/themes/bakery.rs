@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "scale doormat",
         pushed: "flourSack butterTub",
         socket: "shelfBay rack",
+        pool: "syrupVat batterPit",
         parcel: "loaf bagel",
         address: "customer cafe",
         chest: "breadbin cakeTin",

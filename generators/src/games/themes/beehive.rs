@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "leafpad scale",
         pushed: "waxBlock pellet",
         socket: "cell pocket",
+        pool: "honeyPool waxVat",
         parcel: "pollenBag bundle",
         address: "larder storeroom",
         chest: "vault honeypot",

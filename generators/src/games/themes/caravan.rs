@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "flagstone tile",
         pushed: "amphora bale",
         socket: "niche hollow",
+        pool: "sandPit saltPan",
         parcel: "rug spicebag",
         address: "merchant tent",
         chest: "chest sarcophagus",

@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "flagstep tread",
         pushed: "keg hamper",
         socket: "recess stand",
+        pool: "cistern winePit",
         parcel: "bottle demijohn",
         address: "cask wineRack",
         chest: "cupboard larder",

@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "ledgestone slab",
         pushed: "iceBlock sled",
         socket: "crevasse pocket",
+        pool: "iceHole slushPit",
         parcel: "ration backpack",
         address: "camp weatherStation",
         chest: "foodCache locker",

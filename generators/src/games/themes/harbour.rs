@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "weighbridge scale",
         pushed: "cask crate",
         socket: "hold berth",
+        pool: "millrace sluice",
         parcel: "mailbag package",
         address: "consulate chandlery",
         chest: "lockbox trunk",

@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "pedal treadle",
         pushed: "lectern bookTrolley",
         socket: "alcove niche",
+        pool: "stairwell inkPit",
         parcel: "tome volume",
         address: "desk counter",
         chest: "cabinet casket",

@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "pressurePad tile",
         pushed: "globe telescope",
         socket: "plinth mount",
+        pool: "skylightGap domeShaft",
         parcel: "starChart glassPlate",
         address: "archive lectern",
         chest: "strongbox coffer",

@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "treadle weighbridge",
         pushed: "wagon tender",
         socket: "siding bay",
+        pool: "turntablePit drain",
         parcel: "mailbag suitcase",
         address: "depot guardsVan",
         chest: "locker safe",

@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "lilypad flatRoot",
         pushed: "log barrel",
         socket: "sinkhole gully",
+        pool: "mire bogHole",
         parcel: "basket sack",
         address: "stilthouse shrine",
         chest: "urn coffin",

@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "mark pedal",
         pushed: "trunk piano",
         socket: "slot wingspace",
+        pool: "trapdoor orchestraPit",
         parcel: "costume wig",
         address: "dressingRoom prompter",
         chest: "wardrobe hatbox",

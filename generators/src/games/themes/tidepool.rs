@@ -23,6 +23,7 @@ pub(crate) const THEME: Theme = Theme {
         plate: "slab flatstone",
         pushed: "creel barrel",
         socket: "basin hollow",
+        pool: "surf undertow",
         parcel: "basket bundle",
         address: "jetty mooring",
         chest: "strongbox coffer",

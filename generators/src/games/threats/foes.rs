@@ -1,0 +1,112 @@
+//! Foes that go about.
+
+use super::{foe_of, patroller, pursuing, straying};
+use crate::games::body::Body;
+use crate::games::draft::{AVATAR, Draft, Harm, Part, Value, draw};
+use crate::games::role::Role;
+use engine::{Sampler, SpriteClass};
+
+pub(super) fn patrol(draft: &mut Draft, sampler: &mut Sampler) {
+    let orientation = *sampler.choose(&["RIGHT", "DOWN"]);
+    let foe = patroller(draft, Role::Patroller, orientation, draw(sampler, 2, 3));
+    foe_of(draft, foe, 2);
+    let way = if orientation == "RIGHT" { "to and fro" } else { "up and down" };
+    let clause = format!("{} go {way}", draft.many(foe));
+    draft.tell_way(foe, clause);
+}
+
+pub(super) fn cross_patrols(draft: &mut Draft, sampler: &mut Sampler) {
+    let across = patroller(draft, Role::Patroller, "RIGHT", draw(sampler, 2, 3));
+    let along = patroller(draft, Role::Rover, "DOWN", draw(sampler, 2, 3));
+    foe_of(draft, across, 2);
+    foe_of(draft, along, 2);
+    let clause = format!("{} go to and fro, {} up and down", draft.many(across), draft.many(along));
+    draft.tell(clause);
+}
+
+pub(super) fn stray(draft: &mut Draft, sampler: &mut Sampler) {
+    let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
+    foe_of(draft, foe, 2);
+    let clause = format!("{} stray about", draft.many(foe));
+    draft.tell_way(foe, clause);
+}
+
+pub(super) fn chase(draft: &mut Draft, sampler: &mut Sampler) {
+    let params = pursuing(AVATAR, sampler);
+    let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
+    foe_of(draft, foe, 3);
+    let clause = format!("{} give chase", draft.many(foe));
+    draft.tell_way(foe, clause);
+}
+
+pub(super) fn sentry(draft: &mut Draft, sampler: &mut Sampler) {
+    let foe = draft.place(Role::Chaser, SpriteClass::LOSChaser, Body::Walker, &pursuing(AVATAR, sampler));
+    foe_of(draft, foe, 3);
+    let clause = format!("{} come after you once they see you", draft.many(foe));
+    draft.tell_way(foe, clause);
+}
+
+/// Goes straight on, and who knows where from a wall.
+pub(super) fn drift(draft: &mut Draft, sampler: &mut Sampler) {
+    let params = [
+        ("orientation", Value::Word(["RIGHT", "DOWN"][sampler.below(2)])),
+        ("cooldown", Value::Count(draw(sampler, 2, 3))),
+    ];
+    let foe = draft.place(Role::Rover, SpriteClass::Missile, Body::Drifter, &params);
+    foe_of(draft, foe, 2);
+    let clause = format!("{} rush straight on and come off obstacles any way", draft.many(foe));
+    draft.tell_way(foe, clause);
+}
+
+/// Something slow that a hit turns into something quick.
+pub(super) fn split(draft: &mut Draft, sampler: &mut Sampler) {
+    let slow = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
+    let quick = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &pursuing(AVATAR, sampler));
+    draft.harm(slow, Harm::Spent);
+    draft.prey_leaves(slow, quick, 1);
+    foe_of(draft, quick, 3);
+    let clause =
+        format!("every {} that is hit turns into {} and gives chase", draft.say(slow), draft.one(quick));
+    draft.tell(clause);
+}
+
+/// A patroller that lets things fall.
+pub(crate) fn bombers(draft: &mut Draft, sampler: &mut Sampler) -> (Part, Part) {
+    throwers(draft, sampler, ["LEFT", "RIGHT"], "DOWN")
+}
+
+/// A patroller that goes one of these ways at first and throws things that way.
+pub(crate) fn throwers(
+    draft: &mut Draft,
+    sampler: &mut Sampler,
+    ways: [&'static str; 2],
+    throw: &'static str,
+) -> (Part, Part) {
+    let params = [("orientation", Value::Word(throw)), ("cooldown", Value::Count(draw(sampler, 1, 2)))];
+    let drop = draft.spawn(Role::Drop, SpriteClass::Missile, Body::FoeShot, &params);
+    let params = [
+        ("stype", Value::Part(drop)),
+        ("orientation", Value::Word(ways[sampler.below(2)])),
+        ("speed", Value::Count(1)),
+        ("cooldown", Value::Count(draw(sampler, 2, 4))),
+        ("prob", Value::Hundredths(5 * draw(sampler, 4, 10))),
+    ];
+    let bomber = draft.place(Role::Bomber, SpriteClass::Bomber, Body::Patroller, &params);
+    draft.harm(drop, Harm::Spent);
+    (bomber, drop)
+}
+
+pub(super) fn bomb(draft: &mut Draft, sampler: &mut Sampler) {
+    let (bomber, drop) = bombers(draft, sampler);
+    foe_of(draft, bomber, 3);
+    let clause = format!("{} drop {}", draft.many(bomber), draft.many(drop));
+    draft.tell(clause);
+}
+
+/// The hero stays below: only what falls harms it.
+pub(super) fn rain(draft: &mut Draft, sampler: &mut Sampler) {
+    let (bomber, drop) = bombers(draft, sampler);
+    draft.prey(bomber, 3);
+    let clause = format!("{} drop {}", draft.many(bomber), draft.many(drop));
+    draft.tell(clause);
+}

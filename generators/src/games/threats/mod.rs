@@ -1,0 +1,83 @@
+//! What endangers the hero.
+
+mod foes;
+mod hazards;
+mod nests;
+
+pub(crate) use foes::{bombers, throwers};
+pub(crate) use nests::nest;
+
+use crate::games::body::Body;
+use crate::games::draft::{Draft, Harm, Part, Value, draw};
+use crate::games::pattern::{Feature, Pattern};
+use crate::games::role::Role;
+use engine::{Sampler, SpriteClass};
+
+/// What harms and moves, and can be hit.
+const FOE: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey];
+/// What harms and moves, and cannot be hit.
+const DANGER: &[Feature] = &[Feature::Movers, Feature::Harm];
+
+const fn threat(
+    name: &'static str,
+    weight: u32,
+    roles: &'static [Role],
+    gives: &'static [Feature],
+    build: fn(&mut Draft, &mut Sampler),
+) -> Pattern {
+    Pattern { name, weight, roles, gives, needs: &[Feature::Four], bars: &[], build }
+}
+
+/// All threats.
+pub(crate) const THREATS: &[Pattern] = &[
+    threat("threat/trap", 4, &[Role::Trap], &[Feature::Harm], hazards::trap),
+    threat("threat/patrol", 4, &[Role::Patroller], FOE, foes::patrol),
+    threat("threat/cross-patrols", 2, &[Role::Patroller, Role::Rover], FOE, foes::cross_patrols),
+    threat("threat/stray", 4, &[Role::Wanderer], FOE, foes::stray),
+    threat("threat/chase", 4, &[Role::Chaser], FOE, foes::chase),
+    threat("threat/bomb", 3, &[Role::Bomber, Role::Drop], FOE, foes::bomb),
+    threat("threat/slime", 3, &[Role::Slug, Role::Slime], FOE, hazards::slime),
+    threat("threat/turret", 3, &[Role::Turret, Role::Dart], DANGER, hazards::turret),
+    threat("threat/nest-of-strays", 2, &[Role::Nest, Role::Wanderer], FOE, nests::nest_of_strays),
+    threat("threat/nest-of-chasers", 2, &[Role::Nest, Role::Chaser], FOE, nests::nest_of_chasers),
+    threat("threat/geyser", 3, &[Role::Vent, Role::Steam], DANGER, hazards::geyser),
+    threat("threat/creep", 2, &[Role::Vent, Role::Creep], DANGER, hazards::creep),
+    Pattern {
+        needs: &[Feature::Four, Feature::Strikes],
+        ..threat("threat/split", 3, &[Role::Wanderer, Role::Chaser], FOE, foes::split)
+    },
+    threat("threat/brood", 3, &[Role::Nest, Role::Chaser], FOE, nests::brood),
+    threat("threat/sentry", 4, &[Role::Chaser], FOE, foes::sentry),
+    threat("threat/drift", 3, &[Role::Rover], FOE, foes::drift),
+    Pattern {
+        gives: &[Feature::Health],
+        bars: &[Feature::Health],
+        ..threat("threat/hunger", 4, &[Role::Berry], &[], hazards::hunger)
+    },
+    Pattern {
+        needs: &[Feature::Row],
+        ..threat("threat/rain", 3, &[Role::Bomber, Role::Drop], FOE, foes::rain)
+    },
+];
+
+/// Something that goes straight and turns round; `orientation` is where it starts to.
+pub(crate) fn patroller(draft: &mut Draft, role: Role, orientation: &'static str, cooldown: u32) -> Part {
+    let params = [("orientation", Value::Word(orientation)), ("cooldown", Value::Count(cooldown))];
+    draft.place(role, SpriteClass::Missile, Body::Patroller, &params)
+}
+
+/// A foe that its pattern placed: it harms, and can be hit.
+fn foe_of(draft: &mut Draft, foe: Part, score: i32) {
+    draft.harm(foe, Harm::Spent);
+    draft.prey(foe, score);
+}
+
+/// How a stray moves: how rarely, and how long in one direction.
+pub(crate) fn straying(sampler: &mut Sampler) -> [(&'static str, Value); 2] {
+    [("cooldown", Value::Count(draw(sampler, 2, 4))), ("cons", Value::Count(draw(sampler, 0, 3)))]
+}
+
+/// How a pursuer moves: after whom, and how rarely.
+pub(crate) fn pursuing(target: Part, sampler: &mut Sampler) -> [(&'static str, Value); 2] {
+    [("stype", Value::Part(target)), ("cooldown", Value::Count(draw(sampler, 2, 4)))]
+}

@@ -1,0 +1,57 @@
+//! Where foes come from.
+
+use super::{foe_of, pursuing, straying};
+use crate::games::body::Body;
+use crate::games::draft::{AVATAR, Draft, Part, Phase, Value, draw};
+use crate::games::effect::Effect;
+use crate::games::role::Role;
+use engine::{Sampler, SpriteClass};
+
+/// What comes out of a nest; `total` 0 is without end.
+pub(crate) fn nest(draft: &mut Draft, sampler: &mut Sampler, foe: Part, total: u32) -> Part {
+    let total = (total > 0).then_some(("total", Value::Count(total)));
+    let params = [
+        ("stype", Value::Part(foe)),
+        ("cooldown", Value::Count(draw(sampler, 15, 35))),
+        ("prob", Value::Hundredths(10 * draw(sampler, 5, 10))),
+    ];
+    let params: Vec<_> = params.into_iter().chain(total).collect();
+    draft.place(Role::Nest, SpriteClass::SpawnPoint, Body::Den, &params)
+}
+
+pub(super) fn nest_of_strays(draft: &mut Draft, sampler: &mut Sampler) {
+    let foe = draft.spawn(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
+    nest_of(draft, sampler, foe);
+}
+
+pub(super) fn nest_of_chasers(draft: &mut Draft, sampler: &mut Sampler) {
+    let foe = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &pursuing(AVATAR, sampler));
+    nest_of(draft, sampler, foe);
+}
+
+pub(super) fn nest_of(draft: &mut Draft, sampler: &mut Sampler, foe: Part) {
+    let total = draw(sampler, 2, 5);
+    let nest = nest(draft, sampler, foe, total);
+    foe_of(draft, foe, 1);
+    let clause = format!("{} come out of every {}", draft.many(foe), draft.say(nest));
+    draft.tell(clause);
+}
+
+/// Each nest hatches one pursuer after a while, unless the hero is there first.
+pub(super) fn brood(draft: &mut Draft, sampler: &mut Sampler) {
+    let foe = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &pursuing(AVATAR, sampler));
+    let params = [
+        ("stype", Value::Part(foe)),
+        ("cooldown", Value::Count(draw(sampler, 30, 60))),
+        ("total", Value::Count(1)),
+    ];
+    let nest = draft.place(Role::Nest, SpriteClass::SpawnPoint, Body::Spot, &params);
+    draft.scored(Phase::Take, nest, &[AVATAR], Effect::KillSprite, 2);
+    foe_of(draft, foe, 2);
+    let clause = format!(
+        "every {} sends {} after you in the end, unless you clear it away first",
+        draft.say(nest),
+        draft.one(foe)
+    );
+    draft.tell(clause);
+}
