@@ -24,7 +24,7 @@ pub(crate) const BOONS: &[Pattern] = &[
         roles: &[Role::Ward],
         gives: &[Feature::Wards, Feature::Health],
         needs: &[Feature::Harm, Feature::Four],
-        bars: &[Feature::Precious, Feature::Health],
+        bars: &[Feature::Precious, Feature::Health, Feature::Stains],
         build: ward,
     },
     Pattern {
@@ -35,6 +35,15 @@ pub(crate) const BOONS: &[Pattern] = &[
         needs: &[Feature::Harm, Feature::Four],
         bars: &[Feature::Health],
         build: shop,
+    },
+    Pattern {
+        name: "boon/press",
+        weight: 3,
+        roles: &[Role::Crate, Role::Plate, Role::Charm],
+        gives: &[Feature::Crates],
+        needs: &[Feature::Four],
+        bars: &[],
+        build: press,
     },
     Pattern {
         name: "boon/coins",
@@ -98,6 +107,24 @@ fn ward(draft: &mut Draft, _: &mut Sampler) {
     draft.stamina = Stamina::Warded(ward);
     draft.scored(Phase::Take, ward, &[AVATAR], Effect::CollectResource { stays: false }, 1);
     let clause = format!("{} protects once", draft.one(ward));
+    draft.tell(clause);
+}
+
+/// Labour that nobody has to do, and that pays.
+fn press(draft: &mut Draft, sampler: &mut Sampler) {
+    let block = draft.place(Role::Crate, SpriteClass::Passive, Body::Crate, &[]);
+    let plate = draft.place(Role::Plate, SpriteClass::Immovable, Body::Flat, &[]);
+    let charm = draft.spawn(Role::Charm, SpriteClass::Immovable, Body::Item, &[]);
+    draft.rule(Phase::Push, block, &[AVATAR], Effect::BounceForward);
+    let press = Effect::TransformTo { stype: charm, kill_second: true };
+    draft.scored(Phase::Meet, plate, &[block], press, 1);
+    draft.scored(Phase::Take, charm, &[AVATAR], Effect::KillSprite, draw(sampler, 3, 5) as i32);
+    let clause = format!(
+        "whoever pushes {} onto {} is rewarded with {}",
+        draft.one(block),
+        draft.one(plate),
+        draft.one(charm)
+    );
     draft.tell(clause);
 }
 

@@ -142,3 +142,38 @@ pub(crate) fn is_coherent(goal: &'static Goal, patterns: &[&'static Pattern]) ->
         && (!gives(&Feature::Strikes) || gives(&Feature::Prey))
         && pairs.into_iter().all(|(one, two)| go_together(patterns[one], patterns[two]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every pattern that there is.
+    fn all() -> Vec<&'static Pattern> {
+        let goals = goals::all().into_iter().map(|goal| &goal.pattern);
+        MOVEMENTS.iter().chain(goals).chain(company()).collect()
+    }
+
+    /// The page for people names every pattern, with what it brings, needs and bars.
+    #[test]
+    fn the_page_tells_of_every_pattern() {
+        let page = include_str!("../../../docs/generate-games.md");
+        for pattern in all() {
+            let words = |features: &[Feature]| {
+                let names: Vec<String> =
+                    features.iter().map(|feature| format!("{feature:?}").to_lowercase()).collect();
+                if names.is_empty() { "–".to_owned() } else { names.join(", ") }
+            };
+            let [gives, needs, bars] = [pattern.gives, pattern.needs, pattern.bars].map(words);
+            let row = format!("| `{}` |", pattern.name);
+            let line = page.lines().find(|line| line.starts_with(&row));
+            let end = format!("| {gives} | {needs} | {bars} |");
+            assert!(line.is_some_and(|line| line.ends_with(&end)), "{row} … {end}");
+        }
+    }
+
+    #[test]
+    fn names_are_different() {
+        let names: std::collections::BTreeSet<&str> = all().iter().map(|pattern| pattern.name).collect();
+        assert_eq!(names.len(), all().len());
+    }
+}

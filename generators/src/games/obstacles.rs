@@ -1,12 +1,11 @@
 //! What is in the hero's way, and how it is overcome.
 
 use super::body::Body;
-use super::draft::{AVATAR, Draft, Harm, Part, Phase, Value, draw};
+use super::draft::{AVATAR, Draft, Part, Phase, Value, draw};
 use super::effect::Effect;
 use super::english;
 use super::pattern::{Feature, Pattern};
 use super::role::Role;
-use super::threats;
 use engine::{Sampler, SpriteClass};
 
 const fn obstacle(
@@ -18,16 +17,26 @@ const fn obstacle(
     Pattern { name, weight, roles, gives: &[], needs: &[Feature::Four], bars: &[], build }
 }
 
+/// What shuts off a part of the level.
+const fn shut(
+    name: &'static str,
+    weight: u32,
+    roles: &'static [Role],
+    build: fn(&mut Draft, &mut Sampler),
+) -> Pattern {
+    Pattern { bars: &[Feature::Lanes], ..obstacle(name, weight, roles, build) }
+}
+
 /// All obstacles.
 pub(crate) const OBSTACLES: &[Pattern] = &[
-    obstacle("obstacle/lock", 4, &[Role::Key, Role::Door], lock),
+    shut("obstacle/lock", 4, &[Role::Key, Role::Door], lock),
     obstacle("obstacle/dig", 3, &[Role::Soil], dig),
     Pattern {
         needs: &[Feature::Four, Feature::Strikes],
         ..obstacle("obstacle/break", 4, &[Role::Soil], break_through)
     },
-    obstacle("obstacle/lever", 3, &[Role::Lever, Role::Gate], lever),
-    obstacle("obstacle/dark", 3, &[Role::Torch, Role::Dark], dark),
+    shut("obstacle/lever", 3, &[Role::Lever, Role::Gate], lever),
+    shut("obstacle/dark", 3, &[Role::Torch, Role::Dark], dark),
     obstacle("obstacle/portal", 3, &[Role::PortalIn, Role::PortalOut], portal),
     Pattern {
         bars: &[Feature::Errands, Feature::Crates, Feature::Followers],
@@ -39,18 +48,8 @@ pub(crate) const OBSTACLES: &[Pattern] = &[
         ..obstacle("obstacle/cart", 2, &[Role::Cart], cart)
     },
     Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/crates", 1, &[Role::Crate], crates) },
-    obstacle("obstacle/toll", 4, &[Role::Coin, Role::Gate], toll),
-    Pattern {
-        gives: &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Precious],
-        needs: &[Feature::Four, Feature::Strikes],
-        bars: &[Feature::Scarce, Feature::Wards],
-        ..obstacle("obstacle/guard", 5, &[Role::Key, Role::Door, Role::Wanderer], guard)
-    },
-    Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/ford", 3, &[Role::Crate, Role::Pool], ford) },
-    Pattern {
-        gives: &[Feature::Crates],
-        ..obstacle("obstacle/weight", 3, &[Role::Crate, Role::Plate, Role::Gate], weight)
-    },
+    shut("obstacle/toll", 4, &[Role::Coin, Role::Gate], toll),
+    Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/ford", 2, &[Role::Crate, Role::Pool], ford) },
 ];
 
 /// Doors that open to the key: it is used up, or opens them all.
@@ -155,26 +154,6 @@ fn toll(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// The key is behind the guard, and the way on behind the key.
-fn guard(draft: &mut Draft, sampler: &mut Sampler) {
-    let params = threats::straying(sampler);
-    let guard = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &params);
-    let key = draft.spawn(Role::Key, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(3))]);
-    let door = draft.place(Role::Door, SpriteClass::Door, Body::Solid, &[]);
-    draft.harm(guard, Harm::Lasting);
-    draft.prey_leaves(guard, key, 2);
-    draft.scored(Phase::Take, key, &[AVATAR], Effect::CollectResource { stays: false }, 1);
-    let open = Effect::KillIfOtherHasMore { resource: key, limit: 1, subtract: false };
-    draft.scored(Phase::Open, door, &[AVATAR], open, 2);
-    let clause = format!(
-        "{} that is struck down leaves {}, which opens every {}",
-        draft.one(guard),
-        draft.one(key),
-        draft.say(door)
-    );
-    draft.tell(clause);
-}
-
 /// What is pushed in fills it, and the way is free.
 fn ford(draft: &mut Draft, _: &mut Sampler) {
     let block = pushable(draft);
@@ -182,16 +161,5 @@ fn ford(draft: &mut Draft, _: &mut Sampler) {
     draft.settle(block, pool);
     draft.scored(Phase::Push, pool, &[block], Effect::KillBoth, 2);
     let clause = format!("{} pushed into the {} fills it", draft.one(block), draft.say(pool));
-    draft.tell(clause);
-}
-
-/// A weight on the plate opens the way on.
-fn weight(draft: &mut Draft, _: &mut Sampler) {
-    let block = pushable(draft);
-    let plate = draft.place(Role::Plate, SpriteClass::Immovable, Body::Flat, &[]);
-    let gate = draft.place(Role::Gate, SpriteClass::Door, Body::Solid, &[]);
-    draft.rule(Phase::Meet, plate, &[block], Effect::KillAll { stype: gate });
-    draft.scored(Phase::Meet, plate, &[block], Effect::KillSprite, 2);
-    let clause = format!("{} on the {} opens every {}", draft.one(block), draft.say(plate), draft.say(gate));
     draft.tell(clause);
 }

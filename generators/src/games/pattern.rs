@@ -44,6 +44,10 @@ pub(crate) enum Feature {
     Wards,
     /// There is something to blow up.
     Ruins,
+    /// Lanes of traffic, which leave no room to shut anything away.
+    Lanes,
+    /// Harm that no touch ends.
+    Stains,
 }
 
 /// A fragment of a game.

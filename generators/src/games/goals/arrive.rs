@@ -33,7 +33,7 @@ pub(super) const GOALS: &[Goal] = &[
             "goal/cross",
             Kind::Crossing,
             &[Role::Exit, Role::Patroller, Role::Rover],
-            &[Feature::Movers, Feature::Harm, Feature::Prey],
+            &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Lanes],
             cross,
         )
     },

@@ -22,7 +22,7 @@ pub(super) const GOALS: &[Goal] = &[
             "goal/forage",
             Kind::Crossing,
             &[Role::Gem, Role::Patroller, Role::Rover],
-            &[Feature::Movers, Feature::Harm, Feature::Prey],
+            &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Lanes],
             forage,
         )
     },

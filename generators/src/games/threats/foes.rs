@@ -2,7 +2,9 @@
 
 use super::{foe_of, patroller, pursuing, straying};
 use crate::games::body::Body;
-use crate::games::draft::{AVATAR, Draft, Harm, Part, Value, draw};
+use crate::games::draft::{AVATAR, Draft, Harm, Part, Phase, Stamina, Value, draw};
+use crate::games::effect::Effect;
+use crate::games::english;
 use crate::games::role::Role;
 use engine::{Sampler, SpriteClass};
 
@@ -108,5 +110,25 @@ pub(super) fn rain(draft: &mut Draft, sampler: &mut Sampler) {
     let (bomber, drop) = bombers(draft, sampler);
     draft.prey(bomber, 3);
     let clause = format!("{} drop {}", draft.many(bomber), draft.many(drop));
+    draft.tell(clause);
+}
+
+/// What it carries heals: to be felled rather than fled from.
+pub(super) fn bearer(draft: &mut Draft, sampler: &mut Sampler) {
+    let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
+    let medicine = draft.spawn(Role::Medicine, SpriteClass::Immovable, Body::Item, &[]);
+    let health = draw(sampler, 2, 3);
+    draft.stamina = Stamina::Hearts(health);
+    draft.give(AVATAR, "healthPoints", Value::Count(health));
+    draft.give(AVATAR, "limitHealthPoints", Value::Count(health + 1));
+    draft.harm(foe, Harm::Spent);
+    draft.prey_leaves(foe, medicine, 2);
+    draft.scored(Phase::Take, AVATAR, &[medicine], Effect::AddHealthPointsToMax { value: 1 }, 2);
+    let clause = format!(
+        "{} wounds are the end, but every {} that is struck down leaves {}, which heals",
+        english::number(health),
+        draft.say(foe),
+        draft.say(medicine)
+    );
     draft.tell(clause);
 }

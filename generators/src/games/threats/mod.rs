@@ -15,6 +15,8 @@ use engine::{Sampler, SpriteClass};
 
 /// What harms and moves, and can be hit.
 const FOE: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey];
+/// The same, and what it leaves behind harms too.
+const STAINING: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Stains];
 /// What harms and moves, and cannot be hit.
 const DANGER: &[Feature] = &[Feature::Movers, Feature::Harm];
 
@@ -36,15 +38,24 @@ pub(crate) const THREATS: &[Pattern] = &[
     threat("threat/stray", 4, &[Role::Wanderer], FOE, foes::stray),
     threat("threat/chase", 4, &[Role::Chaser], FOE, foes::chase),
     threat("threat/bomb", 3, &[Role::Bomber, Role::Drop], FOE, foes::bomb),
-    threat("threat/slime", 3, &[Role::Slug, Role::Slime], FOE, hazards::slime),
+    threat("threat/slime", 3, &[Role::Slug, Role::Slime], STAINING, hazards::slime),
     threat("threat/turret", 3, &[Role::Turret, Role::Dart], DANGER, hazards::turret),
     threat("threat/nest-of-strays", 2, &[Role::Nest, Role::Wanderer], FOE, nests::nest_of_strays),
     threat("threat/nest-of-chasers", 2, &[Role::Nest, Role::Chaser], FOE, nests::nest_of_chasers),
     threat("threat/geyser", 3, &[Role::Vent, Role::Steam], DANGER, hazards::geyser),
-    threat("threat/creep", 2, &[Role::Vent, Role::Creep], DANGER, hazards::creep),
+    Pattern {
+        gives: &[Feature::Movers, Feature::Harm, Feature::Stains],
+        ..threat("threat/creep", 2, &[Role::Vent, Role::Creep], &[], hazards::creep)
+    },
     Pattern {
         needs: &[Feature::Four, Feature::Strikes],
         ..threat("threat/split", 3, &[Role::Wanderer, Role::Chaser], FOE, foes::split)
+    },
+    Pattern {
+        gives: &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Health],
+        needs: &[Feature::Four, Feature::Strikes],
+        bars: &[Feature::Health],
+        ..threat("threat/bearer", 4, &[Role::Wanderer, Role::Medicine], &[], foes::bearer)
     },
     threat("threat/brood", 3, &[Role::Nest, Role::Chaser], FOE, nests::brood),
     threat("threat/sentry", 4, &[Role::Chaser], FOE, foes::sentry),
