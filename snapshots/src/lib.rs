@@ -58,7 +58,6 @@ mod path;
 mod problem;
 mod recipe;
 mod regenerate;
-mod shape;
 mod striving;
 mod verify;
 mod witness;
@@ -73,7 +72,6 @@ pub use path::{MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
 pub use recipe::{Board, MAX_RECIPE, Part, Recipe, RecipeError};
 pub use regenerate::{RegenerateError, Regenerated, regenerate};
-pub use shape::shape;
 pub use verify::{Verification, Witnesses, verify};
 pub use witness::Witness;
 

@@ -3,9 +3,7 @@
 use crate::ladder::{Fared, Ladder};
 use crate::panel::Report;
 use engine::analysis::Deed;
-use engine::{
-    Action, Analysis, Episode, Game, Level, Meeting, Outcome, Sampler, Seed, SpriteType, State, Watch,
-};
+use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteType, State, Watch};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -177,23 +175,18 @@ fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
             let mut after = state.fork(future.child("chance", 0));
             let mut keys = future.child("keys", 0).sampler();
             game.step(&mut after, action);
-            wander(game, &mut after, &mut keys, FORESIGHT - 1);
+            for _ in 1..FORESIGHT {
+                if after.is_over() {
+                    break;
+                }
+                let key = *keys.choose(game.actions(&after));
+                game.step(&mut after, key);
+            }
             lost += u64::from(after.outcome() == Outcome::Lost);
             all += 1;
         }
     }
     lost as f64 / all.max(1) as f64
-}
-
-/// Plays at random for so many ticks, or until the game is over.
-pub(crate) fn wander(game: &Game, state: &mut State, keys: &mut Sampler, ticks: usize) {
-    for _ in 0..ticks {
-        if state.is_over() {
-            return;
-        }
-        let key = *keys.choose(game.actions(state));
-        game.step(state, key);
-    }
 }
 
 /// How many sprites were pushed in a tick and moved by it, or went away. A push against something that holds is undone in the

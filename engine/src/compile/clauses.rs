@@ -187,7 +187,9 @@ fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause 
         note(&mut terms, "singleton", info.singleton, false);
         note_types(&mut terms, "stype", own.stypes.iter().copied());
         note_types(&mut terms, "ammo", own.ammo.iter().copied());
-        note_types(&mut terms, "spawnBehind", own.spawn_behind);
+        // Without a type of its own, it leaves walls behind.
+        let walls = (class == SpriteClass::OngoingTurningAvatar).then_some(SpriteType(0));
+        note_types(&mut terms, "spawnBehind", own.spawn_behind.or(walls));
         note_types(&mut terms, "resource", Some(own.resource).filter(|&resource| resource != stype));
     }
     let declared = declared(rules, &info.name);

@@ -18,7 +18,7 @@ use generators::{GenerateError, Generator};
 use rayon::prelude::*;
 pub use tally::Tally;
 pub(crate) use tally::reasons;
-use validators::Panel;
+use validators::{GameForm, Panel};
 
 /// A release in memory: every file, in path order, the manifest apart.
 #[derive(Clone, Debug)]
@@ -91,8 +91,8 @@ enum Place {
 /// A filled place.
 struct Filled {
     made: MadeGame,
-    /// The rules with names taken away: equal for games that differ in fiction only.
-    shape: Digest,
+    /// Equal for games that are the same rules in another fiction.
+    form: Digest,
     tally: Tally,
 }
 
@@ -180,7 +180,7 @@ impl Mint<'_> {
             if let Some(made) = found.and_then(|found| candidate.finish(found, &canary)) {
                 tally.game_accepted();
                 self.progress.filled(&made.card);
-                return Ok(Filled { shape: crate::shape::shape(made.game.description()), made, tally });
+                return Ok(Filled { form: GameForm::of(&made.game).digest(), made, tally });
             }
         }
         Err(MintError::Unfilled { place: name, tried: tries - from.min(tries), why: tally.reasons() })
@@ -263,7 +263,7 @@ impl Mint<'_> {
     fn replace_twins(&self, places: &[Place], games: &mut [Filled]) -> Result<(), MintError> {
         for at in 1..games.len() {
             loop {
-                let twin = games[..at].iter().any(|other| other.shape == games[at].shape);
+                let twin = games[..at].iter().any(|other| other.form == games[at].form);
                 let Origin::Generated { candidate, .. } = games[at].made.card.origin else { break };
                 if !twin {
                     break;

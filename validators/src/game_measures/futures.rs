@@ -1,17 +1,42 @@
-//! What random play makes of a moment, beside what was really played: who leads, and how far one must see.
+//! What careless play makes of a moment, beside what was really played: who leads, and how far one must see.
+//!
+//! Futures are played by somebody who presses keys at random and takes a press back that loses at once. Without that, whatever
+//! is deadly at all would look hopeless at every moment.
 
-use crate::measures::wander;
-use engine::{Game, Outcome, Seed, State};
+use engine::{Game, Outcome, Sampler, Seed, State};
 use std::cmp::Ordering;
 
 /// Ticks that random futures are played for.
 pub const SIGHT: usize = 64;
-/// Random futures of a moment.
+/// Futures of a moment.
 pub const FUTURES: u64 = 8;
 /// After how many ticks futures are looked at.
 const LOOKS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
+/// Keys that are tried in a tick.
+const TRIES: usize = 3;
 /// So many futures must be worse for a line of play to be seen to be better.
 const WORSE: usize = 6;
+
+/// Plays for so many ticks, or until the game is over.
+fn play_on(game: &Game, state: &mut State, keys: &mut Sampler, ticks: usize) {
+    for _ in 0..ticks {
+        if state.is_over() {
+            return;
+        }
+        let mut press = || {
+            let mut after = state.clone();
+            game.step(&mut after, *keys.choose(game.actions(state)));
+            after
+        };
+        let mut after = press();
+        for _ in 1..TRIES {
+            if after.outcome() == Outcome::Lost {
+                after = press();
+            }
+        }
+        *state = after;
+    }
+}
 
 /// How a game stands: won or not first, then by score.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,11 +61,11 @@ impl Standing {
     }
 }
 
-/// Random futures of a moment, as they stand after 1, 2, 4 … [`SIGHT`] ticks.
+/// Futures of a moment, as they stand after 1, 2, 4 … [`SIGHT`] ticks.
 pub(super) struct Futures(Vec<[Standing; LOOKS.len()]>);
 
 impl Futures {
-    /// Each with a chance of its own. Cost: at most [`FUTURES`] × [`SIGHT`] forward-model calls.
+    /// Each with a chance of its own. Cost: [`FUTURES`] × [`SIGHT`] forward-model calls, three times that at most.
     pub(super) fn of(game: &Game, state: &State, seed: Seed) -> Futures {
         let play = |number: u64| {
             let seed = seed.child("future", number);
@@ -48,7 +73,7 @@ impl Futures {
             let mut keys = seed.child("keys", 0).sampler();
             let mut played = 0;
             LOOKS.map(|ticks| {
-                wander(game, &mut after, &mut keys, ticks - played);
+                play_on(game, &mut after, &mut keys, ticks - played);
                 played = ticks;
                 Standing::of(&after)
             })

@@ -1,7 +1,7 @@
 //! What kind of game it is, by its rules alone: who one is, what one is after, what there is to reckon with.
 
 use super::families::{ClassFamily, EffectFamily};
-use crate::measures::is_guard;
+use super::guards::Guards;
 use engine::analysis::{Attainable, Condition, Genre, Key, Means, Motion, Role, Steering};
 use engine::{Analysis, SpriteClass, SpriteType, Term};
 use serde::{Deserialize, Serialize};
@@ -90,6 +90,8 @@ pub enum GoalKind {
     Hunt,
     /// Things that lie about have to be taken: all of a type, or many of a resource that an exit asks for.
     Collect,
+    /// Something has to be reached, or taken, that is closed until its key, or the right form, is got.
+    Unlock,
     /// A place has to be reached.
     Reach,
     /// Others have to do something, or to be brought together.
@@ -135,6 +137,7 @@ impl GoalKind {
             (GoalKind::Eliminate, has(Means::Shoot) || has(Means::Tool)),
             (GoalKind::Hunt, has(Means::Catch)),
             (GoalKind::Collect, has(Means::Take) || (has(Means::Exit) && many)),
+            (GoalKind::Unlock, has(Means::Exit) && !analysis.locks().is_empty()),
             (GoalKind::Reach, has(Means::Exit)),
             (GoalKind::Herd, has(Means::Others)),
             (GoalKind::Guard, waits && guards),
@@ -152,6 +155,7 @@ impl GoalKind {
             GoalKind::Eliminate => "eliminate",
             GoalKind::Hunt => "hunt",
             GoalKind::Collect => "collect",
+            GoalKind::Unlock => "unlock",
             GoalKind::Reach => "reach",
             GoalKind::Herd => "herd",
             GoalKind::Guard => "guard",
@@ -246,7 +250,7 @@ pub struct GameKind {
     pub producers: Vec<String>,
     /// Lines of the InteractionSet, guards apart.
     pub interactions: usize,
-    /// Lines that only keep sprites from leaving the board or going through walls: see [`guards`].
+    /// Lines that only keep sprites from leaving the board or going through walls: see [`Guards`].
     pub guards: usize,
 }
 
@@ -263,7 +267,7 @@ impl GameKind {
             let names: BTreeSet<&str> = of_family.map(SpriteClass::name).collect();
             names.into_iter().map(str::to_owned).collect::<Vec<String>>()
         };
-        let guards = guards(analysis).into_iter().filter(|guard| *guard).count();
+        let guards = Guards::of(analysis).lines().count();
         GameKind {
             avatar: AvatarKind::of(analysis),
             goal: GoalKind::of(analysis),
@@ -275,26 +279,6 @@ impl GameKind {
             guards,
         }
     }
-}
-
-/// By interaction line: whether it is a guard, one that nobody would call a mechanic. It is with the edge of the screen; or it
-/// takes back a move into walls ([`Role::Wall`]: they stand still, always block, and nothing removes them), at no price.
-/// Cost: O(interactions × types).
-pub fn guards(analysis: &Analysis) -> Vec<bool> {
-    let game = analysis.game();
-    let is_wall = |name: &str| {
-        let Some(written) = game.sprite_type(name) else { return false };
-        let below = game.sprite_types().filter(|&stype| analysis.applies(written, stype));
-        let mut there = below.filter(|&stype| analysis.facts(stype).possible).peekable();
-        there.peek().is_some() && there.all(|stype| analysis.role(stype) == Role::Wall)
-    };
-    let walls = |line: &engine::syntax::InteractionLine| {
-        let free = line.params.iter().all(|param| param.key.text != "scoreChange" || param.value.text == "0");
-        let blocks = EffectFamily::of(&line.effect.text) == Some(EffectFamily::Block);
-        blocks && free && line.second.iter().all(|second| is_wall(&second.text))
-    };
-    let lines = game.description().interactions.iter().enumerate();
-    lines.map(|(at, line)| is_guard(game, at) || walls(line)).collect()
 }
 
 #[cfg(test)]
@@ -331,6 +315,10 @@ mod tests {
         goal(ROAMER, "prop avatar > killSprite", none_left, GoalKind::Hunt);
         let door = "prop > Door; other > Immovable; avatar > MovingAvatar";
         goal(door, "prop avatar > killSprite", none_left, GoalKind::Reach);
+        let key = "prop > Door; other > Immovable; avatar > MovingAvatar; bearer > MovingAvatar";
+        let opens =
+            "avatar other > transformTo stype=bearer; avatar prop > stepBack; prop bearer > killSprite";
+        goal(key, opens, none_left, GoalKind::Unlock);
         let gun = "prop > RandomNPC; other > Missile; avatar > ShootAvatar stype=other";
         goal(gun, "prop other > killBoth", none_left, GoalKind::Eliminate);
         goal(ROAMER, "prop other > killSprite", none_left, GoalKind::Herd);

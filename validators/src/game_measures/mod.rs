@@ -2,10 +2,12 @@
 
 mod families;
 mod futures;
+mod guards;
 mod kinds;
 mod play;
 
 pub use families::{ClassFamily, EffectFamily};
 pub use futures::{FUTURES, SIGHT};
-pub use kinds::{AvatarKind, ChanceKind, GameKind, GoalKind, guards};
+pub use guards::Guards;
+pub use kinds::{AvatarKind, ChanceKind, GameKind, GoalKind};
 pub use play::PlayMeasures;

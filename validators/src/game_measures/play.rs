@@ -1,11 +1,12 @@
 //! What a game is like to play, from what was played of it.
 
 use super::futures::{Futures, Standing};
-use super::kinds::guards;
+use super::guards::Guards;
 use crate::measures::{Mean, actions};
 use crate::recording::Recorded;
-use engine::{Analysis, Episode, Game, Level, Outcome, Seed, SpriteRecord, State, Watch};
+use engine::{Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteRecord, State, Watch};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// What a game is like to play: means over its levels, of each of which one episode counts, the first that is won, or the first
 /// if none is.
@@ -14,23 +15,25 @@ use serde::{Deserialize, Serialize};
 pub struct PlayMeasures {
     /// From 0 to 1: the share of ticks in which something other than the avatar moves, turns, appears, goes away or changes.
     pub pace: f64,
-    /// Executions of interactions a tick, guards ([`guards`]) apart. One that puts the same sprite back to the same place
+    /// Executions of interactions a tick, guards ([`Guards`]) apart. One that puts the same sprite back to the same place
     /// tick after tick counts once.
     pub density: f64,
     /// From 0 to 1: the share of actions, at some ticks, that lead to something else under another chance.
     pub chance: f64,
     /// Different interactions, guards apart, that won episodes execute: all of them together.
     pub mechanics: usize,
-    /// Planning depth, in ticks, from 1 to [`SIGHT`](super::SIGHT): how far one has to look ahead to see that what was played
-    /// is better than random play, which is either that it wins or does not lose, or that it scores more. A game that pays
-    /// for every step, or kills who does not act, has little of it; one in which the good move looks like any other for long,
-    /// or worse than a greedy one, has much. Moments from which random play wins as well do not count; 0 if none does.
+    /// Planning depth, in ticks, from 1 to [`SIGHT`](super::SIGHT): how far one has to look ahead from a moment to see that
+    /// what was played is better than careless play (random keys, without those that lose at once): that it wins, does not
+    /// lose, or scores more. A game that pays for every step, or kills who does not act, has little of it; one in which the
+    /// good move looks like any other for long, or worse than a greedy one, has much. It asks how far the consequences lie, at
+    /// a price that does not grow with the branching, unlike the look-ahead that a planner needs. Moments from which careless
+    /// play wins as well do not count; 0 if no moment does.
     pub sight: f64,
-    /// From 0 to 1: how desperate the game is on the way to a win. The lead at a moment is by how many more of some random
+    /// From 0 to 1: how desperate the game is on the way to a win. The lead at a moment is by how many more of some careless
     /// futures win than lose within [`SIGHT`](super::SIGHT) ticks, as a share. Drama is the mean over the moments of the square
     /// root of the deficit where the lead is the game's, and of 0 where it is the player's or nobody's: the measure of Browne
-    /// and Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with the game for the opponent, random futures for the
-    /// position's value, and all moments in the mean, so that a single bad one does not make a drama. What random play can
+    /// and Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with the game for the opponent, such futures for the
+    /// value of a position, and all moments in the mean, so that a single bad one does not make a drama. What careless play can
     /// neither win nor lose has none.
     pub drama: f64,
     /// How often the lead goes from one side to the other on the way to the win, which the player leads in the end: the mean
@@ -49,14 +52,14 @@ const WINS: usize = 12;
 
 impl PlayMeasures {
     /// Of the recorded episodes of a game; none if there are none. The same arguments give the same numbers on every machine.
-    /// Cost: the episodes are played again, and for each level at most 12 × 8 × 64 forward-model calls for futures, and
-    /// 12 × 6 × 3 for chance.
+    /// Cost: the episodes are played again, and for each level 12 × 8 × 64 forward-model calls for futures (three times that
+    /// at most), and 12 × 6 × 3 for chance: some milliseconds.
     pub fn of(analysis: &Analysis, recording: &[Recorded<'_>], seed: Seed) -> Option<PlayMeasures> {
         let game = analysis.game();
-        let guards = guards(analysis);
+        let guards = Guards::of(analysis);
         let mut all: [Mean; 6] = Default::default();
         let mut levels = 0;
-        let mut used = vec![false; guards.len()];
+        let mut used = BTreeSet::new();
         for (number, recorded) in (0u64..).zip(recording) {
             let won = || recorded.episodes.iter().filter(|episode| episode.outcome == Outcome::Won);
             let Some(episode) = won().next().or(recorded.episodes.first()) else { continue };
@@ -69,12 +72,16 @@ impl PlayMeasures {
             }
             levels += 1;
             for episode in won().take(WINS) {
-                let rules = crate::used_rules(game, recorded.level, episode);
-                rules.into_iter().for_each(|line| used[line] = true);
+                let mut counter = Counter::new(&guards);
+                let mut state = game.start(recorded.level, episode.seed);
+                for &action in &episode.actions {
+                    game.step_watched(&mut state, action, &mut counter);
+                }
+                used.extend(counter.lines);
             }
         }
         let [pace, density, chance, sight, drama, lead_changes] = all.map(|mean| mean.value());
-        let mechanics = used.iter().zip(&guards).filter(|(used, guard)| **used && !**guard).count();
+        let mechanics = used.len();
         let measures = PlayMeasures { pace, density, chance, mechanics, sight, drama, lead_changes, levels };
         (levels > 0).then_some(measures)
     }
@@ -84,10 +91,10 @@ impl PlayMeasures {
 struct Measured([Option<f64>; 6]);
 
 impl Measured {
-    fn of(analysis: &Analysis, guards: &[bool], level: &Level, episode: &Episode, seed: Seed) -> Measured {
+    fn of(analysis: &Analysis, guards: &Guards, level: &Level, episode: &Episode, seed: Seed) -> Measured {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
-        let mut counter = Counter { guards, executions: 0 };
+        let mut counter = Counter::new(guards);
         let (mut pace, mut chance) = (Mean::default(), Mean::default());
         let stride = episode.actions.len().div_ceil(MOMENTS).max(1);
         let mut line = vec![Standing::of(&state)];
@@ -165,13 +172,38 @@ fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
 
 /// Counts executions of what is no guard.
 struct Counter<'a> {
-    guards: &'a [bool],
+    guards: &'a Guards,
     executions: u64,
+    lines: BTreeSet<usize>,
+}
+
+impl Counter<'_> {
+    fn new(guards: &Guards) -> Counter<'_> {
+        Counter { guards, executions: 0, lines: BTreeSet::new() }
+    }
+
+    fn count(&mut self, line: usize) {
+        self.executions += 1;
+        self.lines.insert(line);
+    }
 }
 
 impl Watch for Counter<'_> {
     fn interaction(&mut self, line: usize) {
-        self.executions += u64::from(!self.guards[line]);
+        // The others are told of with their sprites.
+        if self.guards.runs_by_clock(line) {
+            self.count(line);
+        }
+    }
+
+    fn wants_meetings(&self) -> bool {
+        true
+    }
+
+    fn meeting(&mut self, meeting: Meeting) {
+        if !self.guards.runs_by_clock(meeting.line) && !self.guards.covers(meeting) {
+            self.count(meeting.line);
+        }
     }
 }
 

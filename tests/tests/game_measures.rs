@@ -1,0 +1,54 @@
+//! Measures of our own games, beside what their authors say of them.
+
+use agents::{PortfolioConfig, Solution, solve};
+use engine::{Analysis, Seed};
+use tests::{games, workspace_root};
+use validators::Recorded;
+use validators::game_measures::{AvatarKind, ChanceKind, GameKind, GoalKind, PlayMeasures};
+
+#[test]
+fn kinds_of_our_own_games() {
+    use AvatarKind as A;
+    use ChanceKind as C;
+    use GoalKind as G;
+    let expect = [
+        ("bog-lantern", A::Walks, G::Survive, C::Movers),
+        ("dormouse-millrace", A::Walks, G::Herd, C::None),
+        ("dyepot-newt", A::Walks, G::Unlock, C::None),
+        ("foxglove-round", A::Walks, G::Collect, C::Movers),
+        ("great-yawn", A::Walks, G::Hunt, C::Movers),
+        ("hailglass", A::SlidesAndShoots, G::Eliminate, C::Makers),
+        ("pillow-fort", A::WalksAndShoots, G::Eliminate, C::Several),
+        ("quiet-jars", A::Walks, G::Deliver, C::None),
+        ("salmon-weir", A::Slides, G::Herd, C::Makers),
+    ];
+    let all = games(&workspace_root().join("corpora"));
+    for (name, avatar, goal, chance) in expect {
+        let (_, game, _) = all.iter().find(|game| game.0 == name).expect(name);
+        let kind = GameKind::of(&Analysis::of(game));
+        assert_eq!((kind.avatar, kind.goal, kind.chance), (avatar, goal, chance), "{name}");
+    }
+}
+
+/// Of the first level, by the win that the portfolio finds.
+fn played(name: &str) -> PlayMeasures {
+    let all = games(&workspace_root().join("corpora"));
+    let (_, game, levels) = all.iter().find(|game| game.0 == name).expect(name);
+    let analysis = Analysis::of(game);
+    let config = PortfolioConfig { budget: 150_000, ..PortfolioConfig::default() };
+    let solved = solve(&analysis, &levels[0], &config, Seed::from_text("solve"));
+    let Solution::Won { episode, .. } = solved.solution else { panic!("{name} is not won") };
+    let recording = [Recorded { level: &levels[0], episodes: &[*episode] }];
+    PlayMeasures::of(&analysis, &recording, Seed::from_text("measures")).expect("an episode")
+}
+
+/// The jars wait for their porter, who can only lose by the clock; the hounds of the bog do not wait, and catch who stays.
+#[test]
+fn a_puzzle_and_a_flight_measure_as_they_play() {
+    let (jars, bog) = (played("quiet-jars"), played("bog-lantern"));
+    assert_eq!((jars.chance, jars.drama, jars.lead_changes), (0.0, 0.0, 0.0), "{jars:?}");
+    // A jar is pushed, and two jars fall quiet.
+    assert_eq!(jars.mechanics, 2, "{jars:?}");
+    assert!(bog.pace > 2.0 * jars.pace && bog.drama > 0.3, "{jars:?} {bog:?}");
+    assert!(bog.density < jars.density, "{jars:?} {bog:?}");
+}

@@ -1,0 +1,77 @@
+//! What nobody would call a mechanic: interactions that keep sprites on the board and out of walls.
+
+use super::families::EffectFamily;
+use crate::measures::is_guard;
+use engine::analysis::Role;
+use engine::{Analysis, Meeting, SpriteType};
+
+/// The guards of a game: interactions with the edge of the screen, and moves that walls take back at no price. A wall is what
+/// has [`Role::Wall`]: it stands still, always blocks, and nothing removes it.
+#[derive(Clone, Debug)]
+pub struct Guards {
+    /// By interaction line.
+    lines: Vec<Kind>,
+    /// By type: whether it is a wall.
+    walls: Vec<bool>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// With the edge of the screen.
+    Edge,
+    /// By the clock.
+    Clock,
+    /// It takes back a move, and only that; `walls`: all that it names are walls.
+    Block { walls: bool },
+    /// Anything else.
+    Other,
+}
+
+impl Guards {
+    /// Cost: O(interactions × types).
+    pub fn of(analysis: &Analysis) -> Guards {
+        let game = analysis.game();
+        let is_wall =
+            |stype: SpriteType| analysis.role(stype) == Role::Wall || !analysis.facts(stype).possible;
+        let walls: Vec<bool> = game.sprite_types().map(is_wall).collect();
+        let names_walls = |name: &str| {
+            let Some(written) = game.sprite_type(name) else { return false };
+            game.sprite_types().filter(|&stype| analysis.applies(written, stype)).all(is_wall)
+        };
+        let kind = |(at, line): (usize, &engine::syntax::InteractionLine)| {
+            let clock =
+                line.second.iter().chain([&line.first]).any(|word| word.text.eq_ignore_ascii_case("TIME"));
+            let priced =
+                line.params.iter().any(|param| param.key.text == "scoreChange" && param.value.text != "0");
+            match EffectFamily::of(&line.effect.text) {
+                _ if clock => Kind::Clock,
+                _ if is_guard(game, at) => Kind::Edge,
+                Some(EffectFamily::Block) if !priced => {
+                    Kind::Block { walls: line.second.iter().all(|second| names_walls(&second.text)) }
+                }
+                _ => Kind::Other,
+            }
+        };
+        Guards { lines: game.description().interactions.iter().enumerate().map(kind).collect(), walls }
+    }
+
+    /// The lines that are nothing but guards: indices into [`Description::interactions`](engine::Description).
+    pub fn lines(&self) -> impl Iterator<Item = usize> + '_ {
+        let guards = |line: &usize| matches!(self.lines[*line], Kind::Edge | Kind::Block { walls: true });
+        (0..self.lines.len()).filter(guards)
+    }
+
+    /// Whether an execution is a guard's: of a line that is one, or with a wall where the line names others as well.
+    pub fn covers(&self, meeting: Meeting) -> bool {
+        match self.lines[meeting.line] {
+            Kind::Edge => true,
+            Kind::Block { .. } => meeting.second.is_some_and(|second| self.walls[second.index()]),
+            Kind::Clock | Kind::Other => false,
+        }
+    }
+
+    /// Whether a line runs by the clock.
+    pub(super) fn runs_by_clock(&self, line: usize) -> bool {
+        self.lines[line] == Kind::Clock
+    }
+}
