@@ -59,3 +59,65 @@ impl GameForm {
 pub fn distance(one: &GameForm, two: &GameForm) -> f64 {
     one.features.distance(&two.features)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Types that chase each other as told, and an avatar that all of them kill.
+    fn chase(chases: &[usize]) -> GameForm {
+        let name = |number: usize| format!("t{number}");
+        let sprites: String = chases
+            .iter()
+            .enumerate()
+            .map(|(at, &to)| format!("    {} > Chaser stype={}\n", name(at), name(to)))
+            .collect();
+        let rules: String =
+            (0..chases.len()).map(|at| format!("    avatar {} > killSprite\n", name(at))).collect();
+        let placed: String = (0..chases.len())
+            .map(|at| format!("    {} > {}\n", (b'a' + at as u8) as char, name(at)))
+            .collect();
+        let source = format!(
+            "BasicGame\n  SpriteSet\n{sprites}    avatar > MovingAvatar\n  LevelMapping\n{placed}  InteractionSet\n{rules}  TerminationSet\n    SpriteCounter stype=avatar\n    Timeout limit=90 win=True\n"
+        );
+        GameForm::of(&Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}")))
+    }
+
+    #[test]
+    fn types_in_a_ring_are_one_game_wherever_it_starts() {
+        let ring = chase(&[1, 2, 3, 4, 5, 0]);
+        assert_eq!(ring.digest(), chase(&[3, 4, 0, 5, 2, 1]).digest());
+        assert_eq!(ring.digest(), chase(&[5, 0, 1, 2, 3, 4]).digest());
+        // Colours alone do not tell two rings of three from one of six; the digest does, the distance does not.
+        let rings = chase(&[1, 2, 0, 4, 5, 3]);
+        assert_ne!(ring.digest(), rings.digest());
+        assert_eq!(distance(&ring, &rings), 0.0);
+        assert_eq!(rings.digest(), chase(&[2, 3, 4, 5, 0, 1]).digest());
+    }
+
+    /// All 20 of them can be exchanged; singling them out one by one would be 20! texts.
+    #[test]
+    fn many_types_alike_are_soon_told_to_be_alike() {
+        let twins: Vec<usize> = (0..20).map(|_| 20).chain([20]).collect();
+        let one = chase(&twins);
+        let mut other: Vec<usize> = vec![3; 21];
+        other[3] = 3;
+        assert_eq!(one.digest(), chase(&other).digest());
+    }
+
+    /// Pairs that chase each other: exchanging one type alone is no way to map the game onto itself.
+    #[test]
+    fn pairs_alike_are_told_to_be_alike() {
+        let pairs: Vec<usize> = (0..16).map(|at| at ^ 1).collect();
+        let crossed: Vec<usize> = (0..16).map(|at| (at + 8) % 16).collect();
+        assert_eq!(chase(&pairs).digest(), chase(&crossed).digest());
+    }
+
+    #[test]
+    fn the_nearest_is_the_first_of_the_nearest() {
+        let (ring, pairs, chain) = (chase(&[1, 2, 0]), chase(&[1, 0, 1]), chase(&[1, 2, 3, 4, 5, 0]));
+        assert_eq!(ring.nearest([&chain, &pairs, &ring, &ring]), Some((2, 0.0)));
+        assert_eq!(ring.nearest([]), None);
+        assert!(ring.is_near(&ring) && distance(&ring, &pairs) > 0.0);
+    }
+}
