@@ -47,6 +47,7 @@ pub mod card;
 mod corpus;
 mod draft;
 mod error;
+mod figures;
 pub mod folder;
 pub mod games;
 mod integrity;

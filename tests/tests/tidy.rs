@@ -21,7 +21,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("snapshots", &["engine", "agents", "generators", "validators", "statistics"]),
     ("render", &["engine"]),
     ("cli", &["engine", "agents", "generators", "validators", "snapshots", "statistics", "render"]),
-    ("xtask", &["engine", "agents", "generators", "render", "statistics"]),
+    ("xtask", &["engine", "agents", "generators", "validators", "snapshots", "render", "statistics"]),
 ];
 
 /// The crate that may depend on all others, because none depends on it.

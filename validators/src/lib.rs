@@ -49,7 +49,7 @@ pub use reachable::Reachable;
 pub use readable::Readable;
 pub use recording::{Recorded, executions};
 pub use rule_ref::{RuleRef, RuleRefError};
-pub use rule_use::RuleUse;
+pub use rule_use::{RuleUse, RulesShown};
 pub use skill::SkillPays;
 pub use skill_overall::SkillOverall;
 pub use verdict::{Case, Finding, Rate, Reason, Validator, Verdict};

@@ -173,17 +173,7 @@ impl Panel {
             return Vec::new();
         }
         let analysis = Analysis::of(game);
-        let mut episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
-        let new = {
-            let recording = recorded(levels, &episodes);
-            let usage = Usage::of(game, &recording);
-            explore(game, &recording, &usage, seed.child("explore", 0))
-        };
-        for (episodes, new) in episodes.iter_mut().zip(new) {
-            // After the witness, before what may be too much to look at.
-            let at = usize::from(!episodes.is_empty());
-            episodes.splice(at..at, new);
-        }
+        let episodes = record(game, levels, reports, seed.child("explore", 0));
         let recording = recorded(levels, &episodes);
         let usage = Usage::of(game, &recording);
         let ladders: Vec<Option<&Ladder>> = reports.iter().map(Report::ladder).collect();
@@ -243,7 +233,23 @@ impl Panel {
     }
 }
 
-fn recorded<'a>(levels: &'a [Level], episodes: &'a [Vec<Episode>]) -> Vec<Recorded<'a>> {
+/// What was played on each level, and what random keys add where some rule was never seen.
+pub(crate) fn record(game: &Game, levels: &[Level], reports: &[Report], seed: Seed) -> Vec<Vec<Episode>> {
+    let mut episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
+    let new = {
+        let recording = recorded(levels, &episodes);
+        let usage = Usage::of(game, &recording);
+        explore(game, &recording, &usage, seed)
+    };
+    for (episodes, new) in episodes.iter_mut().zip(new) {
+        // After the witness, before what may be too much to look at.
+        let at = usize::from(!episodes.is_empty());
+        episodes.splice(at..at, new);
+    }
+    episodes
+}
+
+pub(crate) fn recorded<'a>(levels: &'a [Level], episodes: &'a [Vec<Episode>]) -> Vec<Recorded<'a>> {
     levels.iter().zip(episodes).map(|(level, episodes)| Recorded { level, episodes }).collect()
 }
 

@@ -2,10 +2,12 @@
 
 use crate::evidence::{Evidence, Line};
 use crate::game_report::{GameCase, GameValidator};
+use crate::is_guard;
+use crate::panel::{Report, record, recorded};
 use crate::recording::{Recorded, Usage};
 use crate::verdict::{Finding, Verdict};
 use engine::analysis::{Analysis, Reach};
-use engine::{Game, SpriteType};
+use engine::{Game, Level, Seed, SpriteType};
 
 /// Every interaction is executed, and a sprite of every type is there, in some recorded episode of the game.
 ///
@@ -61,6 +63,34 @@ impl GameValidator for RuleUse {
     }
 }
 
+/// What recorded play shows of a game's rules: what [`RuleUse`] asks about, counted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RulesShown {
+    /// Interactions that some episode executes, as indices into [`Description::interactions`](engine::Description); those
+    /// with the edge of the screen left out.
+    pub executed: Vec<usize>,
+    /// Interactions that none does; those with the edge of the screen left out.
+    pub idle: Vec<usize>,
+    /// Types that are declared for sprites of their own, and of which some was there or held.
+    pub there: Vec<SpriteType>,
+    /// Types of which none ever was.
+    pub absent: Vec<SpriteType>,
+}
+
+impl RulesShown {
+    /// What the episodes of the levels' judges show, and the ways that the panel tries for rules which they do not. The same
+    /// arguments give the same answer on any number of threads. Cost: twice that of the episodes, at most 100,000 ticks a
+    /// level each, and up to 400 ways of 40 random keys on each level.
+    pub fn of(game: &Game, levels: &[Level], reports: &[Report], seed: Seed) -> RulesShown {
+        let episodes = record(game, levels, reports, seed);
+        let usage = Usage::of(game, &recorded(levels, &episodes));
+        let inner = (0..usage.lines.len()).filter(|&line| !is_guard(game, line));
+        let (idle, executed) = inner.partition(|&line| usage.lines[line].is_empty());
+        let (there, absent) = own_types(game).into_iter().partition(|stype| usage.types[stype.index()]);
+        RulesShown { executed, idle, there, absent }
+    }
+}
+
 /// A reason and how many more there are.
 pub(crate) fn more(first: &str, others: usize) -> String {
     match others {
@@ -71,15 +101,15 @@ pub(crate) fn more(first: &str, others: usize) -> String {
 
 /// Types that were never there, of those that the file declares and that can have sprites.
 fn unused_types(game: &Game, usage: &Usage) -> Vec<SpriteType> {
-    let declared = |name: &str| {
-        let lines = game.description().sprite_lines();
-        lines.iter().any(|(_, line)| line.name.text == name && line.children.is_empty())
-    };
-    game.sprite_types()
-        .filter(|&stype| {
-            game.class(stype).is_some() && !usage.types[stype.index()] && declared(game.name(stype))
-        })
-        .collect()
+    own_types(game).into_iter().filter(|stype| !usage.types[stype.index()]).collect()
+}
+
+/// Types that the file declares and that can have sprites.
+fn own_types(game: &Game) -> Vec<SpriteType> {
+    let lines = game.description().sprite_lines();
+    let declared =
+        |name: &str| lines.iter().any(|(_, line)| line.name.text == name && line.children.is_empty());
+    game.sprite_types().filter(|&stype| game.class(stype).is_some() && declared(game.name(stype))).collect()
 }
 
 /// Whether the two sides of an interaction may meet in some level: false only if it is proved that they cannot.

@@ -7,6 +7,7 @@ mod course;
 mod fidelity;
 mod instructions;
 mod levels;
+mod side_by_side;
 mod solve;
 mod survey;
 
@@ -25,6 +26,7 @@ enum Chore {
     Bench(bench::Args),
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
+    SideBySide(side_by_side::Args),
     Solve(solve::Args),
     Survey(survey::Args),
 }
@@ -34,6 +36,7 @@ fn main() -> anyhow::Result<()> {
         Chore::Bench(args) => bench::run(&args),
         Chore::Fidelity(args) => fidelity::run(&args),
         Chore::Instructions(args) => instructions::run(&args),
+        Chore::SideBySide(args) => side_by_side::run(&args),
         Chore::Solve(args) => solve::run(&args),
         Chore::Survey(args) => survey::run(&args),
     }

@@ -4,15 +4,14 @@
 //! each figure means, with its formula and source, is in `docs/generate-levels.md`.
 
 mod control;
-mod figures;
 mod likeness;
 mod play;
 mod range;
 mod row;
 mod survey;
 
+pub use crate::figures::{Estimate, Quantiles, Share};
 pub use control::{Control, Hits};
-pub use figures::{Estimate, Quantiles, Share};
 pub use likeness::{Diversity, NEAR, Novelty};
 pub use play::{Fit, Lengths, LineUse, PlayerRate, Rules, Skill, Solvability, Triviality, Validity};
 pub use range::{Axis, BINS, PAIRS, Range};

@@ -1,7 +1,7 @@
 //! How alike levels are: to each other, and to the game's own.
 
 use super::Judged;
-use super::figures::{Estimate, Quantiles, Share};
+use crate::figures::{Estimate, Quantiles, Share};
 use engine::Digest;
 use generators::levels::Likeness;
 use rayon::prelude::*;

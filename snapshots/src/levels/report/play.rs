@@ -1,7 +1,7 @@
 //! What the judges' verdicts and plays say of a set.
 
 use super::Judged;
-use super::figures::{Estimate, Quantiles, Share};
+use crate::figures::{Estimate, Quantiles, Share};
 use engine::Game;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

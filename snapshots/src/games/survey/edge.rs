@@ -1,0 +1,153 @@
+//! How much better the strongest player does than those who do not look ahead, over all levels of a game.
+
+use engine::Game;
+use serde::{Deserialize, Serialize};
+use statistics::{Z95, bootstrap, difference, spearman};
+use validators::{Criteria, Fared, Report};
+
+/// Resamples for an interval of scores.
+const RESAMPLES: usize = 1000;
+
+/// The name of the player that has found a plan, in games where a plan that won once wins every time.
+pub const SEARCH: &str = "search";
+
+/// How much better the strongest player does than the best of those who do not look ahead.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Edge {
+    /// The strongest player: the last of the ladder; in a deterministic game [`SEARCH`], if that wins more.
+    pub strongest: String,
+    /// Its wins, over all levels.
+    pub wins: u64,
+    /// Plays of each player, over all levels.
+    pub plays: u64,
+    /// Of those who do not look ahead, the one that wins most; that scores most, if they win alike.
+    pub floor: String,
+    /// Its wins, over all levels.
+    pub floor_wins: u64,
+    /// Difference of the win rates, from −1 to 1.
+    pub points: f64,
+    /// Newcombe's interval of it, 95 %.
+    pub interval: [f64; 2],
+    /// By how much the last of the ladder scores more than the floor, play by play under the same dice, as a share of the
+    /// range of all scores on the level; none if no level has scores that differ.
+    pub score: Option<f64>,
+    /// Its bootstrap interval, 95 %, over plays.
+    pub score_interval: Option<[f64; 2]>,
+    /// Whether one of the two differences is as large as the criteria ask, and surely above 0.
+    pub pays: bool,
+}
+
+/// A player over all levels.
+struct Player {
+    name: String,
+    looks_ahead: bool,
+    wins: u64,
+    plays: u64,
+    /// Of each play on a level where scores differ, from 0 for the least to 1 for the greatest.
+    scores: Vec<f64>,
+}
+
+impl Player {
+    fn rate(&self) -> f64 {
+        self.wins as f64 / self.plays.max(1) as f64
+    }
+
+    fn score(&self) -> f64 {
+        self.scores.iter().sum::<f64>() / self.scores.len().max(1) as f64
+    }
+
+    /// More wins are better; of equal wins, more score.
+    fn fares(&self) -> (f64, f64) {
+        (self.rate(), self.score())
+    }
+}
+
+/// The players of the ladder, from the weakest, with what they did on all levels. Levels without a ladder are left out.
+fn players(reports: &[Report]) -> Vec<Player> {
+    let mut players: Vec<Player> = Vec::new();
+    for report in reports {
+        let Some(found) = report.finding("skill") else { continue };
+        let Some(ladder) = &found.ladder else { continue };
+        // The episodes of a player follow those of the one before.
+        let mut left = &found.episodes[..];
+        let plays = |fared: &Fared| fared.rate.plays as usize;
+        let all = &left[..ladder.rungs.iter().map(plays).sum::<usize>().min(left.len())];
+        let scores = || all.iter().map(|episode| episode.score);
+        let (least, greatest) =
+            (scores().fold(f64::INFINITY, f64::min), scores().fold(f64::NEG_INFINITY, f64::max));
+        for (at, fared) in ladder.rungs.iter().enumerate() {
+            let (own, rest) = left.split_at(plays(fared).min(left.len()));
+            left = rest;
+            if players.len() == at {
+                let (name, looks_ahead) = (fared.player.clone(), fared.looks_ahead);
+                players.push(Player { name, looks_ahead, wins: 0, plays: 0, scores: Vec::new() });
+            }
+            let player = &mut players[at];
+            player.wins += fared.rate.wins;
+            player.plays += fared.rate.plays;
+            if least < greatest {
+                player.scores.extend(own.iter().map(|episode| (episode.score - least) / (greatest - least)));
+            }
+        }
+    }
+    players
+}
+
+impl Edge {
+    /// Over the ladders that played on the levels; none if none did, or none of their players looks ahead, or all do. The
+    /// reports' `skill` must name the players alike.
+    pub fn of(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
+        let players = players(reports);
+        let strong = players.iter().rfind(|player| player.looks_ahead)?;
+        let floors = players.iter().filter(|player| !player.looks_ahead);
+        let floor = floors.max_by(|a, b| a.fares().partial_cmp(&b.fares()).expect("scores are numbers"))?;
+        // In a deterministic game any win is a plan that wins every time.
+        let plans: u64 = if game.is_deterministic() {
+            let won = |report: &&Report| report.witness.is_some();
+            reports.iter().filter(won).map(plays_of).sum()
+        } else {
+            0
+        };
+        let (strongest, wins) =
+            if plans > strong.wins { (SEARCH, plans) } else { (strong.name.as_str(), strong.wins) };
+        let plays = strong.plays;
+        let interval = difference([wins, floor.wins], [plays, floor.plays], Z95);
+        let points = wins as f64 / plays.max(1) as f64 - floor.rate();
+        let gains: Vec<f64> = strong.scores.iter().zip(&floor.scores).map(|(a, b)| a - b).collect();
+        let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
+        let sure = bootstrap(&gains, mean, RESAMPLES, 0.95, [0; 32]);
+        let score = sure.map(|_| mean(&gains));
+        let wins_pay = points >= criteria.skill_wins && interval.low > 0.0;
+        let scores_pay = score.is_some_and(|gain| gain >= criteria.skill_scores)
+            && sure.is_some_and(|interval| interval.low > 0.0);
+        Some(Edge {
+            strongest: strongest.to_owned(),
+            wins,
+            plays,
+            floor: floor.name.clone(),
+            floor_wins: floor.wins,
+            points,
+            interval: [interval.low, interval.high],
+            score,
+            score_interval: sure.map(|interval| [interval.low, interval.high]),
+            pays: wins_pay || scores_pay,
+        })
+    }
+}
+
+/// Plays of each player of the ladder of a level.
+fn plays_of(report: &Report) -> u64 {
+    report.ladder().and_then(|ladder| ladder.rungs.first()).map_or(0, |fared| fared.rate.plays)
+}
+
+/// Spearman's rank correlation of a player's place in the ladder with how it fares over all levels (more wins; of equal wins,
+/// more score): 1 if every stronger player does better, 0 if all fare alike; none if no ladder played.
+pub fn ladder_order(reports: &[Report]) -> Option<f64> {
+    let players = players(reports);
+    let worse =
+        |player: &Player| players.iter().filter(|other| other.fares() < player.fares()).count() as f64;
+    let pairs: Vec<(f64, f64)> =
+        players.iter().enumerate().map(|(at, player)| (at as f64, worse(player))).collect();
+    (pairs.len() > 1).then(|| spearman(&pairs).unwrap_or(0.0))
+}

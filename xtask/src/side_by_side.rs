@@ -1,0 +1,183 @@
+//! `cargo xtask side-by-side`: two groups of games judged by the same verdicts, line by line.
+
+mod record;
+mod table;
+
+use crate::levels::load;
+use anyhow::{Context, bail};
+use engine::{Digest, Level, Seed};
+use record::Record;
+use snapshots::games::survey::{Comparison, GameRow, GameSurvey, SurveyedGame};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use validators::Criteria;
+
+/// Judges the games of two folders by the same verdicts under the same budget, and prints a Markdown table: the mean or share of
+/// each group on seven lines, and the difference with its 95 % interval. With --csv, games that were judged before are not judged
+/// again: a run that was broken off goes on where it was.
+///
+/// Example: cargo xtask side-by-side --ours corpora --theirs gvgai/games --games 50 --csv side-by-side.csv
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Folder of game folders, each with game.vgdl or game.txt and lvl*.txt
+    #[arg(long, value_name = "DIR")]
+    ours: PathBuf,
+    /// Another one, whose games are loaded as the reference loads them
+    #[arg(long, value_name = "DIR")]
+    theirs: Option<PathBuf>,
+    /// Games of each folder at most, drawn by the seed
+    #[arg(long, value_name = "N", default_value_t = 50)]
+    games: usize,
+    /// Levels of each game at most: the first, the last, and some evenly between
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    levels: usize,
+    /// Text that the samples and all dice come from
+    #[arg(long, value_name = "TEXT", default_value = "side by side")]
+    seed: String,
+    /// Rows of games: those that are there are not judged again, new ones are added
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Forward-model calls for the win of a level
+    #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().budget)]
+    budget: u64,
+    /// Plays of each player of the ladder on a level at most
+    #[arg(long, value_name = "N", default_value_t = GameSurvey::criteria().ladder_plays)]
+    plays: u64,
+    /// Forward-model calls of all players on a level, after which no further round of plays begins
+    #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().ladder_calls)]
+    ladder_calls: u64,
+    /// Print the names of the games that the seed draws, and judge none
+    #[arg(long)]
+    sample: bool,
+    /// Threads; all cores if not given. Changes no result
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    jobs: usize,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let seed = Seed::from_text(&args.seed);
+    let criteria = Criteria {
+        budget: args.budget,
+        ladder_plays: args.plays,
+        ladder_calls: args.ladder_calls,
+        ..GameSurvey::criteria()
+    };
+    let mut groups = vec![("ours", draw(&args.ours, args.games, seed)?)];
+    if let Some(theirs) = &args.theirs {
+        groups.push(("theirs", draw(theirs, args.games, seed)?));
+    }
+    for (group, folders) in &groups {
+        let names: Vec<String> = folders.iter().map(|folder| name_of(folder)).collect();
+        println!("{group}, {} games: {}", names.len(), names.join(", "));
+    }
+    if args.sample {
+        return Ok(());
+    }
+    let mut judge = Judge {
+        survey: GameSurvey::new(&criteria, seed)?,
+        levels: args.levels,
+        known: args.csv.as_deref().map_or(Ok(BTreeMap::new()), record::read)?,
+        csv: args.csv.as_deref(),
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
+    let mut rows: Vec<Vec<GameRow>> = Vec::new();
+    for (group, folders) in &groups {
+        rows.push(pool.install(|| judge.group(group, folders))?);
+    }
+    if let [ours, theirs] = &rows[..] {
+        let comparison = Comparison::of(ours, theirs, seed.child("comparison", 0));
+        println!("\n{}", table::markdown(&comparison));
+    }
+    Ok(())
+}
+
+/// The folders of games in a folder, by name: as many as asked at most, drawn by the seed and the folder's own names.
+fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> {
+    let mut folders: Vec<PathBuf> = fs::read_dir(folder)
+        .with_context(|| folder.display().to_string())?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<Result<_, _>>()?;
+    folders.retain(|path| ["game.vgdl", "game.txt"].iter().any(|file| path.join(file).exists()));
+    folders.sort();
+    if folders.is_empty() {
+        bail!("{}: no folder with a game there", folder.display());
+    }
+    seed.child("sample", 0).sampler().shuffle(&mut folders);
+    folders.truncate(most);
+    folders.sort();
+    Ok(folders)
+}
+
+fn name_of(folder: &Path) -> String {
+    folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// So many of some levels at most: the first, the last, and some evenly between.
+fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
+    let (count, steps) = (levels.len(), most.saturating_sub(1).max(1));
+    if count <= most {
+        return levels;
+    }
+    let chosen: Vec<usize> = (0..most).map(|at| at * (count - 1) / steps).collect();
+    levels.into_iter().enumerate().filter(|(at, _)| chosen.contains(at)).map(|(_, level)| level).collect()
+}
+
+struct Judge<'a> {
+    survey: GameSurvey,
+    levels: usize,
+    /// Rows that are known, by what decides them.
+    known: BTreeMap<Digest, GameRow>,
+    csv: Option<&'a Path>,
+}
+
+impl Judge<'_> {
+    /// The rows of a group. Those that are new are told, and written, as soon as they are there.
+    fn group(&mut self, group: &str, folders: &[PathBuf]) -> anyhow::Result<Vec<GameRow>> {
+        let mut rows = Vec::new();
+        for folder in folders {
+            let (game, levels) = load(folder)?;
+            let surveyed = SurveyedGame { name: name_of(folder), game, levels: spread(levels, self.levels) };
+            let digest = self.survey.digest(&surveyed);
+            let row = match self.known.get(&digest) {
+                Some(row) => row.clone(),
+                None => {
+                    let row = self.survey.row(&surveyed);
+                    let record = Record::of(group, &row);
+                    println!("{record}");
+                    if let Some(path) = self.csv {
+                        record::append(path, &record)?;
+                    }
+                    row
+                }
+            };
+            rows.push(GameRow { name: surveyed.name, ..row });
+        }
+        Ok(rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Game;
+
+    #[test]
+    fn levels_are_spread_over_all() {
+        let game = Game::from_source(
+            "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n  TerminationSet\n    Timeout limit=9 win=False\n",
+        );
+        let game = game.unwrap();
+        let levels: Vec<Level> =
+            (0..5).map(|width| game.level(&format!("A{}\n", " ".repeat(width))).unwrap()).collect();
+        let check = |most: usize, expect: &[usize]| {
+            let widths: Vec<usize> =
+                spread(levels.clone(), most).iter().map(|level| level.columns() - 1).collect();
+            assert_eq!(widths, expect);
+        };
+        check(3, &[0, 2, 4]);
+        check(2, &[0, 4]);
+        check(1, &[0]);
+        check(9, &[0, 1, 2, 3, 4]);
+    }
+}
