@@ -55,9 +55,9 @@ impl GameSurvey {
         Criteria {
             ladder: ladder.map(str::to_owned).to_vec(),
             held_out: Vec::new(),
-            budget: 1_000_000,
-            ladder_plays: 8,
-            ladder_calls: 1_000_000,
+            budget: 1_500_000,
+            ladder_plays: 10,
+            ladder_calls: 2_000_000,
             ..Criteria::full()
         }
     }
