@@ -7,6 +7,7 @@ mod episodes;
 mod failure;
 mod input;
 mod level_report;
+mod page;
 mod play;
 mod render;
 mod verbs;

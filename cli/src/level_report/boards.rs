@@ -1,8 +1,8 @@
 //! The levels as pictures, with what is to be said under each.
 
 use super::Pictures;
-use super::words;
 use crate::failure::Failure;
+use crate::page::{Figure, words};
 use ::render::{Looks, Picture, RenderError, Style, picture, png, sheet};
 use engine::{Game, Level, Seed};
 use snapshots::levels::report::{LevelRow, LevelSetReport};
@@ -29,13 +29,13 @@ pub(super) struct Boards {
 /// A level as a picture.
 pub(super) struct Board {
     /// PNG.
-    pub(super) png: Vec<u8>,
+    png: Vec<u8>,
     /// Of the picture.
-    pub(super) size: [u32; 2],
+    size: [u32; 2],
     /// What is most to be known: number and difficulty.
-    pub(super) head: String,
+    head: String,
     /// The rest in a line.
-    pub(super) line: String,
+    line: String,
 }
 
 impl Boards {
@@ -70,6 +70,11 @@ impl Board {
             head,
             line,
         })
+    }
+
+    /// In the page.
+    pub(super) fn figure(&self) -> Figure<'_> {
+        Figure::new(&self.png, self.size, &self.head, &self.line)
     }
 }
 

@@ -4,7 +4,6 @@ mod boards;
 mod page;
 mod plots;
 mod sections;
-mod words;
 
 use crate::failure::Failure;
 use crate::verbs::verify::failure;

@@ -1,33 +1,15 @@
 //! The page: one HTML file that needs nothing else.
 
 use super::boards::{Board, Boards};
-use super::sections::{self, Fact, Section};
-use super::{Pictures, plots, words};
+use super::{Pictures, plots, sections};
 use crate::failure::Failure;
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use minijinja::Environment;
-use minijinja::value::{Serde, Value};
+use crate::page::facts::{Fact, Section};
+use crate::page::{Figure, words};
 use serde::Serialize;
 use snapshots::levels::report::{BINS, Control, LevelRow, LevelSetReport, OF_PLAY, Range};
 use std::collections::BTreeSet;
 
 const TEMPLATE: &str = include_str!("page.html");
-
-/// A picture in the page.
-#[derive(Serialize)]
-struct Figure<'a> {
-    png: String,
-    size: [u32; 2],
-    head: &'a str,
-    line: &'a str,
-}
-
-impl Figure<'_> {
-    fn of(board: &Board) -> Figure<'_> {
-        Figure { png: STANDARD.encode(&board.png), size: board.size, head: &board.head, line: &board.line }
-    }
-}
 
 /// A heat map in the page.
 #[derive(Serialize)]
@@ -146,17 +128,13 @@ pub(super) fn render(
         generation: report.generation,
         seconds: pictures.seconds.map(words::short),
         headlines: sections::headlines(report),
-        levels: boards.levels.iter().map(Figure::of).collect(),
+        levels: boards.levels.iter().map(Board::figure).collect(),
         left_out: report.count - boards.levels.len() as u64,
-        examples: boards.examples.iter().map(Figure::of).collect(),
+        examples: boards.examples.iter().map(Board::figure).collect(),
         heats: report.ranges.iter().map(heat).collect(),
         confusion: report.control.as_ref().map(Confusion::of),
         sections: sections::all(report),
         table: Table::of(&report.levels),
     };
-    let mut environment = Environment::new();
-    let added = environment.add_template("page.html", TEMPLATE);
-    let rendered =
-        added.and_then(|()| environment.get_template("page.html")?.render(Value::from(Serde(&page))));
-    rendered.map_err(|error| Failure::surroundings(error, "the page of the report"))
+    crate::page::render(TEMPLATE, &page)
 }

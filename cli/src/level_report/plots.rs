@@ -1,6 +1,7 @@
-//! Plots as SVG inside a page: bars with intervals, and expressive ranges as heat maps.
+//! Expressive ranges as heat maps: SVG inside a page.
 
-use super::words;
+use crate::page::facts::number;
+use crate::page::words;
 use snapshots::levels::report::{Axis, BINS, Range};
 use std::fmt::Write;
 
@@ -16,18 +17,6 @@ const HEIGHT: f64 = TOP + PLANE + 44.0;
 /// The darkest cell, and the lightest one that is not empty.
 const DARK: [f64; 3] = [24.0, 92.0, 122.0];
 const LIGHT: [f64; 3] = [214.0, 232.0, 238.0];
-
-/// A share from 0 to 1 as a bar, with its interval as a line.
-pub(super) fn bar(share: f64, [low, high]: [f64; 2]) -> String {
-    const LENGTH: f64 = 90.0;
-    let at = |share: f64| number(LENGTH * share.clamp(0.0, 1.0));
-    let (end, low, high) = (at(share), at(low), at(high));
-    format!(
-        "<svg class=\"bar\" width=\"{LENGTH}\" height=\"12\" viewBox=\"0 0 {LENGTH} 12\" aria-hidden=\"true\">\
-         <rect width=\"{LENGTH}\" height=\"12\" class=\"track\"/><rect width=\"{end}\" height=\"12\" class=\"fill\"/>\
-         <path d=\"M{low} 6H{high}M{low} 3V9M{high} 3V9\" class=\"whisker\"/></svg>"
-    )
-}
 
 /// Where the levels lie in a pair of measures: the darker a cell, the more levels; the game's own levels as diamonds.
 pub(super) fn heat_map(range: &Range) -> String {
@@ -127,12 +116,6 @@ fn shade(count: u64, most: u64) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// In tenths of a pixel.
-fn number(value: f64) -> String {
-    let tenths = (value * 10.0).round() as i64;
-    if tenths % 10 == 0 { format!("{}", tenths / 10) } else { format!("{:.1}", tenths as f64 / 10.0) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,11 +142,5 @@ mod tests {
             svg.matches("<svg").count() + svg.matches("<rect").count(),
             svg.matches("</svg>").count() + svg.matches("</rect>").count()
         );
-    }
-
-    #[test]
-    fn bars_stay_within_their_track() {
-        let text = bar(0.5, [-0.1, 1.2]);
-        assert!(text.contains("<rect width=\"45\"") && text.contains("M0 6H90"), "{text}");
     }
 }

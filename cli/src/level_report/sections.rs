@@ -1,106 +1,10 @@
 //! The tables of the page, one for each question.
 
-use super::{plots, words};
-use serde::Serialize;
+use crate::page::facts::{Beside, Fact, Section, five, section};
+use crate::page::words;
 use snapshots::levels::report::{
-    Control, Diversity, Estimate, Expense, Fit, Hits, LevelSetReport, NEAR, Novelty, Quantiles, Rules, Share,
-    Skill,
+    Control, Diversity, Estimate, Expense, Fit, Hits, LevelSetReport, NEAR, Novelty, Rules, Share, Skill,
 };
-
-/// A question with its answers.
-#[derive(Serialize)]
-pub(super) struct Section {
-    title: &'static str,
-    note: String,
-    facts: Vec<Fact>,
-    quantiles: Vec<Five>,
-    fits: Vec<Beside>,
-}
-
-/// A figure.
-#[derive(Serialize)]
-pub(super) struct Fact {
-    name: String,
-    value: String,
-    /// An SVG; empty if there is nothing to draw.
-    bar: String,
-    /// Its interval.
-    band: String,
-    /// Of how many.
-    of: String,
-}
-
-/// The quantiles of a measure.
-#[derive(Serialize)]
-struct Five {
-    name: String,
-    five: [String; 5],
-    count: u64,
-}
-
-/// What a measure spans, here and in the game's own levels.
-#[derive(Serialize)]
-struct Beside {
-    measure: String,
-    levels: String,
-    examples: String,
-    within: String,
-    of: String,
-}
-
-impl Beside {
-    fn of(fit: &Fit) -> Beside {
-        let span = |[low, high]: [f64; 2]| {
-            let [low, high] = [low, high].map(words::short);
-            if low == high { low } else { format!("{low} to {high}") }
-        };
-        Beside {
-            measure: fit.measure.clone(),
-            levels: span(fit.levels),
-            examples: span(fit.examples),
-            within: words::percent(&fit.within),
-            of: words::counted(&fit.within),
-        }
-    }
-}
-
-impl Fact {
-    fn share(name: impl Into<String>, share: &Share) -> Fact {
-        let bar = if share.of == 0 { String::new() } else { plots::bar(share.share(), share.interval) };
-        let (value, band, of) = (words::percent(share), words::band(share), words::counted(share));
-        Fact { name: name.into(), value, bar, band, of }
-    }
-
-    fn plain(name: impl Into<String>, value: String) -> Fact {
-        Fact { name: name.into(), value, bar: String::new(), band: String::new(), of: String::new() }
-    }
-
-    /// A mean that may be negative.
-    fn signed(name: &str, estimate: &Estimate) -> Fact {
-        let (band, of) = (words::signed_band(estimate), levels(estimate.levels));
-        Fact { band, of, ..Fact::plain(name, words::signed(estimate)) }
-    }
-
-    /// A mean from 0 to 1.
-    fn mean(name: &str, estimate: &Estimate) -> Fact {
-        let bar = plots::bar(estimate.mean, estimate.interval);
-        let (band, of) = (words::mean_band(estimate), levels(estimate.levels));
-        Fact { bar, band, of, ..Fact::plain(name, words::mean(estimate)) }
-    }
-}
-
-fn levels(count: u64) -> String {
-    if count == 1 { "1 level".to_owned() } else { format!("{count} levels") }
-}
-
-fn five(name: impl Into<String>, quantiles: Option<&Quantiles>) -> Option<Five> {
-    let found = quantiles?;
-    Some(Five { name: name.into(), five: words::five(found), count: found.count })
-}
-
-fn section(title: &'static str, note: impl Into<String>, facts: Vec<Fact>) -> Section {
-    Section { title, note: note.into(), facts, quantiles: Vec::new(), fits: Vec::new() }
-}
 
 /// What is looked at first.
 pub(super) fn headlines(report: &LevelSetReport) -> Vec<Fact> {
@@ -113,7 +17,7 @@ pub(super) fn headlines(report: &LevelSetReport) -> Vec<Fact> {
     facts.extend(ticks.map(|ticks| Fact::plain("ticks of a win, median", words::short(ticks.median))));
     let pushes = report.lengths.pushes.as_ref();
     facts.extend(pushes.map(|pushes| Fact::plain("pushes, median", words::short(pushes.median))));
-    facts.extend(report.skill.as_ref().map(|skill| Fact::signed("gain of looking ahead", &skill.wins)));
+    facts.extend(report.skill.as_ref().map(|skill| signed("gain of looking ahead", &skill.wins)));
     facts.extend(report.control.as_ref().map(|control| Fact::share("as hard as asked", &control.all.exact)));
     facts
 }
@@ -141,7 +45,7 @@ fn validity(report: &LevelSetReport) -> Section {
     for (criterion, count) in &validity.obstacles {
         facts.push(Fact::share(format!("fail first: {criterion}"), &Share::new(*count, report.count)));
     }
-    let fits = validity.fit.iter().map(Beside::of).collect();
+    let fits = validity.fit.iter().map(beside).collect();
     Section { fits, ..section("Are they levels?", "What each criterion asks is in docs/validate.md.", facts) }
 }
 
@@ -182,11 +86,11 @@ fn lengths(report: &LevelSetReport) -> Section {
 }
 
 fn skill(skill: &Skill) -> Section {
-    let mut facts = vec![Fact::signed("more wins by looking ahead", &skill.wins)];
-    facts.extend(skill.reward.as_ref().map(|reward| Fact::signed("more score by looking ahead", reward)));
+    let mut facts = vec![signed("more wins by looking ahead", &skill.wins)];
+    facts.extend(skill.reward.as_ref().map(|reward| signed("more score by looking ahead", reward)));
     let order = skill.order.as_ref();
     facts.extend(
-        order.map(|order| Fact::signed("players fare in the order of the ladder (rank correlation)", order)),
+        order.map(|order| signed("players fare in the order of the ladder (rank correlation)", order)),
     );
     for player in &skill.players {
         facts.push(Fact::share(format!("{} wins", player.player), &player.wins));
@@ -196,7 +100,7 @@ fn skill(skill: &Skill) -> Section {
 
 fn rules(rules: &Rules) -> Section {
     let mut facts = vec![Fact::share("interactions that some witness executes", &rules.used)];
-    facts.extend(rules.each.as_ref().map(|each| Fact::mean("share of them that one witness executes", each)));
+    facts.extend(rules.each.as_ref().map(|each| mean("share of them that one witness executes", each)));
     for line in &rules.lines {
         let edge = if line.guard { " (edge: not counted)" } else { "" };
         facts.push(Fact::share(format!("{}{edge}", line.rule), &line.levels));
@@ -206,7 +110,7 @@ fn rules(rules: &Rules) -> Section {
 
 fn differences(diversity: &Diversity) -> Section {
     let mut facts = vec![Fact::share("unique up to symmetry", &diversity.unique)];
-    facts.extend(diversity.distance.as_ref().map(|found| Fact::mean("distance of two levels", found)));
+    facts.extend(diversity.distance.as_ref().map(|found| mean("distance of two levels", found)));
     facts
         .push(Fact::share(format!("near-duplicates: another one within {NEAR}"), &diversity.near_duplicates));
     Section {
@@ -271,4 +175,28 @@ fn price(cost: &Expense) -> Section {
         facts.push(Fact::plain(format!("turned down: {why}"), words::grouped(*count)));
     }
     section("What did they cost?", "Judging them for this report apart.", facts)
+}
+
+/// A mean over levels that may be negative.
+fn signed(name: &str, estimate: &Estimate) -> Fact {
+    Fact::signed(name, estimate.mean, estimate.interval).of(words::many(estimate.levels, "level"))
+}
+
+/// A mean over levels from 0 to 1.
+fn mean(name: &str, estimate: &Estimate) -> Fact {
+    Fact::mean(name, estimate.mean, estimate.interval).of(words::many(estimate.levels, "level"))
+}
+
+fn beside(fit: &Fit) -> Beside {
+    let span = |[low, high]: [f64; 2]| {
+        let [low, high] = [low, high].map(words::short);
+        if low == high { low } else { format!("{low} to {high}") }
+    };
+    Beside {
+        measure: fit.measure.clone(),
+        levels: span(fit.levels),
+        examples: span(fit.examples),
+        within: words::percent(&fit.within),
+        of: words::counted(&fit.within),
+    }
 }

@@ -2,7 +2,6 @@
 //! them can be compared. What each figure means is in `docs/side-by-side.md`.
 
 mod compare;
-mod drama;
 mod edge;
 mod row;
 
@@ -11,9 +10,9 @@ pub use edge::{Edge, SEARCH, ladder_order};
 pub use row::{GameRow, NO_LEVEL, NO_WIN};
 
 use crate::canonical::to_canonical_json;
-use engine::{Digest, Episode, Game, Level, Seed};
+use engine::{Digest, Game, Level, Seed};
 use rayon::prelude::*;
-use validators::{Criteria, CriteriaError, Panel, Report, RulesShown};
+use validators::{Criteria, CriteriaError, Panel, Report};
 
 /// A game to be judged.
 #[derive(Clone, Debug)]
@@ -37,8 +36,8 @@ pub struct GameSurvey {
 const ASKED: [&str; 2] = ["winnable", "skill"];
 
 impl GameSurvey {
-    /// A survey by these criteria, of which it takes the players, budgets and thresholds; what they ask is left aside. Players
-    /// that are held out do not play: the last one of the ladder is the strongest.
+    /// A survey by these criteria, of which it takes the players of the ladder, budgets and thresholds; what they ask, and whom they
+    /// hold out, is left aside.
     ///
     /// # Errors
     /// The criteria are not sensible.
@@ -79,16 +78,7 @@ impl GameSurvey {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let judge = |level: &Level| self.panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
         let reports: Vec<Report> = levels.par_iter().map(judge).collect();
-        let shown = RulesShown::of(game, levels, &reports, seed.child("rules", 0));
-        let won: Vec<(&Level, &Episode)> = levels
-            .iter()
-            .zip(&reports)
-            .filter_map(|(level, report)| Some((level, report.witness.as_ref()?)))
-            .collect();
-        let dramas = won.par_iter().map(|(level, won)| {
-            drama::drama(game, level, won, seed.child("drama", 0).child(&level.digest().to_string(), 0))
-        });
-        GameRow::of(surveyed, &reports, &shown, &dramas.collect::<Vec<f64>>(), &self.criteria, digest)
+        GameRow::of(surveyed, &reports, &self.criteria, digest, seed)
     }
 
     /// The rows of games, in their order.

@@ -15,7 +15,8 @@ pub const SEARCH: &str = "search";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edge {
-    /// The strongest player: the last of the ladder; in a deterministic game [`SEARCH`], if that wins more.
+    /// The strongest player: of those who look ahead, the one that wins most (that scores most, if they win alike); in a
+    /// deterministic game [`SEARCH`], if that wins more.
     pub strongest: String,
     /// Its wins, over all levels.
     pub wins: u64,
@@ -29,7 +30,7 @@ pub struct Edge {
     pub points: f64,
     /// Newcombe's interval of it, 95 %.
     pub interval: [f64; 2],
-    /// By how much the last of the ladder scores more than the floor, play by play under the same dice, as a share of the
+    /// By how much the strongest of the ladder scores more than the floor, play by play under the same dice, as a share of the
     /// range of all scores on the level; none if no level has scores that differ.
     pub score: Option<f64>,
     /// Its bootstrap interval, 95 %, over plays.
@@ -42,6 +43,7 @@ pub struct Edge {
 struct Player {
     name: String,
     looks_ahead: bool,
+    held_out: bool,
     wins: u64,
     plays: u64,
     /// Of each play on a level where scores differ, from 0 for the least to 1 for the greatest.
@@ -63,7 +65,7 @@ impl Player {
     }
 }
 
-/// The players of the ladder, from the weakest, with what they did on all levels. Levels without a ladder are left out.
+/// The players of the ladder, from the weakest, then those held out, with what they did on all levels. Levels without a ladder are left out.
 fn players(reports: &[Report]) -> Vec<Player> {
     let mut players: Vec<Player> = Vec::new();
     for report in reports {
@@ -76,18 +78,20 @@ fn players(reports: &[Report]) -> Vec<Player> {
         let scores = || all.iter().map(|episode| episode.score);
         let (least, greatest) =
             (scores().fold(f64::INFINITY, f64::min), scores().fold(f64::NEG_INFINITY, f64::max));
-        for (at, fared) in ladder.rungs.iter().enumerate() {
+        for (at, fared) in ladder.rungs.iter().chain(&ladder.held_out).enumerate() {
             let (own, rest) = left.split_at(plays(fared).min(left.len()));
             left = rest;
             if players.len() == at {
                 let (name, looks_ahead) = (fared.player.clone(), fared.looks_ahead);
-                players.push(Player { name, looks_ahead, wins: 0, plays: 0, scores: Vec::new() });
+                let held_out = at >= ladder.rungs.len();
+                players.push(Player { name, looks_ahead, held_out, wins: 0, plays: 0, scores: Vec::new() });
             }
             let player = &mut players[at];
             player.wins += fared.rate.wins;
             player.plays += fared.rate.plays;
             if least < greatest {
-                player.scores.extend(own.iter().map(|episode| (episode.score - least) / (greatest - least)));
+                let share = |score: f64| ((score - least) / (greatest - least)).clamp(0.0, 1.0);
+                player.scores.extend(own.iter().map(|episode| share(episode.score)));
             }
         }
     }
@@ -95,13 +99,25 @@ fn players(reports: &[Report]) -> Vec<Player> {
 }
 
 impl Edge {
-    /// Over the ladders that played on the levels; none if none did, or none of their players looks ahead, or all do. The
-    /// reports' `skill` must name the players alike.
+    /// Over the ladders that played on the levels, players held out apart; none if none did, or none of their players looks
+    /// ahead, or all do. The reports' `skill` must name the players alike.
     pub fn of(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
+        Edge::among(game, reports, criteria, false)
+    }
+
+    /// As [`Edge::of`], with the strongest of the players that were held out from all search.
+    pub fn held_out(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
+        Edge::among(game, reports, criteria, true)
+    }
+
+    fn among(game: &Game, reports: &[Report], criteria: &Criteria, held_out: bool) -> Option<Edge> {
         let players = players(reports);
-        let strong = players.iter().rfind(|player| player.looks_ahead)?;
-        let floors = players.iter().filter(|player| !player.looks_ahead);
-        let floor = floors.max_by(|a, b| a.fares().partial_cmp(&b.fares()).expect("scores are numbers"))?;
+        let best = |kind: &dyn Fn(&&Player) -> bool| {
+            let kind = players.iter().filter(kind);
+            kind.max_by(|a, b| a.fares().partial_cmp(&b.fares()).expect("scores are numbers"))
+        };
+        let strong = best(&|player| player.looks_ahead && player.held_out == held_out)?;
+        let floor = best(&|player| !player.looks_ahead && !player.held_out)?;
         // In a deterministic game any win is a plan that wins every time.
         let plans: u64 = if game.is_deterministic() {
             let won = |report: &&Report| report.witness.is_some();
@@ -144,7 +160,8 @@ fn plays_of(report: &Report) -> u64 {
 /// Spearman's rank correlation of a player's place in the ladder with how it fares over all levels (more wins; of equal wins,
 /// more score): 1 if every stronger player does better, 0 if all fare alike; none if no ladder played.
 pub fn ladder_order(reports: &[Report]) -> Option<f64> {
-    let players = players(reports);
+    let mut players = players(reports);
+    players.retain(|player| !player.held_out);
     let worse =
         |player: &Player| players.iter().filter(|other| other.fares() < player.fares()).count() as f64;
     let pairs: Vec<(f64, f64)> =

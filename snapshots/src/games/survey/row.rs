@@ -2,13 +2,13 @@
 
 use super::SurveyedGame;
 use super::edge::{Edge, ladder_order};
-use engine::Digest;
+use engine::{Analysis, Digest, Episode, Outcome, Seed};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
-use validators::{Criteria, Report, RulesShown, is_guard, used_rules};
+use validators::game_measures::guards;
+use validators::{Criteria, PlayMeasures, Recorded, Report, RulesShown};
 
 /// The version of what a row holds.
-pub(super) const FORM: u32 = 1;
+pub(super) const FORM: u32 = 2;
 
 /// Why a figure is missing: no win of any level was found.
 pub const NO_WIN: &str = "no win found";
@@ -27,7 +27,7 @@ pub struct GameRow {
     pub levels: u64,
     /// Levels of which a win was found.
     pub won: u64,
-    /// Interactions of the rules; those with the edge of the screen left out.
+    /// Interactions of the rules, guards ([`guards`]) apart.
     pub rules: u64,
     /// Of those, how many some recorded episode executes.
     pub executed: u64,
@@ -39,51 +39,62 @@ pub struct GameRow {
     pub edge: Option<Edge>,
     /// The rank correlation of a player's place in the ladder with how it fares; see [`ladder_order`].
     pub order: Option<f64>,
-    /// Different interactions that the wins execute, those with the edge of the screen left out: over the wins of all levels.
+    /// Different interactions, guards apart, that wins execute: over all wins ([`PlayMeasures::mechanics`]).
     pub mechanics: Option<u64>,
-    /// How open the outcome is while the level is being won, in the mean over the levels that were; see `docs/side-by-side.md`.
+    /// How desperate the game is on the way to a win ([`PlayMeasures::drama`]).
     pub drama: Option<f64>,
     /// Forward-model calls of all searches and plays.
     pub calls: u64,
 }
 
 impl GameRow {
-    /// Of a game whose levels were judged; `reports` are in their order.
-    pub(super) fn of(
+    /// Of a game of which all levels were judged, by criteria that ask for `winnable` and `skill`; `reports` are in the order of
+    /// its levels. Cost: the recorded episodes are played again three times, and that of [`PlayMeasures::of`].
+    pub fn of(
         surveyed: &SurveyedGame,
         reports: &[Report],
-        shown: &RulesShown,
-        drama: &[f64],
         criteria: &Criteria,
         digest: Digest,
+        seed: Seed,
     ) -> GameRow {
         let SurveyedGame { name, game, levels } = surveyed;
-        let wins =
-            levels.iter().zip(reports).filter_map(|(level, report)| Some((level, report.witness.as_ref()?)));
-        let used: BTreeSet<usize> = wins
-            .flat_map(|(level, witness)| used_rules(game, level, witness))
-            .filter(|&line| !is_guard(game, line))
+        let analysis = Analysis::of(game);
+        let guards = guards(&analysis);
+        let inner = |lines: &[usize]| lines.iter().filter(|&&line| !guards[line]).count() as u64;
+        let shown = RulesShown::of(game, levels, reports, seed.child("rules", 0));
+        let (executed, idle) = (inner(&shown.executed), inner(&shown.idle));
+        let (there, absent) = (shown.there.len() as u64, shown.absent.len() as u64);
+        let wins: Vec<Vec<Episode>> = reports.iter().map(wins).collect();
+        let recording: Vec<Recorded<'_>> = levels
+            .iter()
+            .zip(&wins)
+            .filter(|(_, wins)| !wins.is_empty())
+            .map(|(level, wins)| Recorded { level, episodes: wins })
             .collect();
-        let won = reports.iter().filter(|report| report.witness.is_some()).count() as u64;
-        let [executed, idle, there, absent] =
-            [shown.executed.len(), shown.idle.len(), shown.there.len(), shown.absent.len()]
-                .map(|count| count as u64);
+        let play = PlayMeasures::of(&analysis, &recording, seed.child("play", 0));
         GameRow {
             name: name.clone(),
             digest,
             levels: levels.len() as u64,
-            won,
+            won: recording.len() as u64,
             rules: executed + idle,
             executed,
             types: there + absent,
             there,
             edge: Edge::of(game, reports, criteria),
             order: ladder_order(reports),
-            drama: statistics::Summary::of(drama).map(|summary| summary.mean),
-            mechanics: (won > 0).then_some(used.len() as u64),
+            drama: play.as_ref().map(|play| play.drama),
+            mechanics: play.as_ref().map(|play| play.mechanics as u64),
             calls: reports.iter().map(calls).sum(),
         }
     }
+}
+
+/// The episodes of a level that win: the shortest that is known, then those of players.
+fn wins(report: &Report) -> Vec<Episode> {
+    let mut won = report.episodes();
+    won.retain(|episode| episode.outcome == Outcome::Won);
+    won
 }
 
 /// Forward-model calls of a level's judges.

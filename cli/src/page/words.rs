@@ -1,54 +1,57 @@
 //! Figures as people read them.
 
-use snapshots::levels::report::{Estimate, Quantiles, Share};
+use snapshots::levels::report::{Quantiles, Share};
 use validators::Difficulty;
 
 /// `95 %`, which is not broken between lines; of nothing, a dash.
-pub(super) fn percent(share: &Share) -> String {
+pub(crate) fn percent(share: &Share) -> String {
     if share.of == 0 { NONE.to_owned() } else { whole_percent(share.share()) }
 }
 
 /// `19 of 20`.
-pub(super) fn counted(share: &Share) -> String {
+pub(crate) fn counted(share: &Share) -> String {
     format!("{} of {}", share.count, share.of)
 }
 
 /// `76 to 99 %`; of nothing, nothing.
-pub(super) fn band(share: &Share) -> String {
+pub(crate) fn band(share: &Share) -> String {
     let [low, high] = share.interval.map(|end| 100.0 * end);
     if share.of == 0 { String::new() } else { format!("{low:.0} to {high:.0}\u{a0}%") }
 }
 
 /// `+0.31`.
-pub(super) fn signed(estimate: &Estimate) -> String {
-    format!("{:+.2}", estimate.mean)
+pub(crate) fn signed(mean: f64) -> String {
+    format!("{mean:+.2}")
 }
 
 /// `+0.20 to +0.42`.
-pub(super) fn signed_band(estimate: &Estimate) -> String {
-    let [low, high] = estimate.interval;
+pub(crate) fn signed_band([low, high]: [f64; 2]) -> String {
     format!("{low:+.2} to {high:+.2}")
 }
 
 /// `0.31`.
-pub(super) fn mean(estimate: &Estimate) -> String {
-    format!("{:.2}", estimate.mean)
+pub(crate) fn mean(mean: f64) -> String {
+    format!("{mean:.2}")
 }
 
 /// `0.20 to 0.42`.
-pub(super) fn mean_band(estimate: &Estimate) -> String {
-    let [low, high] = estimate.interval;
+pub(crate) fn mean_band([low, high]: [f64; 2]) -> String {
     format!("{low:.2} to {high:.2}")
 }
 
+/// `1 level`, `2 levels`.
+pub(crate) fn many(count: u64, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{} {noun}s", grouped(count)) }
+}
+
 /// Least, lower quartile, median, upper quartile and greatest.
-pub(super) fn five(quantiles: &Quantiles) -> [String; 5] {
+pub(crate) fn five(quantiles: &Quantiles) -> [String; 5] {
     let Quantiles { min, lower, median, upper, max, .. } = *quantiles;
     [min, lower, median, upper, max].map(short)
 }
 
 /// A count without decimals, anything else with as many as tell it from its neighbours.
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let decimals = if value.fract() == 0.0 || value.abs() >= 100.0 {
         0
     } else if value.abs() >= 1.0 {
@@ -60,7 +63,7 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// `12 345 678`.
-pub(super) fn grouped(count: u64) -> String {
+pub(crate) fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let first = digits.len() % 3;
     let (head, tail) = digits.split_at(first);
@@ -69,15 +72,15 @@ pub(super) fn grouped(count: u64) -> String {
 }
 
 /// A difficulty, or a dash.
-pub(super) fn label(difficulty: Option<Difficulty>) -> String {
+pub(crate) fn label(difficulty: Option<Difficulty>) -> String {
     difficulty.map_or(NONE.to_owned(), |label| label.to_string())
 }
 
 /// What stands where there is nothing to tell.
-pub(super) const NONE: &str = "–";
+pub(crate) const NONE: &str = "–";
 
 /// `95 %`.
-pub(super) fn whole_percent(share: f64) -> String {
+pub(crate) fn whole_percent(share: f64) -> String {
     format!("{:.0}\u{a0}%", 100.0 * share)
 }
 

@@ -1,0 +1,44 @@
+//! What the pages of all reports share: how figures are worded and laid out, and the template parts that show them.
+
+pub(crate) mod facts;
+pub(crate) mod words;
+
+use crate::failure::Failure;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use minijinja::Environment;
+use minijinja::value::{Serde, Value};
+use serde::Serialize;
+
+/// The templates that a page may include or import.
+const SHARED: [(&str, &str); 2] =
+    [("style.css", include_str!("style.css")), ("parts.html", include_str!("parts.html"))];
+
+/// A picture in a page.
+#[derive(Serialize)]
+pub(crate) struct Figure<'a> {
+    png: String,
+    size: [u32; 2],
+    head: &'a str,
+    line: &'a str,
+}
+
+impl<'a> Figure<'a> {
+    /// A PNG of this size, with what is said under it.
+    pub(crate) fn new(png: &[u8], size: [u32; 2], head: &'a str, line: &'a str) -> Figure<'a> {
+        Figure { png: STANDARD.encode(png), size, head, line }
+    }
+}
+
+/// The page that a template makes: one HTML file that needs nothing else. The same arguments give the same bytes.
+pub(crate) fn render(template: &'static str, page: &impl Serialize) -> Result<String, Failure> {
+    let render = || {
+        let mut environment = Environment::new();
+        for (name, text) in SHARED {
+            environment.add_template(name, text)?;
+        }
+        environment.add_template("page.html", template)?;
+        environment.get_template("page.html")?.render(Value::from(Serde(page)))
+    };
+    render().map_err(|error: minijinja::Error| Failure::surroundings(error, "the page of the report"))
+}
