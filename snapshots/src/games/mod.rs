@@ -14,6 +14,7 @@ mod make;
 mod order;
 mod shrink;
 
+pub mod report;
 pub mod survey;
 
 pub(crate) use candidate::Candidate;
