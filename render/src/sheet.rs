@@ -11,9 +11,15 @@ use crate::picture::{ADVANCE, Picture, Place, shortened};
 const GAP: u32 = 16;
 /// Height of the letters of a caption, pixels.
 const LETTER: u32 = 15;
+/// From a line of a caption to the next, pixels.
+const LEADING: u32 = 19;
+
+/// Lines of a caption at most.
+const LINES: usize = 4;
 
 /// Puts pictures side by side in rows of `columns`, each shrunk to fit a square of `side` pixels (never enlarged), under
-/// it its caption, shortened to fit. A row is as high as its highest picture.
+/// it its caption. The first line of a caption is shortened to fit; what follows a line feed is broken into three more lines
+/// at most. A row is as high as its highest picture and its longest caption.
 ///
 /// # Errors
 /// If the sheet would have more than [`MAX_PIXELS`].
@@ -24,9 +30,11 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
         (side as f32 / longest as f32).min(1.0)
     };
     let shrunk = |length: u32, scale: f32| (length as f32 * scale) as u32;
+    let letters = (side as f32 / (LETTER as f32 * ADVANCE)) as usize;
     let row_height = |row: &[(Picture, String)]| {
         let heights = row.iter().map(|(picture, _)| shrunk(picture.height(), scale(picture)));
-        heights.max().unwrap_or(0) + LETTER + GAP + GAP / 2
+        let lines = row.iter().map(|(_, caption)| broken(caption, letters).len() as u32);
+        heights.max().unwrap_or(0) + lines.max().unwrap_or(1) * LEADING - LEADING + LETTER + GAP + GAP / 2
     };
     let width = columns as u64 * (u64::from(side) + u64::from(GAP)) + u64::from(GAP);
     let height = entries.chunks(columns).map(row_height).sum::<u32>() + GAP;
@@ -43,14 +51,35 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
             let (left, scale) = (GAP + at * (side + GAP), scale(picture));
             let inset = (side - shrunk(picture.width(), scale)) / 2;
             sheet.inset(picture, ((left + inset) as f32, top as f32), scale);
-            let letters = side as f32 / (LETTER as f32 * ADVANCE);
-            let foot = top + shrunk(picture.height(), scale) + GAP / 2;
-            let text = shortened(caption, letters as usize);
-            sheet.text((left as f32, foot as f32), LETTER as f32, INK, &text);
+            let mut foot = top + shrunk(picture.height(), scale) + GAP / 2;
+            for line in broken(caption, letters) {
+                sheet.text((left as f32, foot as f32), LETTER as f32, INK, &line);
+                foot += LEADING;
+            }
         }
         top += row_height(row);
     }
     Ok(sheet)
+}
+
+/// The lines of a caption; at least one. Words that are too long for a line are shortened, and so is the last of too many lines.
+fn broken(caption: &str, letters: usize) -> Vec<String> {
+    let (first, rest) = caption.split_once('\n').unwrap_or((caption, ""));
+    let mut lines = vec![first.to_owned()];
+    let mut full = true;
+    for word in rest.split_whitespace() {
+        let many = lines.len();
+        let last = lines.last_mut().expect("there is one");
+        let fits = last.chars().count() + 1 + word.chars().count() <= letters;
+        if !full && (fits || many == LINES) {
+            last.push(' ');
+            last.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+            full = false;
+        }
+    }
+    lines.iter().map(|line| shortened(line, letters)).collect()
 }
 
 /// Every glyph with what it stands for, in rows of `columns`: a legend to all boards.
@@ -70,4 +99,23 @@ pub fn gallery(columns: usize) -> Picture {
         gallery.text((left, y + 15.0), 13.0, INK, glyph.meaning());
     }
     gallery
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(caption: &str, expect: &[&str]) {
+        assert_eq!(broken(caption, 10), expect);
+    }
+
+    #[test]
+    fn captions_are_broken_after_their_first_line() {
+        check("", &[""]);
+        check("one two three", &[shortened("one two three", 10).as_str()]);
+        check("One\ntwo three four", &["One", "two three", "four"]);
+        let many = shortened("eeee ffff gggg", 10);
+        check("One\naaaa bbbb cccc dddd eeee ffff gggg", &["One", "aaaa bbbb", "cccc dddd", many.as_str()]);
+    }
 }

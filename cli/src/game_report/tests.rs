@@ -1,0 +1,80 @@
+use super::*;
+use crate::embedded;
+use engine::{Game, Level, Seed};
+use snapshots::CorpusGame;
+use snapshots::games::report::{GamesCost, GamesSample};
+use std::collections::BTreeMap;
+use std::path::Path;
+use validators::{Criteria, Panel};
+
+/// Some corpus games with two of their levels each, as if they had been made.
+const GAMES: [&str; 3] = ["quiet-jars", "hailglass", "turnip-heist"];
+
+fn judged(game: &CorpusGame, criteria: &Criteria) -> ReportedGame {
+    let CorpusGame { source, levels, card, .. } = game;
+    let game = Game::from_source(source).unwrap();
+    let levels: Vec<Level> = levels.iter().step_by(3).map(|text| game.level(text).unwrap()).collect();
+    let report = Panel::new(criteria).judge_game(&game, &levels, Seed::from_text("judged"));
+    ReportedGame { title: card.title.clone(), goal: card.goal.clone(), game, levels, report }
+}
+
+fn write(dir: &Path) -> GameSetReport {
+    let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<String>>();
+    let criteria = Criteria {
+        ask: names(&["winnable", "skill", "rule-use"]),
+        budget: 100_000,
+        ladder: names(&["do-nothing", "random", "mcts:30"]),
+        held_out: names(&["olets:30"]),
+        ladder_plays: 2,
+        most_ticks: 200,
+        ..Criteria::full()
+    };
+    let corpus = embedded::corpus().unwrap();
+    let games: Vec<ReportedGame> =
+        GAMES.iter().map(|name| judged(corpus.find(name).unwrap(), &criteria)).collect();
+    let known: Vec<(String, Game)> = corpus
+        .games
+        .iter()
+        .map(|game| (game.name.clone(), Game::from_source(&game.source).unwrap()))
+        .collect();
+    let rejections = BTreeMap::from([("winnable".to_owned(), 7)]);
+    let cost = GamesCost { calls: 123_456, tried: 10, accepted: games.len() as u64, rejections };
+    let sample = GamesSample {
+        method: "constructive",
+        games: &games,
+        corpus: &known,
+        criteria: &criteria,
+        cost: Some(&cost),
+        seed: Seed::from_text("report"),
+    };
+    let report = GameSetReport::of(&sample);
+    let showcase = Showcase { title: "Three games", games: &games, seconds: Some(3.5) };
+    write_game_report(Draft::create(dir).unwrap(), &report, &showcase).unwrap();
+    report
+}
+
+#[test]
+fn a_report_is_three_files_and_the_page_needs_no_other() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path().join("report");
+    let report = write(&dir);
+    let read = |name: &str| std::fs::read(dir.join(name)).unwrap();
+    let json: GameSetReport = serde_json::from_slice(&read("report.json")).unwrap();
+    assert_eq!(json, report);
+    assert!(
+        !String::from_utf8(read("report.json")).unwrap().contains("seconds"),
+        "time is no part of the report"
+    );
+    assert!(read("sheet.png").starts_with(b"\x89PNG"));
+    let page = String::from_utf8(read("report.html")).unwrap();
+    assert_eq!(page.matches("<img src=\"data:image/png;base64,").count(), GAMES.len());
+    for outside in ["http://", "https://", "src=\"/", "href=", "<script"] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    // A copy of a corpus game is told.
+    assert_eq!(report.novelty.near_corpus.count, GAMES.len() as u64);
+    assert_eq!(report.games[0].nearest_corpus.as_ref().map(|near| near.name.as_str()), Some("quiet-jars"));
+    for part in ["Quiet Jars", "Does skill pay?", "made in 3.5 s", "Every game", "3 of 10", "olets:30 wins"] {
+        assert!(page.contains(part), "{part}");
+    }
+}
