@@ -171,3 +171,6 @@ fn digest(reported: &ReportedGame) -> Digest {
     let bytes: Vec<u8> = reported.game.digest().as_bytes().iter().copied().chain(levels).collect();
     Digest::of(&bytes)
 }
+
+#[cfg(test)]
+mod tests;

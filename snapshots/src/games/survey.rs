@@ -86,3 +86,6 @@ impl GameSurvey {
         games.iter().map(|game| self.row(game)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;
