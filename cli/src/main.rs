@@ -5,7 +5,6 @@ mod console;
 mod embedded;
 mod episodes;
 mod failure;
-#[cfg_attr(not(test), expect(dead_code, reason = "the verb that makes games is what writes it"))]
 mod game_report;
 mod input;
 mod level_report;

@@ -30,8 +30,7 @@ fn write(dir: &Path) -> GameSetReport {
         ..Criteria::full()
     };
     let corpus = embedded::corpus().unwrap();
-    let games: Vec<ReportedGame> =
-        corpus.games.iter().map(|game| judged(game, &criteria)).collect();
+    let games: Vec<ReportedGame> = corpus.games.iter().map(|game| judged(game, &criteria)).collect();
     let known: Vec<(String, Game)> = corpus
         .games
         .iter()
@@ -56,7 +55,9 @@ fn write(dir: &Path) -> GameSetReport {
 #[test]
 fn a_report_is_three_files_and_the_page_needs_no_other() {
     let home = tempfile::tempdir().unwrap();
-    let dir = std::path::PathBuf::from("/tmp/sbs/page"); let _ = std::fs::remove_dir_all(&dir); let _ = &home;
+    let dir = std::path::PathBuf::from("/tmp/sbs/page");
+    let _ = std::fs::remove_dir_all(&dir);
+    let _ = &home;
     let report = write(&dir);
     let read = |name: &str| std::fs::read(dir.join(name)).unwrap();
     let json: GameSetReport = serde_json::from_slice(&read("report.json")).unwrap();

@@ -3,8 +3,8 @@
 //! Rules come from a generator, or from a search that is told how weak players fare on a few quick levels. Then levels are
 //! found, what nobody would miss is taken away, and the panel has the last word, with dice of its own and with players that no
 //! search has seen. No byte depends on the number of threads.
-//! Whole games on request: candidates of a generator of rules, their levels, and the judges of both. Also what games are like,
-//! whoever made them: the report on a set of them, and surveys of games side by side.
+//!
+//! Also what games are like, whoever made them: the report on a set of them, and surveys of games side by side.
 
 mod candidate;
 mod gate;

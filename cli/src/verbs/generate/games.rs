@@ -4,19 +4,22 @@ use super::pretty;
 use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::game_report::{Showcase, write_game_report};
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
-use engine::{Digest, Game, Seed};
+use engine::{Digest, Game, Level, Seed};
 use generators::games::Kind;
 use indicatif::ProgressBar;
+use rayon::prelude::*;
 use serde_json::json;
 use snapshots::card::Card;
+use snapshots::games::report::{GameSetReport, GamesCost, GamesSample, ReportedGame};
 use snapshots::games::{GameOrder, GameSet, GamesError, MadeGame, Progress, make_games};
 use snapshots::levels::Method;
 use snapshots::{Draft, Witness};
 use std::fmt::Write;
 use std::path::PathBuf;
-use validators::GameForm;
+use validators::{Criteria, GameForm, Panel};
 
 /// Writes new games: rules, a fiction, and levels from easy to hard. The same flags give the same bytes, on any number of
 /// threads.
@@ -47,6 +50,9 @@ pub(crate) struct Args {
     /// Levels of each game
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=20))]
     levels: u32,
+    /// Write a report on the games here, judged afresh: report.html, report.json, sheet.png. The folder must be absent or empty
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
@@ -66,9 +72,11 @@ fn kind(text: &str) -> Result<Kind, String> {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let order = order(args);
-    let known = corpus_forms()?;
+    let corpus = corpus_games()?;
+    let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
     // Before minutes of work: is there a place to write to?
     let draft = Draft::create(&args.out).map_err(failure)?;
+    let report_draft = args.report.as_deref().map(Draft::create).transpose().map_err(failure)?;
     let bar = Bar(console.progress(u64::from(args.count), "games"));
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
@@ -89,6 +97,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     draft.write("games.json", &pretty(&document(args, &set))?).map_err(failure)?;
     draft.commit().map_err(failure)?;
     let seconds = started.seconds();
+    if let Some(report_draft) = report_draft {
+        let bar = console.progress(set.games.len() as u64, "report");
+        in_pool(args.jobs, || report(args, report_draft, &corpus, &set, (seconds, &bar)))??;
+        bar.finish_and_clear();
+    }
     console.document(&document(args, &set))?;
     console.say(summary(args, &set, seconds).trim_end());
     Ok(set.games.len() == args.count as usize)
@@ -102,15 +115,60 @@ fn order(args: &Args) -> GameOrder {
     }
 }
 
-/// The rules of the corpus games, which new games have to differ from.
-fn corpus_forms() -> Result<Vec<GameForm>, Failure> {
-    let form = |game: &snapshots::CorpusGame| {
+/// The corpus games, which new games have to differ from.
+fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
+    let compile = |game: &snapshots::CorpusGame| {
         let compiled = Game::from_source(&game.source);
-        compiled.map(|compiled| GameForm::of(&compiled)).map_err(|problems| {
+        compiled.map(|compiled| (game.name.clone(), compiled)).map_err(|problems| {
             Failure::malformed(format!("the corpus game `{}` does not compile: {problems}", game.name))
         })
     };
-    embedded::corpus()?.games.iter().map(form).collect()
+    embedded::corpus()?.games.iter().map(compile).collect()
+}
+
+/// Judges the games afresh, with other dice and twice as many plays as a release asks for, and writes the report on them.
+fn report(
+    args: &Args,
+    draft: Draft,
+    corpus: &[(String, Game)],
+    set: &GameSet,
+    (seconds, bar): (f64, &ProgressBar),
+) -> Result<(), Failure> {
+    let plain = Criteria::of_made_games();
+    let criteria = Criteria {
+        idle_plays: 2 * plain.idle_plays,
+        random_plays: 2 * plain.random_plays,
+        ladder_plays: 2 * plain.ladder_plays,
+        ladder_calls: 2 * plain.ladder_calls,
+        ..plain
+    };
+    let panel = Panel::new(&criteria);
+    let seed = Seed::from_text(&args.seed).child("report", 0);
+    let judge = |made: &MadeGame| {
+        let levels: Vec<Level> = made.levels.iter().map(|found| found.level.clone()).collect();
+        let seed = seed.child(&made.card.digest.to_string(), 0);
+        let report = panel.judge_game(&made.game, &levels, seed);
+        bar.inc(1);
+        let Card { title, goal, .. } = made.card.clone();
+        ReportedGame { title, goal, game: made.game.clone(), levels, report }
+    };
+    let games: Vec<ReportedGame> = set.games.par_iter().map(judge).collect();
+    let cost = GamesCost {
+        calls: set.tally.calls,
+        tried: set.tally.games_tried,
+        accepted: games.len() as u64,
+        rejections: set.tally.rejections.clone(),
+    };
+    let report = GameSetReport::of(&GamesSample {
+        method: args.method.name(),
+        games: &games,
+        corpus,
+        criteria: &criteria,
+        cost: Some(&cost),
+        seed: seed.child("measures", 0),
+    });
+    let title = format!("{} games, seed {}", args.method, args.seed);
+    write_game_report(draft, &report, &Showcase { title: &title, games: &games, seconds: Some(seconds) })
 }
 
 struct Bar(ProgressBar);

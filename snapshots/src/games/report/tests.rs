@@ -12,7 +12,8 @@ fn source(thing: &str, danger: &str) -> String {
 
 const PUSHING: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    crate > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    g > crate\n    r > pit\n  InteractionSet\n    avatar wall > stepBack\n    crate wall pit > undoAll\n    crate avatar > bounceForward\n    crate pit > killSprite\n    avatar pit > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    Timeout limit=50 win=False\n";
 
-const LEVELS: [&str; 2] = ["wwwwwwww\nwA  g rw\nw      w\nwwwwwwww\n", "wwwwwwww\nwA g  rw\nw  w g w\nwr     w\nwwwwwwww\n"];
+const LEVELS: [&str; 2] =
+    ["wwwwwwww\nwA  g rw\nw      w\nwwwwwwww\n", "wwwwwwww\nwA g  rw\nw  w g w\nwr     w\nwwwwwwww\n"];
 
 fn criteria() -> Criteria {
     let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();

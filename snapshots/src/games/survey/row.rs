@@ -4,7 +4,7 @@ use super::SurveyedGame;
 use super::edge::{Edge, ladder_order};
 use engine::{Analysis, Digest, Episode, Outcome, Seed};
 use serde::{Deserialize, Serialize};
-use validators::game_measures::guards;
+use validators::game_measures::Guards;
 use validators::{Criteria, PlayMeasures, Recorded, Report, RulesShown};
 
 /// The version of what a row holds.
@@ -27,7 +27,7 @@ pub struct GameRow {
     pub levels: u64,
     /// Levels of which a win was found.
     pub won: u64,
-    /// Interactions of the rules, guards ([`guards`]) apart.
+    /// Interactions of the rules, guards ([`Guards`]) apart.
     pub rules: u64,
     /// Of those, how many some recorded episode executes.
     pub executed: u64,
@@ -59,8 +59,8 @@ impl GameRow {
     ) -> GameRow {
         let SurveyedGame { name, game, levels } = surveyed;
         let analysis = Analysis::of(game);
-        let guards = guards(&analysis);
-        let inner = |lines: &[usize]| lines.iter().filter(|&&line| !guards[line]).count() as u64;
+        let guards: Vec<usize> = Guards::of(&analysis).lines().collect();
+        let inner = |lines: &[usize]| lines.iter().filter(|line| !guards.contains(line)).count() as u64;
         let shown = RulesShown::of(game, levels, reports, seed.child("rules", 0));
         let (executed, idle) = (inner(&shown.executed), inner(&shown.idle));
         let (there, absent) = (shown.there.len() as u64, shown.absent.len() as u64);
@@ -71,6 +71,7 @@ impl GameRow {
             .filter(|(_, wins)| !wins.is_empty())
             .map(|(level, wins)| Recorded { level, episodes: wins })
             .collect();
+        let judgements = || reports.iter().flat_map(|report| &report.judgements);
         let play = PlayMeasures::of(&analysis, &recording, seed.child("play", 0));
         GameRow {
             name: name.clone(),
@@ -85,7 +86,7 @@ impl GameRow {
             order: ladder_order(reports),
             drama: play.as_ref().map(|play| play.drama),
             mechanics: play.as_ref().map(|play| play.mechanics as u64),
-            calls: reports.iter().map(calls).sum(),
+            calls: judgements().map(|judgement| judgement.finding.calls()).sum(),
         }
     }
 }
@@ -95,15 +96,4 @@ fn wins(report: &Report) -> Vec<Episode> {
     let mut won = report.episodes();
     won.retain(|episode| episode.outcome == Outcome::Won);
     won
-}
-
-/// Forward-model calls of a level's judges.
-fn calls(report: &Report) -> u64 {
-    let findings = || report.judgements.iter().map(|judgement| &judgement.finding);
-    let searched: u64 = findings().map(|found| found.searched.unwrap_or(0)).sum();
-    let measured: u64 = findings().filter_map(|found| found.measured.as_ref()).map(|rate| rate.calls).sum();
-    let ladder: u64 = report
-        .ladder()
-        .map_or(0, |ladder| ladder.rungs.iter().chain(&ladder.held_out).map(|fared| fared.rate.calls).sum());
-    searched + measured + ladder
 }

@@ -45,7 +45,8 @@ fn a_row_tells_what_play_shows() {
 
 #[test]
 fn what_is_never_there_is_dead() {
-    let row = survey().row(&surveyed("dead", game(["    key > Resource\n", "    key avatar > collectResource\n"])));
+    let row =
+        survey().row(&surveyed("dead", game(["    key > Resource\n", "    key avatar > collectResource\n"])));
     assert_eq!((row.rules, row.executed), (3, 2), "{row:?}");
     assert_eq!((row.types, row.there), (4, 3), "{row:?}");
 }
