@@ -2,9 +2,8 @@
 
 mod arcade;
 
-use arcade::{run, text};
+use arcade::{files, run, text};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -14,24 +13,6 @@ fn generate(folder: &Path, game: &str, out: &str, more: &[&str], status: i32) ->
     let args = ["--json", "generate", "levels", "--game", game, "--out", out];
     let output = run(folder, &[&args, more].concat(), status);
     serde_json::from_slice(&output.stdout).unwrap_or_default()
-}
-
-/// All files of a folder with their content.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![folder.to_path_buf()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let name = path.strip_prefix(folder).unwrap().display().to_string();
-                found.insert(name, fs::read(&path).unwrap());
-            }
-        }
-    }
-    found
 }
 
 #[track_caller]

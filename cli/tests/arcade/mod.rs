@@ -1,5 +1,7 @@
 //! Running the binary as a user does.
 
+use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -33,4 +35,23 @@ pub(crate) fn reference() -> Option<PathBuf> {
         println!("SKIPPED: no golden traces at {}", folder.display());
     }
     found.then_some(folder)
+}
+
+/// All files of a folder with their content.
+#[allow(dead_code, reason = "not every test looks at files")]
+pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(folder).unwrap().display().to_string();
+                found.insert(name, fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
 }
