@@ -5,6 +5,7 @@
 
 pub mod any_game;
 pub mod choices;
+pub mod dress;
 pub mod hostile;
 pub mod mutation;
 pub mod robustness;

@@ -29,7 +29,7 @@ pub struct GameForm {
 pub const NEAR: f64 = 0.3;
 
 impl GameForm {
-    /// The form of a game. Cost: some milliseconds, no forward-model calls.
+    /// The form of a game. Cost: about a millisecond, no forward-model calls.
     pub fn of(game: &Game) -> GameForm {
         let graph = RuleGraph::of(game);
         let digest = Digest::of(labelling::canonical(&graph).as_bytes());

@@ -1,13 +1,11 @@
 //! Novelty of games: what does not count leaves the form of a game alone, what counts changes it, and the duplicate distance
 //! lies between copies with other numbers and other games (docs/novelty.md).
 
-mod dress;
-
 use engine::{Game, Seed};
-use std::io::Write;
 use std::path::Path;
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
+use tests::dress;
 use tests::{games, public_games, workspace_root};
 use validators::novelty::{GameForm, NEAR, distance};
 
@@ -27,10 +25,6 @@ fn as_reference() -> Vec<(String, Game)> {
 
 fn forms(all: &[(String, Game)]) -> Vec<(&str, GameForm)> {
     all.iter().map(|(name, game)| (name.as_str(), GameForm::of(game))).collect()
-}
-
-fn told(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 #[test]
@@ -149,99 +143,4 @@ fn a_common_frame_makes_no_neighbours() {
     let flight =
         game("thing > Chaser stype=avatar", "avatar thing > killSprite", "Timeout limit=300 win=True");
     assert!(distance(&hunt, &flight) > 2.0 * NEAR, "{}", distance(&hunt, &flight));
-}
-
-/// What docs/novelty.md shows: `cargo test -p infinite-arcade-tests --test novelty -- --ignored --nocapture`.
-#[test]
-#[ignore = "prints the tables of docs/novelty.md"]
-fn tables() {
-    let all = all();
-    let forms = forms(&all);
-    let corpus = games(&workspace_root().join("corpora")).len();
-    let mut pairs = Vec::new();
-    for one in 0..forms.len() {
-        pairs.extend((0..one).map(|two| (distance(&forms[one].1, &forms[two].1), two, one)));
-    }
-    told(
-        "| game | nearest in the corpus | distance | nearest public game | distance |\n|---|---|---|---|---|",
-    );
-    for (at, (name, form)) in forms[..corpus].iter().enumerate() {
-        let nearest = |from: usize, to: usize| {
-            let others: Vec<usize> = (from..to).filter(|&other| other != at).collect();
-            let found = form.nearest(others.iter().map(|&other| &forms[other].1));
-            found.map_or("- | -".to_owned(), |(place, apart)| {
-                format!("{} | {apart:.2}", forms[others[place]].0)
-            })
-        };
-        told(&format!("| {name} | {} | {} |", nearest(0, corpus), nearest(corpus, forms.len())));
-    }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    told("\nnearest pairs:");
-    for (apart, one, two) in &pairs[..24] {
-        told(&format!("{} {} {apart:.3}", forms[*one].0, forms[*two].0));
-    }
-    told("\nrelatives:");
-    let relatives = [
-        ("racebet", "racebet2"),
-        ("sokoban", "wrapsokoban"),
-        ("sokoban", "realsokoban"),
-        ("realsokoban", "wrapsokoban"),
-        ("lasers", "lasers2"),
-        ("portals", "realportals"),
-        ("pacman", "pacoban"),
-        ("boulderdash", "boulderchase"),
-        ("labyrinth", "labyrinthdual"),
-        ("sokoban", "modality"),
-    ];
-    for (one, two) in relatives {
-        let find = |name: &str| forms.iter().find(|form| form.0 == name).map(|form| &form.1);
-        if let (Some(a), Some(b)) = (find(one), find(two)) {
-            told(&format!("{one} {two} {:.3}", distance(a, b)));
-        }
-    }
-    let apart = |within: &dyn Fn(usize) -> bool| {
-        pairs
-            .iter()
-            .filter(|(_, one, two)| within(*one) && within(*two))
-            .map(|pair| pair.0)
-            .collect::<Vec<f64>>()
-    };
-    let mut lists = vec![
-        ("pairs of the corpus", apart(&|at| at < corpus)),
-        ("pairs of public games", apart(&|at| at >= corpus)),
-    ];
-    let mut copies = Vec::new();
-    let mut edited = [Vec::new(), Vec::new(), Vec::new()];
-    for ((name, game), (_, form)) in all.iter().zip(&forms) {
-        let copy = dress::renumbered(game.description()).and_then(|tree| Game::compile(&tree).ok());
-        copies.extend(copy.map(|copy| distance(form, &GameForm::of(&copy))));
-        for number in 0..10 {
-            let mut tree = game.description().clone();
-            for edit in 1..=5 {
-                let edits = Seed::from_text(name).child("edits", number).child("edit", edit);
-                let changed = (0..30).find_map(|lot| {
-                    let mut sampler = edits.child("lot", lot).sampler();
-                    dress::altered(&tree, &mut sampler)
-                        .filter(|other| *other != tree && Game::compile(other).is_ok())
-                });
-                tree = changed.unwrap_or(tree);
-                if edit % 2 == 1 {
-                    let other = Game::compile(&tree).expect("only what compiles is kept");
-                    edited[edit as usize / 2].push(distance(form, &GameForm::of(&other)));
-                }
-            }
-        }
-    }
-    lists.push(("a game and its copy with other numbers", copies));
-    let [one, three, five] = edited;
-    lists.extend([("1 rule altered", one), ("3 rules altered", three), ("5 rules altered", five)]);
-    told(
-        "\n| | n | least | 5 % | 25 % | median | 75 % | 95 % | most |\n|---|---|---|---|---|---|---|---|---|",
-    );
-    for (name, mut list) in lists {
-        list.sort_by(f64::total_cmp);
-        let at = |percent: usize| format!("{:.2}", list[(list.len() - 1) * percent / 100]);
-        let shown = [0, 5, 25, 50, 75, 95, 100].map(at).join(" | ");
-        told(&format!("| {name} | {} | {shown} |", list.len()));
-    }
 }

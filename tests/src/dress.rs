@@ -5,7 +5,7 @@ use engine::{Description, Sampler};
 use std::collections::BTreeMap;
 
 /// Other names, characters, colours and order; parameters that are inherited, or as they would be anyhow, spelled out.
-pub(crate) fn dressed(description: &Description, sampler: &mut Sampler) -> Description {
+pub fn dressed(description: &Description, sampler: &mut Sampler) -> Description {
     let mut tree = description.clone();
     rename(&mut tree, sampler);
     redraw(&mut tree.sprites, sampler);
@@ -20,7 +20,7 @@ pub(crate) fn dressed(description: &Description, sampler: &mut Sampler) -> Descr
 }
 
 /// Numbers that size things, changed all over, signs and zeros kept; none if there are no such numbers.
-pub(crate) fn renumbered(description: &Description) -> Option<Description> {
+pub fn renumbered(description: &Description) -> Option<Description> {
     let mut tree = description.clone();
     let mut changed = false;
     let mut change = |param: &mut Param| {
@@ -43,7 +43,7 @@ pub(crate) fn renumbered(description: &Description) -> Option<Description> {
 }
 
 /// One effect, class or ending changed; none if the lot falls on something that cannot be changed so.
-pub(crate) fn altered(description: &Description, sampler: &mut Sampler) -> Option<Description> {
+pub fn altered(description: &Description, sampler: &mut Sampler) -> Option<Description> {
     let mut tree = description.clone();
     let own = ["scoreChange", "repeat", "applyScore"];
     match sampler.below(4) {
