@@ -36,18 +36,57 @@ pub fn bootstrap<T: Copy>(
     }
     let mut draws = ChaCha8Rng::from_seed(seed);
     let mut sample = Vec::with_capacity(values.len());
-    let mut found = Vec::with_capacity(resamples);
-    for _ in 0..resamples {
-        sample.clear();
-        sample.extend((0..values.len()).map(|_| values[below(&mut draws, values.len())]));
-        found.push(statistic(&sample));
+    let found = (0..resamples).map(|_| {
+        redraw(&mut draws, values, &mut sample);
+        statistic(&sample)
+    });
+    percentiles(found.collect(), level)
+}
+
+/// The percentile interval of the mean of `ours` minus the mean of `theirs`: as [`bootstrap`], with a sample drawn from each,
+/// ours first.
+///
+/// # Panics
+/// If `level` is not within 0..1.
+///
+/// ```
+/// let interval = statistics::bootstrap_difference(&[3.0, 4.0, 5.0], &[1.0, 2.0], 1000, 0.95, [7; 32]).unwrap();
+/// assert!(interval.low >= 1.0 && interval.high <= 4.0);
+/// ```
+pub fn bootstrap_difference(
+    ours: &[f64],
+    theirs: &[f64],
+    resamples: usize,
+    level: f64,
+    seed: [u8; 32],
+) -> Option<Interval> {
+    assert!((0.0..1.0).contains(&level), "the level is {level}");
+    if ours.is_empty() || theirs.is_empty() || resamples == 0 {
+        return None;
     }
+    let mut draws = ChaCha8Rng::from_seed(seed);
+    let mut sample = Vec::with_capacity(ours.len().max(theirs.len()));
+    let mut mean = |values: &[f64]| {
+        redraw(&mut draws, values, &mut sample);
+        sample.iter().sum::<f64>() / sample.len() as f64
+    };
+    let found = (0..resamples).map(|_| mean(ours) - mean(theirs));
+    percentiles(found.collect(), level)
+}
+
+/// As many values as there are, with replacement.
+fn redraw<T: Copy>(draws: &mut ChaCha8Rng, values: &[T], sample: &mut Vec<T>) {
+    sample.clear();
+    sample.extend((0..values.len()).map(|_| values[below(draws, values.len())]));
+}
+
+fn percentiles(mut found: Vec<f64>, level: f64) -> Option<Interval> {
     if found.iter().any(|value| value.is_nan()) {
         return None;
     }
     found.sort_unstable_by(f64::total_cmp);
-    let rank = ((1.0 - level) / 2.0 * (resamples - 1) as f64) as usize;
-    Some(Interval { low: found[rank], high: found[resamples - 1 - rank] })
+    let rank = ((1.0 - level) / 2.0 * (found.len() - 1) as f64) as usize;
+    Some(Interval { low: found[rank], high: found[found.len() - 1 - rank] })
 }
 
 /// Uniform in `0..bound`, without bias (D. Lemire, "Fast random integer generation in an interval", 2019).
@@ -94,6 +133,22 @@ mod tests {
         let values = [(0, 1.0), (1, 5.0)];
         let found = bootstrap(&values, |sample| sample.iter().map(|one| one.1).sum(), 50, 0.9, [3; 32]);
         assert_eq!(found, Some(Interval { low: 2.0, high: 10.0 }));
+    }
+
+    /// Of two means, the standard errors add up as squares.
+    #[test]
+    fn differences_are_as_wide_as_theory_says() {
+        let [ours, theirs] = [(400, 3), (100, 2)].map(|(count, every): (u32, u32)| {
+            (0..count).map(|i| f64::from(u8::from(i % every == 0))).collect::<Vec<f64>>()
+        });
+        let found = bootstrap_difference(&ours, &theirs, 4000, 0.95, [4; 32]).unwrap();
+        let (p, q) = (134.0 / 400.0, 0.5);
+        let half = 1.96 * ((p * (1.0 - p) / 400.0 + q * (1.0 - q) / 100.0) as f64).sqrt();
+        assert!((found.low - (p - q - half)).abs() < 0.012, "{found:?}");
+        assert!((found.high - (p - q + half)).abs() < 0.012, "{found:?}");
+        assert_eq!(bootstrap_difference(&ours, &[], 10, 0.95, [0; 32]), None);
+        let sure = bootstrap_difference(&[1.0; 3], &[0.0], 10, 0.95, [0; 32]);
+        assert_eq!(sure, Some(Interval { low: 1.0, high: 1.0 }));
     }
 
     #[test]

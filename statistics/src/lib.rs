@@ -20,7 +20,7 @@ mod spearman;
 mod summary;
 mod wilson;
 
-pub use bootstrap::bootstrap;
+pub use bootstrap::{bootstrap, bootstrap_difference};
 pub use correction::benjamini_hochberg;
 pub use difference::difference;
 pub use fisher::fisher;

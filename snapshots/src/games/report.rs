@@ -128,7 +128,7 @@ impl GameSetReport {
             count: games.len() as u64,
             validity: Validity::of(games),
             cost: cost.cloned(),
-            accepted: cost.map(|cost| Share::new(cost.accepted, cost.tried)),
+            accepted: cost.map(|cost| Share::new(cost.accepted, cost.tried.max(cost.accepted))),
             skill: Skill::of(&judged),
             rules: Rules::of(&judged),
             play: Play::of(&judged),

@@ -3,7 +3,7 @@
 use super::row::{GameRow, NO_LEVEL, NO_WIN};
 use engine::Seed;
 use serde::{Deserialize, Serialize};
-use statistics::{bootstrap, quantile};
+use statistics::{bootstrap_difference, quantile};
 
 /// Resamples of an interval.
 const RESAMPLES: usize = 4000;
@@ -109,7 +109,7 @@ impl Line {
         };
         let (a, b) = (values(ours), values(theirs));
         let difference = (!a.is_empty() && !b.is_empty()).then(|| mean(&a) - mean(&b));
-        let interval = difference.and_then(|_| apart(&a, &b, seed));
+        let interval = bootstrap_difference(&a, &b, RESAMPLES, 0.95, *seed.as_bytes());
         let scale = match question.unit {
             Unit::Share | Unit::Scale => 1.0,
             Unit::Count => mean(&b),
@@ -120,28 +120,11 @@ impl Line {
             ours: Group::of(&a, ours, question),
             theirs: Group::of(&b, theirs, question),
             difference,
-            interval,
+            interval: interval.map(|interval| [interval.low, interval.high]),
             points: difference.filter(|_| scale > 0.0).map(|difference| 100.0 * difference / scale),
-            level: interval.map(|[_, high]| high >= 0.0),
+            level: interval.map(|interval| interval.high >= 0.0),
         }
     }
-}
-
-/// The bootstrap interval of the difference of two means. The groups are drawn together: how many of a draw are of each varies
-/// a little, as it does where games are drawn from the world.
-fn apart(ours: &[f64], theirs: &[f64], seed: Seed) -> Option<[f64; 2]> {
-    let tagged: Vec<(bool, f64)> =
-        ours.iter().map(|&value| (true, value)).chain(theirs.iter().map(|&value| (false, value))).collect();
-    let difference = |sample: &[(bool, f64)]| {
-        let side = |side: bool| {
-            let values = sample.iter().filter(|(tag, _)| *tag == side).map(|(_, value)| value);
-            let (sum, count) = values.fold((0.0, 0u64), |(sum, count), value| (sum + value, count + 1));
-            sum / count as f64
-        };
-        side(true) - side(false)
-    };
-    let interval = bootstrap(&tagged, difference, RESAMPLES, 0.95, *seed.as_bytes())?;
-    Some([interval.low, interval.high])
 }
 
 fn mean(values: &[f64]) -> f64 {
