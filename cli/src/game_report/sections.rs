@@ -145,7 +145,7 @@ fn price(cost: &GamesCost, accepted: Option<&Share>) -> Section {
     facts.push(Fact::plain("forward-model calls", words::grouped(cost.calls)));
     facts.push(Fact::plain("calls for each that was accepted", each));
     for (why, count) in &cost.rejections {
-        facts.push(Fact::share(format!("turned down: {why}"), &Share::new(*count, cost.tried)));
+        facts.push(Fact::plain(format!("turned down: {why}"), words::grouped(*count)));
     }
     section("What did they cost?", "Judging them for this report apart.", facts)
 }

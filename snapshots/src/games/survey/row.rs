@@ -8,7 +8,7 @@ use validators::game_measures::Guards;
 use validators::{Criteria, PlayMeasures, Recorded, Report, RulesShown};
 
 /// The version of what a row holds.
-pub(super) const FORM: u32 = 2;
+pub(super) const FORM: u32 = 3;
 
 /// Why a figure is missing: no win of any level was found.
 pub const NO_WIN: &str = "no win found";
