@@ -75,10 +75,3 @@ impl Guards {
         self.lines[line] == Kind::Clock
     }
 }
-
-/// By interaction line: whether it is nothing but a guard ([`Guards::lines`]). Cost: O(interactions × types).
-pub fn guards(analysis: &Analysis) -> Vec<bool> {
-    let mut lines = vec![false; analysis.game().description().interactions.len()];
-    Guards::of(analysis).lines().for_each(|line| lines[line] = true);
-    lines
-}

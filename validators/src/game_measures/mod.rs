@@ -8,6 +8,6 @@ mod play;
 
 pub use families::{ClassFamily, EffectFamily};
 pub use futures::{FUTURES, SIGHT};
-pub use guards::{Guards, guards};
+pub use guards::Guards;
 pub use kinds::{AvatarKind, ChanceKind, GameKind, GoalKind};
 pub use play::PlayMeasures;
