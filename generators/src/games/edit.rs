@@ -77,6 +77,18 @@ impl Edit {
         }
     }
 
+    /// Whether an earlier edit has no say any more after this one.
+    pub(crate) fn replaces(&self, earlier: &Edit) -> bool {
+        match (self, earlier) {
+            (Edit::Param { of, key, .. }, Edit::Param { of: other, key: same, .. }) => {
+                of == other && key == same
+            }
+            (Edit::Class { of, .. }, Edit::Class { of: other, .. }) => of == other,
+            (Edit::Score { rule, .. }, Edit::Score { rule: other, .. }) => rule == other,
+            _ => false,
+        }
+    }
+
     /// Makes the change in a complete draft; none if there is nothing to change so, and nothing is.
     pub(crate) fn apply(self, draft: &mut Draft) -> Option<()> {
         match self {

@@ -19,6 +19,9 @@ pub(crate) fn plural(noun: &str) -> String {
         format!("{noun}s")
     } else if let Some(stem) = noun.strip_suffix('y') {
         format!("{stem}ies")
+    } else if ends(&["leaf", "sheaf", "loaf", "wolf", "shelf", "thief", "knife"]) {
+        let stem = noun.trim_end_matches('e').trim_end_matches('f');
+        format!("{stem}ves")
     } else if ends(&["s", "x", "z", "ch", "sh"]) {
         format!("{noun}es")
     } else {
@@ -68,6 +71,7 @@ mod tests {
         assert_eq!(plural("sea glass"), "sea glasses");
         assert_eq!(plural("cherry"), "cherries");
         assert_eq!(plural("key"), "keys");
+        assert_eq!(plural("floating leaf"), "floating leaves");
         assert_eq!(one("urn"), "an urn");
         assert_eq!(headline("the salt orchard"), "The Salt Orchard");
         assert_eq!(series(&["a".into(), "b".into(), "c".into()]), "a, b and c");

@@ -187,15 +187,15 @@ impl Graft {
 
     /// One rule for a pair is enough, and what an ending counts goes by the rules of its goal only.
     fn fits(&self, draft: &Draft, [first, second, third]: [Part; 3]) -> bool {
+        let effect = (self.effect)([first, second, third]);
         let met = |rule: &Rule| {
-            rule.phase >= Phase::Strike
+            (rule.phase >= Phase::Strike || rule.effect == effect)
                 && (rule.first == first && rule.second.contains(&second)
                     || rule.first == second && rule.second.contains(&first))
         };
         let all_differ = first != second && first != third;
         let taken_away = !self.spares && draft.is_counted(first);
-        let partner_too =
-            (self.effect)([first, second, third]) == Effect::KillBoth && draft.is_counted(second);
+        let partner_too = effect == Effect::KillBoth && draft.is_counted(second);
         all_differ && !taken_away && !partner_too && !draft.rules.iter().any(met)
     }
 

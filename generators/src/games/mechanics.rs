@@ -1,7 +1,9 @@
 //! The graph of mechanics of a draft: which rule provides what another one lives on.
 
+use super::body::Body;
 use super::draft::{Draft, Part, Phase, Rule, Stamina, Value, Weapon};
 use super::effect::Effect;
+use engine::SpriteClass;
 
 /// A mechanic that provides something, and what it provides.
 fn provisions(draft: &Draft) -> Vec<(Option<usize>, Part)> {
@@ -51,6 +53,50 @@ pub(crate) fn dependencies(draft: &Draft) -> usize {
     count
 }
 
+/// Whether nothing hangs in the air: what is collected is good for something, what is needed can be had, what is shut can be
+/// opened, and all that levels place plays a part.
+pub(crate) fn is_whole(draft: &Draft) -> bool {
+    let parts = || draft.parts().filter(|&part| !draft.sprite(part).gone);
+    let mechanics = || draft.rules.iter().filter(|rule| is_mechanic(rule));
+    let named = |part: Part| mechanics().any(|rule| rule.effect.names().contains(&part));
+    let held = |part: Part| {
+        mechanics().any(|rule| rule.first == part && matches!(rule.effect, Effect::CollectResource { .. }))
+    };
+    let shot =
+        |part: Part| parts().any(|other| draft.sprite(other).params.contains(&("ammo", Value::Part(part))));
+    let wanted = |part: Part| named(part) || shot(part);
+    let spent = |part: Part| {
+        mechanics().any(|rule| match rule.effect {
+            Effect::KillIfOtherHasMore { resource, .. }
+            | Effect::KillIfHasLess { resource, .. }
+            | Effect::Spend { resource }
+            | Effect::SpawnIfHasMore { resource, .. } => resource == part,
+            _ => false,
+        }) || shot(part)
+    };
+    let met =
+        |part: Part| mechanics().any(|rule| rule.first == part || rule.second.contains(&part)) || named(part);
+    let opens = |part: Part| mechanics().any(|rule| rule.first == part) || named(part);
+    let makes = |part: Part| {
+        draft
+            .sprite(part)
+            .params
+            .iter()
+            .any(|&(key, value)| key == "stype" && matches!(value, Value::Part(_)))
+    };
+    let leads =
+        |part: Part| parts().any(|other| draft.sprite(other).params.contains(&("stype", Value::Part(part))));
+    let is_thing = |&part: &Part| !matches!(draft.sprite(part).body, Body::Floor | Body::Wall | Body::Hero);
+    parts().filter(is_thing).all(|part| {
+        let sprite = draft.sprite(part);
+        let is_door = sprite.class == Some(SpriteClass::Door) && sprite.body == Body::Solid;
+        (held(part) <= wanted(part))
+            && (spent(part) <= held(part))
+            && (is_door <= opens(part))
+            && (sprite.placed <= (met(part) || makes(part) || leads(part) || draft.is_counted(part)))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,6 +113,7 @@ mod tests {
                 let seed = Seed::from_text("mechanics").child(kind.name(), number);
                 let genome = generator.genome(seed).unwrap();
                 assert!(dependencies(&genome.draft().0) > 0, "{genome:?}");
+                assert!(is_whole(&genome.draft().0), "{genome:?}");
                 assert!(is_challenge(&genome.patterns()), "{genome:?}");
             }
         }

@@ -66,6 +66,7 @@ impl GameVariation {
                     return None;
                 }
                 let edit = edit(&genome.draft().0, change, sampler)?;
+                genome.edits.retain(|earlier| !edit.replaces(earlier));
                 genome.edits.push(edit);
             }
         }
@@ -178,7 +179,7 @@ fn settled(mut genome: GameGenome, is_new: impl Fn(&engine::Digest) -> bool) -> 
     }
     let (draft, made) = genome.draft();
     genome.edits = made;
-    let linked = mechanics::dependencies(&draft) > 0;
+    let linked = mechanics::dependencies(&draft) > 0 && mechanics::is_whole(&draft);
     (linked && is_new(&genome.key()) && genome.build().is_ok()).then_some(genome)
 }
 
