@@ -216,7 +216,7 @@ mod tests {
         for (_, line) in source.sprite_lines() {
             let word = line.name.text.as_str();
             let kept = RESERVED.contains(&word)
-                || text.split(|c: char| !c.is_ascii_alphanumeric()).all(|w| w != word);
+                || text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').all(|w| w != word);
             assert!(kept || word.len() < 3, "{name}: {word} is told\n{text}");
         }
         assert!(!text.contains('#') && !text.contains("img="), "{name}\n{text}");
