@@ -142,8 +142,8 @@ mod tests {
             (0..count).map(|i| f64::from(u8::from(i % every == 0))).collect::<Vec<f64>>()
         });
         let found = bootstrap_difference(&ours, &theirs, 4000, 0.95, [4; 32]).unwrap();
-        let (p, q) = (134.0 / 400.0, 0.5);
-        let half = 1.96 * ((p * (1.0 - p) / 400.0 + q * (1.0 - q) / 100.0) as f64).sqrt();
+        let (p, q): (f64, f64) = (134.0 / 400.0, 0.5);
+        let half = 1.96 * (p * (1.0 - p) / 400.0 + q * (1.0 - q) / 100.0).sqrt();
         assert!((found.low - (p - q - half)).abs() < 0.012, "{found:?}");
         assert!((found.high - (p - q + half)).abs() < 0.012, "{found:?}");
         assert_eq!(bootstrap_difference(&ours, &[], 10, 0.95, [0; 32]), None);
