@@ -4,8 +4,8 @@ use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameValidator};
 use crate::ladder::{Fared, Ladder};
 use crate::verdict::{Finding, Verdict};
-use engine::Outcome;
-use statistics::Z95;
+use engine::{Episode, Outcome};
+use statistics::{Interval, Z95};
 
 /// Over all levels together, the strongest player of the ladder wins more often than the best of those who do not look ahead,
 /// and so does the strongest of those held out: by a margin that even the lower end of the 95 % interval of the difference
@@ -20,11 +20,19 @@ pub struct SkillOverall {
 }
 
 /// Wins and plays of one player on all levels.
+#[derive(Clone)]
 struct Total {
     player: String,
     looks_ahead: bool,
     wins: u64,
     plays: u64,
+}
+
+impl Total {
+    /// By how much more it wins, as an interval.
+    fn above(&self, floor: &Total) -> Interval {
+        statistics::difference([self.wins, floor.wins], [self.plays, floor.plays], Z95)
+    }
 }
 
 impl GameValidator for SkillOverall {
@@ -37,29 +45,15 @@ impl GameValidator for SkillOverall {
         let Some(ladders) = ladders.filter(|ladders| !ladders.is_empty()) else {
             return Verdict::Unknown { spent: 0 }.into();
         };
-        let rungs = totals(&ladders, |ladder| &ladder.rungs);
-        let held_out = totals(&ladders, |ladder| &ladder.held_out);
-        let Some(floor) = strongest(rungs.iter().filter(|total| !total.looks_ahead)) else {
-            return Verdict::Unknown { spent: 0 }.into();
-        };
-        let won = |episodes: &[engine::Episode]| episodes.iter().any(|played| played.outcome == Outcome::Won);
+        let won = |episodes: &[Episode]| episodes.iter().any(|played| played.outcome == Outcome::Won);
         let planned =
             case.game.is_deterministic() && case.recording.iter().all(|recorded| won(recorded.episodes));
-        let knows = planned.then(|| Total {
-            player: "who knows the way".to_owned(),
-            looks_ahead: true,
-            wins: floor.plays,
-            plays: floor.plays,
-        });
-        let climbing = rungs.iter().filter(|total| total.looks_ahead);
-        let sides = [strongest(climbing.chain(&knows)), strongest(held_out.iter().chain(&knows))];
-        let mut evidence = Vec::new();
-        let mut least = f64::INFINITY;
-        for total in sides {
-            let Some(total) = total else { return Verdict::Unknown { spent: 0 }.into() };
-            let interval = statistics::difference([total.wins, floor.wins], [total.plays, floor.plays], Z95);
-            least = least.min(interval.low);
-            evidence.push(Evidence::new(format!(
+        let Some((floor, sides)) = sides(&ladders, planned) else {
+            return Verdict::Unknown { spent: 0 }.into();
+        };
+        let evidence = sides.iter().map(|total| {
+            let interval = total.above(&floor);
+            Evidence::new(format!(
                 "on all levels {} wins {} of {}, {} {} of {} (95 %: {:+.0} to {:+.0} points)",
                 total.player,
                 total.wins,
@@ -69,8 +63,10 @@ impl GameValidator for SkillOverall {
                 floor.plays,
                 100.0 * interval.low,
                 100.0 * interval.high,
-            )));
-        }
+            ))
+        });
+        let evidence: Vec<Evidence> = evidence.collect();
+        let least = sides.iter().map(|total| total.above(&floor).low).fold(f64::INFINITY, f64::min);
         let verdict = if least >= self.wins {
             Verdict::pass()
         } else {
@@ -82,6 +78,32 @@ impl GameValidator for SkillOverall {
         };
         Finding::from(verdict).seen(evidence)
     }
+}
+
+impl SkillOverall {
+    /// Whether the first levels of a game leave it little hope: even the upper end of the interval is below the margin. `planned`
+    /// tells of a deterministic game of which each of these levels has a win.
+    pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool) -> bool {
+        sides(ladders, planned)
+            .is_some_and(|(floor, sides)| sides.iter().any(|total| total.above(&floor).high < self.wins))
+    }
+}
+
+/// The best of those who do not look ahead; the strongest of the ladder, and of those held out. None if there is no such player.
+fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
+    let rungs = totals(ladders, |ladder| &ladder.rungs);
+    let held_out = totals(ladders, |ladder| &ladder.held_out);
+    let floor = strongest(rungs.iter().filter(|total| !total.looks_ahead))?.clone();
+    let knows = planned.then(|| Total {
+        player: "who knows the way".to_owned(),
+        looks_ahead: true,
+        wins: floor.plays,
+        plays: floor.plays,
+    });
+    let climbing = rungs.iter().filter(|total| total.looks_ahead);
+    let sides =
+        [strongest(climbing.chain(&knows))?.clone(), strongest(held_out.iter().chain(&knows))?.clone()];
+    Some((floor, sides))
 }
 
 /// How each player fared on all levels; all ladders have the same players.

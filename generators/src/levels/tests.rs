@@ -230,9 +230,12 @@ fn as_many_are_placed_as_asked_for() {
         let count = |symbol: u8| level.cells().iter().filter(|&&cell| cell == symbol).count();
         assert_eq!((count(b'c'), count(b'$')), (crates, coins), "\n{level}");
     }
-    let config = LevelConfig { counts: vec![(named("coin"), 900)], ..LevelConfig::default() };
-    let refused = ConstructiveLevels::new(&game, config).unwrap().generate(Seed::from_text("asked"));
-    assert!(matches!(refused, Err(GenerateError::Unlucky(why)) if why.contains("900 of coin")));
+    let coins = |count| LevelConfig { counts: vec![(named("coin"), count)], ..LevelConfig::default() };
+    let refused = ConstructiveLevels::new(&game, coins(160)).unwrap().generate(Seed::from_text("asked"));
+    assert!(matches!(refused, Err(GenerateError::Unlucky(why)) if why.contains("160 of coin")));
+    // More than the largest board has cells: no seed is asked.
+    let refused = ConstructiveLevels::new(&game, coins(900)).map(|_| ());
+    assert!(matches!(refused, Err(GenerateError::Unsuitable(why)) if why.contains("900 sprites")));
 }
 
 /// A golden vector: if it moves, GENERATION must be bumped.

@@ -6,7 +6,7 @@ use crate::recipe::Board;
 use engine::{Digest, Episode, Game, Level, Seed};
 use generators::Generator;
 use generators::levels::{ConstructiveLevels, LevelConfig};
-use validators::{Criteria, Finding, Judgement, Panel, Rate, Report, mcts_rate};
+use validators::{Criteria, Finding, Judgement, Panel, Rate, Report, SkillOverall, mcts_rate};
 
 /// A level that its judges let in.
 #[derive(Clone, Debug)]
@@ -21,6 +21,8 @@ pub struct FoundLevel {
     pub difficulty: f64,
     /// Which candidate for its place it was, counted from 0.
     pub candidate: u32,
+    /// Where its judges' dice come from.
+    pub(crate) seed: Seed,
 }
 
 /// The levels of a game, and what was found of all of them together.
@@ -63,7 +65,13 @@ impl Levels<'_> {
         for number in ends.chain(1..self.count.max(1) - 1) {
             let taken: Vec<Digest> = levels.iter().map(|(_, found)| found.level.digest()).collect();
             match self.level(game, number, &taken, tally) {
-                Some(level) => levels.push((number, level)),
+                Some(level) => {
+                    levels.push((number, level));
+                    if self.is_hopeless(game, &levels) {
+                        tally.game_rejected("skill-overall");
+                        return None;
+                    }
+                }
                 None => {
                     tally.game_rejected(&format!("no level {number}"));
                     return None;
@@ -72,6 +80,15 @@ impl Levels<'_> {
         }
         levels.sort_by_key(|(number, _)| *number);
         Some(levels.into_iter().map(|(_, level)| level).collect())
+    }
+
+    /// Whether skill cannot be hoped to pay over all levels, after the first of them: before the others cost as much again.
+    fn is_hopeless(&self, game: &Game, levels: &[(u32, FoundLevel)]) -> bool {
+        let ladders: Vec<_> = levels.iter().filter_map(|(_, found)| found.report.ladder()).collect();
+        let skill = SkillOverall { wins: self.criteria.skill_overall };
+        self.criteria.asks("skill-overall")
+            && levels.len() > 1
+            && skill.is_hopeless(&ladders, game.is_deterministic())
     }
 
     /// What the judges of the game find; None if one of them says no.
@@ -96,14 +113,13 @@ impl Levels<'_> {
     }
 
     /// A level that was found for another game, in which all that was played ends as in this one: judged again, but for the
-    /// ladder, whose plays are carried over.
+    /// ladder, whose plays are carried over. The dice are the same, so that what is played again ends as it did.
     pub(crate) fn again(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
-        let seed = self.seed.child("again", 0).child(&level.digest().to_string(), 0);
         let ask = self.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
         let panel = Panel::new(&Criteria { ask, ..self.criteria.clone() });
         let (place, mut carried) = ((found.difficulty, found.candidate), found.report.judgements.clone());
-        let mut found = self.judged(&panel, game, level, place, seed, tally)?;
+        let mut found = self.judged(&panel, game, level, place, found.seed, tally)?;
         carried.retain(|judgement| PLAYED.contains(&judgement.criterion));
         for judgement in &mut carried {
             for episode in &mut judgement.finding.episodes {
@@ -162,7 +178,7 @@ impl Levels<'_> {
         let witness = report.witness.as_ref().filter(|_| obstacle.is_none())?;
         let mcts = mcts_rate(game, &level, witness, self.criteria, seed.child("mcts verdict", 0));
         tally.calls(mcts.calls);
-        Some(FoundLevel { level, report, mcts, difficulty, candidate })
+        Some(FoundLevel { level, report, mcts, difficulty, candidate, seed })
     }
 }
 

@@ -24,7 +24,9 @@ const TICKS: usize = 400;
 /// The greatest share of plays that those who do not look ahead may win.
 const LUCK: f64 = 0.1;
 /// The least share that somebody who looks ahead has to win, more than they do.
-const EDGE: f64 = 0.4;
+const EDGE: f64 = 0.3;
+/// Levels that somebody has to win.
+const WON: f64 = 2.0;
 /// Interactions of a won play, guards apart, that are enough.
 const MECHANICS: f64 = 6.0;
 /// Ticks of foresight that are enough.
@@ -102,7 +104,7 @@ impl<'a> Looker<'a> {
         let edge = ((best - floor) / EDGE).clamp(0.0, 1.0);
         let run = |episode: &&Episode| episode.outcome == Outcome::Won;
         let won = played.iter().filter(|played| played.episodes.iter().any(|e| run(&e))).count();
-        let constraints = [drawn, lucky, edge, won as f64 / DIFFICULTIES.len() as f64];
+        let constraints = [drawn, lucky, edge, (won as f64 / WON).min(1.0)];
         let objective = 0.35 * (best - floor).max(0.0)
             + 0.25 * (measures.mechanics as f64 / MECHANICS).min(1.0)
             + 0.15 * (1.0 - (best - CHALLENGE).abs() / CHALLENGE)

@@ -61,7 +61,7 @@ impl GameOrder {
     /// search is given up early: there are others.
     pub fn criteria_by_default() -> Criteria {
         Criteria {
-            budget: 600_000,
+            budget: 400_000,
             random_wins: 0.075,
             skill_wins: 0.4,
             skill_overall: 0.32,
