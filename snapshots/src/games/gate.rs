@@ -1,14 +1,16 @@
 //! The last word on a game: levels for it, what it can do without, and the panel.
 
 use super::candidate::{Candidate, MadeGame};
-use super::levels::{FoundLevels, Levels};
+use super::levels::{FoundLevel, FoundLevels, Levels};
 use super::order::GameOrder;
 use super::shrink::shrunk;
 use crate::mint::Tally;
-use engine::Seed;
+use engine::{Analysis, Game, Seed};
 use generators::games::GameGenome;
-use validators::Panel;
+use std::collections::BTreeSet;
+use validators::game_measures::Guards;
 use validators::novelty::{GameForm, NEAR};
+use validators::{Panel, used_rules};
 
 /// Judges games for good, with dice that no search has seen.
 pub(super) struct Gate<'a> {
@@ -19,6 +21,8 @@ pub(super) struct Gate<'a> {
     panel: Panel,
 }
 
+/// Why a game is turned down in which too little happens.
+const MEAGRE: &str = "meagre";
 /// Why a game is turned down that is too much like another.
 pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
@@ -47,6 +51,10 @@ impl<'a> Gate<'a> {
             tally.game_rejected(NEAR_KNOWN);
             return None;
         }
+        if interactions(&first.game) < self.order.least_interactions {
+            tally.game_rejected(MEAGRE);
+            return None;
+        }
         let levels = Levels {
             count: self.order.levels,
             tries: self.order.level_tries,
@@ -71,7 +79,16 @@ impl<'a> Gate<'a> {
             tally.game_rejected(NEAR_KNOWN);
             return None;
         }
-        let together = levels.together(&candidate.game, &found, tally)?;
+        if interactions(&candidate.game) < self.order.least_interactions
+            || mechanics(&candidate.game, &found) < self.order.least_mechanics
+        {
+            tally.game_rejected(MEAGRE);
+            return None;
+        }
+        // What a second look with other dice does not find would not be found by others either.
+        levels.together(&candidate.game, &found, seed.child("second look", 0), tally)?;
+        let together =
+            levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
         let made = candidate.finish(FoundLevels { levels: found, together }, self.canary);
         if made.is_some() {
             tally.game_accepted();
@@ -83,4 +100,16 @@ impl<'a> Gate<'a> {
         let form = GameForm::of(&candidate.game);
         form.nearest(self.known).is_some_and(|(_, apart)| apart < NEAR)
     }
+}
+
+fn interactions(game: &Game) -> usize {
+    game.description().interactions.len()
+}
+
+/// The interactions that the wins of the levels execute, guards apart.
+fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
+    let guards: BTreeSet<usize> = Guards::of(&Analysis::of(game)).lines().collect();
+    let won = levels.iter().filter_map(|found| Some((&found.level, found.report.witness.as_ref()?)));
+    let used: BTreeSet<usize> = won.flat_map(|(level, witness)| used_rules(game, level, witness)).collect();
+    used.difference(&guards).count()
 }

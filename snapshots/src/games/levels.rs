@@ -53,7 +53,7 @@ impl Levels<'_> {
     /// game does not meet a criterion on all of them together.
     pub(crate) fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
         let levels = self.each(game, tally)?;
-        let together = self.together(game, &levels, tally)?;
+        let together = self.together(game, &levels, self.seed.child("judges of the game", 0), tally)?;
         Some(FoundLevels { levels, together })
     }
 
@@ -96,11 +96,11 @@ impl Levels<'_> {
         &self,
         game: &Game,
         levels: &[FoundLevel],
+        seed: Seed,
         tally: &mut Tally,
     ) -> Option<Vec<Judgement>> {
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|found| (found.level.clone(), found.report.clone())).unzip();
-        let seed = self.seed.child("judges of the game", 0);
         let together = self.panel.judge_together(game, &boards, &reports, seed);
         tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
         match together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {

@@ -20,6 +20,10 @@ pub struct GameOrder {
     pub level_tries: u32,
     /// How large levels are.
     pub board: Board,
+    /// Interactions that a game has at least, after shrinking, guards included.
+    pub least_interactions: usize,
+    /// Different interactions, guards apart, that the wins of its levels execute together, at least.
+    pub least_mechanics: usize,
     /// What each game must show. See [`GameOrder::criteria_by_default`].
     pub criteria: Criteria,
     /// How much is tried.
@@ -51,6 +55,8 @@ impl GameOrder {
             levels: 5,
             level_tries: 8,
             board: Board::default(),
+            least_interactions: 7,
+            least_mechanics: 3,
             criteria: GameOrder::criteria_by_default(),
             effort: GameEffort { attempts, looks: 24, batch: 4 },
         }
@@ -58,10 +64,12 @@ impl GameOrder {
 
     /// All criteria of a release, but stricter where chance has a say, so that judges with other dice find the same: random
     /// keys win 3 of 40 episodes at most instead of 8, and skill pays by 32 points instead of 25. What is hard to win for a
-    /// search is given up early: there are others.
+    /// search, or hard to show, is given up early: there are others.
     pub fn criteria_by_default() -> Criteria {
         Criteria {
             budget: 400_000,
+            idle_plays: 24,
+            ablation_calls: 100_000,
             random_wins: 0.075,
             skill_wins: 0.4,
             skill_overall: 0.32,
