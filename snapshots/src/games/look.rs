@@ -34,6 +34,9 @@ const SIGHT: f64 = 24.0;
 /// The share of plays that the best player wins where a game is neither too easy nor too hard.
 const CHALLENGE: f64 = 0.75;
 
+/// How much of each constraint a game has to meet to be shown to the judges: levels, little luck, an edge, wins.
+const PROMISING: [f64; 4] = [1.0, 0.75, 0.5, 0.5];
+
 /// Looks at games for one order, cheaply: three levels, few and weak players.
 pub(super) struct Looker<'a> {
     order: &'a GameOrder,
@@ -44,6 +47,8 @@ pub(super) struct Looker<'a> {
 pub(super) struct Look {
     /// What the search is told.
     pub(super) evaluation: Evaluation,
+    /// Whether it is worth the judges' while: it need not be feasible, since they know stronger players.
+    pub(super) is_promising: bool,
     /// Forward-model calls.
     pub(super) calls: u64,
 }
@@ -110,7 +115,10 @@ impl<'a> Looker<'a> {
             + 0.15 * (1.0 - (best - CHALLENGE).abs() / CHALLENGE)
             + 0.15 * (measures.sight / SIGHT).min(1.0)
             + 0.1 * measures.drama;
-        Look::of(constraints, objective.clamp(0.0, 1.0), place(measures.pace), calls)
+        let look = Look::of(constraints, objective.clamp(0.0, 1.0), place(measures.pace), calls);
+        // What is left to nobody's chance may be a puzzle, and too deep for the players of a look.
+        let is_puzzle = game.is_deterministic() && drawn >= 1.0 && floor <= LUCK;
+        Look { is_promising: look.is_promising || is_puzzle, ..look }
     }
 
     fn play(&self, analysis: &Analysis, difficulty: f64, seed: Seed) -> Option<Played> {
@@ -138,6 +146,7 @@ impl<'a> Looker<'a> {
 impl Look {
     fn of(constraints: [f64; 4], objective: f64, measures: Vec<f64>, calls: u64) -> Look {
         let feasibility = constraints.iter().sum::<f64>() / constraints.len() as f64;
-        Look { evaluation: Evaluation { feasibility, objective, measures }, calls }
+        let is_promising = constraints.iter().zip(PROMISING).all(|(met, least)| *met >= least);
+        Look { evaluation: Evaluation { feasibility, objective, measures }, is_promising, calls }
     }
 }

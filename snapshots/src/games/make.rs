@@ -134,11 +134,11 @@ impl Maker<'_> {
         for attempt in from..self.order.effort.attempts {
             let seed = seed.child("attempt", u64::from(attempt));
             let proposed: Vec<GameGenome> = match self.order.method {
-                Method::Constructive => variation.create(seed.child("rules", 0)).into_iter().collect(),
+                Method::Constructive => self.drawn(&variation, seed, &mut attempted).into_iter().collect(),
                 _ => self.searched(&variation, seed.child("search", 0), &mut attempted),
             };
             if proposed.is_empty() {
-                attempted.tally.game_rejected("no rules");
+                attempted.tally.game_rejected("look");
             }
             for (at, genome) in (0..).zip(&proposed) {
                 let made = self.gate.judge(genome, attempt, seed.child("judges", at), &mut attempted.tally);
@@ -158,6 +158,14 @@ impl Maker<'_> {
         let mut kinds = self.order.kinds.clone();
         self.seed.child("kinds", 0).sampler().shuffle(&mut kinds);
         kinds[number as usize % kinds.len()]
+    }
+
+    /// A game as it is drawn, if a look promises something.
+    fn drawn(&self, variation: &GameVariation, seed: Seed, attempted: &mut Attempted) -> Option<GameGenome> {
+        let genome = variation.create(seed.child("rules", 0))?;
+        let look = Looker::new(self.order, seed.child("look", 0)).look(&genome);
+        attempted.note(&look);
+        look.is_promising.then_some(genome)
     }
 
     /// The best games of a search that starts from constructive ones.
