@@ -49,6 +49,7 @@ fn a_puzzle_and_a_flight_measure_as_they_play() {
     assert_eq!((jars.chance, jars.drama, jars.lead_changes), (0.0, 0.0, 0.0), "{jars:?}");
     // Jars are pushed, and fall quiet.
     assert!(jars.mechanics >= 2, "{jars:?}");
-    assert!(bog.pace > jars.pace && bog.drama > 0.3, "{jars:?} {bog:?}");
+    // Something moves in most ticks of the bog, and nobody can be sure where to; of the jars only what is pushed does.
+    assert!(bog.pace > 0.5 && bog.chance > 0.1 && bog.drama > 0.3, "{bog:?}");
     assert!(bog.density < jars.density, "{jars:?} {bog:?}");
 }

@@ -60,8 +60,8 @@ impl Levels<'_> {
     /// All levels, from the easiest asked for to the hardest; None as soon as one cannot be had.
     pub(crate) fn each(&self, game: &Game, tally: &mut Tally) -> Option<Vec<FoundLevel>> {
         let mut levels: Vec<(u32, FoundLevel)> = Vec::new();
-        // The hardest may be too hard, and the easiest too easy: what is to fail should fail soon.
-        let ends = [self.count - 1, 0].into_iter().take(self.count as usize);
+        // The easiest may be too easy, and the hardest too hard: what is to fail should fail soon.
+        let ends = [0, self.count - 1].into_iter().take(self.count as usize);
         for number in ends.chain(1..self.count.max(1) - 1) {
             let taken: Vec<Digest> = levels.iter().map(|(_, found)| found.level.digest()).collect();
             match self.level(game, number, &taken, tally) {
@@ -86,9 +86,7 @@ impl Levels<'_> {
     fn is_hopeless(&self, game: &Game, levels: &[(u32, FoundLevel)]) -> bool {
         let ladders: Vec<_> = levels.iter().filter_map(|(_, found)| found.report.ladder()).collect();
         let skill = SkillOverall { wins: self.criteria.skill_overall };
-        self.criteria.asks("skill-overall")
-            && levels.len() > 1
-            && skill.is_hopeless(&ladders, game.is_deterministic())
+        self.criteria.asks("skill-overall") && skill.is_hopeless(&ladders, game.is_deterministic())
     }
 
     /// What the judges of the game find; None if one of them says no.
