@@ -64,9 +64,9 @@ pub(crate) struct Args {
 fn kind(text: &str) -> Result<Kind, String> {
     let names = || Kind::ALL.iter().map(|kind| kind.name());
     Kind::ALL.iter().copied().find(|kind| kind.name() == text).ok_or_else(|| {
-        let near = engine::nearest(text, names());
-        let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-        format!("there is no such kind{help} There are {}", names().collect::<Vec<_>>().join(", "))
+        let all = || format!("there are {}", names().collect::<Vec<_>>().join(", "));
+        let help = engine::nearest(text, names()).map_or_else(all, |near| format!("did you mean `{near}`?"));
+        format!("there is no such kind; {help}")
     })
 }
 
