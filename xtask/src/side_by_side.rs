@@ -165,7 +165,8 @@ mod tests {
     #[test]
     fn levels_are_spread_over_all() {
         let game = Game::from_source(
-            "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n  TerminationSet\n    Timeout limit=9 win=False\n",
+            "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n  LevelMapping\n  InteractionSet\n    \
+             avatar EOS > stepBack\n  TerminationSet\n    Timeout limit=9 win=False\n",
         );
         let game = game.unwrap();
         let levels: Vec<Level> =
