@@ -77,7 +77,7 @@ pub use geometry::{Direction, Rect};
 pub use hash::{SearchKey, StateHash};
 pub use level::Level;
 pub use limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SOURCE, MAX_SPRITES, MAX_TICKS, MAX_WORK};
-pub use observe::{Category, Observation, SpriteRecord};
+pub use observe::{Category, Observation, SeenAvatar, SpriteRecord};
 pub use ontology::class::SpriteClass;
 pub use ontology::effects::{NAMES as EFFECTS, ParameterKind, effect_parameters};
 pub use ontology::terminations::NAMES as TERMINATIONS;

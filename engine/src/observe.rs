@@ -22,6 +22,21 @@ pub struct Observation {
     pub cells: Vec<Vec<String>>,
     /// What the avatar holds, by name of the resource.
     pub resources: Vec<(String, i32)>,
+    /// The player's avatar, whatever its type is called; none once it is gone.
+    pub avatar: Option<SeenAvatar>,
+}
+
+/// What a player is shown of the avatar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeenAvatar {
+    /// The name of its type, which may change as it transforms.
+    pub name: String,
+    /// The column of the cell that holds its middle, from 0 at the left; outside the board while it is outside.
+    pub column: i32,
+    /// The row of the cell that holds its middle, from 0 at the top.
+    pub row: i32,
+    /// Where it faces.
+    pub facing: Direction,
 }
 
 /// Everything about one sprite that a golden trace records.
@@ -114,7 +129,21 @@ impl Game {
         }
         let resources = self.held_by_avatar(state);
         let (ticks, score, outcome) = ((state.tick + 1) as u32, state.score(), state.outcome);
-        Observation { ticks, score, outcome, columns, rows, cells, resources }
+        let avatar = self.seen_avatar(state);
+        Observation { ticks, score, outcome, columns, rows, cells, resources, avatar }
+    }
+
+    /// Where the avatar is and what it is, if there is one and it lives. Cost: O(1).
+    pub fn seen_avatar(&self, state: &State) -> Option<SeenAvatar> {
+        let stype = state.avatar_type()?;
+        let sprite = state.sprite(state.avatar);
+        let cell = |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.block.max(1));
+        Some(SeenAvatar {
+            name: self.name(stype).to_owned(),
+            column: cell(sprite.rect.x, sprite.rect.w),
+            row: cell(sprite.rect.y, sprite.rect.h),
+            facing: sprite.orientation,
+        })
     }
 
     /// What the avatar holds: names of resources, sorted, with their amounts.

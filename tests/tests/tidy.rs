@@ -20,7 +20,11 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("validators", &["engine", "agents", "statistics"]),
     ("snapshots", &["engine", "agents", "generators", "validators", "statistics"]),
     ("render", &["engine"]),
-    ("cli", &["engine", "agents", "generators", "validators", "snapshots", "statistics", "render"]),
+    ("evaluation", &["engine", "agents", "render", "statistics"]),
+    (
+        "cli",
+        &["engine", "agents", "generators", "validators", "snapshots", "statistics", "render", "evaluation"],
+    ),
     ("xtask", &["engine", "agents", "generators", "validators", "snapshots", "render", "statistics"]),
 ];
 
@@ -37,7 +41,7 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("indicatif", &["cli"]),
     ("ratatui", &["cli"]),
     ("miette", &["cli"]),
-    ("minijinja", &["cli"]),
+    ("minijinja", &["cli", "evaluation"]),
     ("anyhow", &["cli", "xtask"]),
 ];
 

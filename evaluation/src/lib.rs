@@ -1,0 +1,19 @@
+//! Language models and other players on games: what they are shown, what they answer, what is recorded and measured.
+//!
+//! A [`Subject`] is a game with its levels. An [`Agent`] is shown a [`Turn`], never a state, and answers with a
+//! [`Choice`]; what it says and is told on the way goes into the [`Journal`] of the episode, an append-only log of
+//! [`Event`]s from which every metric is recomputed and by which the episode replays bit for bit. A model is reached
+//! through [`client::Model`].
+
+pub mod client;
+mod error;
+pub mod log;
+pub mod player;
+mod subject;
+mod turn;
+
+pub use error::EvaluationError;
+pub use log::{Event, Journal};
+pub use player::{Agent, Choice, Halt, Validity};
+pub use subject::{Subject, SubjectFacts, SubjectLevel, Unreadable};
+pub use turn::{Before, Turn};

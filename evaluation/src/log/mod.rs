@@ -1,0 +1,7 @@
+//! The log of an episode: one event a line, appended as it happens.
+
+mod event;
+mod journal;
+
+pub use event::{Event, Reply, ReplyClass, SCHEMA, Status, without_times};
+pub use journal::{Journal, read};

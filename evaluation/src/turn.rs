@@ -1,0 +1,35 @@
+//! What a player is shown at one decision.
+
+use crate::subject::Subject;
+use engine::{Action, Observation};
+
+/// What a player is shown at one decision: what stands for the whole episode, and the state that the action will be
+/// played on. Never the state itself: with that a player could look into the future.
+#[derive(Clone, Copy, Debug)]
+pub struct Turn<'a> {
+    /// The game. A player reads its rules; the levels are not for it.
+    pub subject: &'a Subject,
+    /// The number of the level, for logs.
+    pub level: usize,
+    /// Decisions before this one.
+    pub number: u64,
+    /// Decisions of the episode at most.
+    pub limit: u64,
+    /// What is seen now.
+    pub observation: &'a Observation,
+    /// What is seen was brought about by this action, and by what it gained; none at the first decision.
+    pub before: Option<Before<'a>>,
+    /// The actions that can be chosen, [`Action::Nil`] first.
+    pub actions: &'a [Action],
+}
+
+/// The decision before.
+#[derive(Clone, Copy, Debug)]
+pub struct Before<'a> {
+    /// What was seen then.
+    pub observation: &'a Observation,
+    /// What was played.
+    pub action: Action,
+    /// By how much the score has changed.
+    pub reward: f64,
+}
