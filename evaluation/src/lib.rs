@@ -9,11 +9,13 @@ pub mod client;
 mod error;
 pub mod log;
 pub mod player;
+pub mod run;
 mod subject;
 mod turn;
 
 pub use error::EvaluationError;
 pub use log::{Event, Journal};
-pub use player::{Agent, Choice, Halt, Validity};
+pub use player::{Agent, Choice, Contestant, Halt, Validity};
+pub use run::{Entrant, Evaluation, Settings};
 pub use subject::{Subject, SubjectFacts, SubjectLevel, Unreadable};
 pub use turn::{Before, Turn};

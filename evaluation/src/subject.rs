@@ -21,29 +21,28 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// A game and its levels from their texts, each level with its proved shortest win, if there is one. Their numbers are
-    /// those of their places.
+    /// A game and its levels from their texts: each level with its number and the ticks of its proved shortest win, if there
+    /// is one. The taxonomy is derived from the rules where `facts` has none.
     ///
     /// # Errors
     /// The game, or else the first level with problems, does not compile: its problems.
     pub fn read(
         id: &str,
         source: &str,
-        levels: &[(String, Option<usize>)],
-        title: &str,
+        levels: &[(usize, String, Option<usize>)],
+        mut facts: SubjectFacts,
     ) -> Result<Subject, Unreadable> {
         let game = Game::from_source(source).map_err(|problems| Unreadable { level: None, problems })?;
         let analysis = Analysis::of(&game);
-        let read = |(number, (text, optimal_ticks)): (usize, &(String, Option<usize>))| {
+        let read = |(number, text, optimal_ticks): &(usize, String, Option<usize>)| {
             let level = game.level(text);
-            let level = level.map_err(|problems| Unreadable { level: Some(number), problems })?;
-            Ok(SubjectLevel { number, text: text.clone(), level, optimal_ticks: *optimal_ticks })
+            let level = level.map_err(|problems| Unreadable { level: Some(*number), problems })?;
+            Ok(SubjectLevel { number: *number, text: text.clone(), level, optimal_ticks: *optimal_ticks })
         };
-        let levels = levels.iter().enumerate().map(read).collect::<Result<_, _>>()?;
-        let facts = SubjectFacts {
-            title: title.to_owned(),
-            taxonomy: describe::Guide::from_analysis(&analysis).kind,
-        };
+        let levels = levels.iter().map(read).collect::<Result<_, _>>()?;
+        if facts.taxonomy.is_empty() {
+            facts.taxonomy = describe::Guide::from_analysis(&analysis).kind;
+        }
         Ok(Subject { id: id.to_owned(), source: source.to_owned(), game, analysis, levels, facts })
     }
 }

@@ -91,9 +91,6 @@ pub enum Event {
         reason: String,
         /// In words.
         message: String,
-        /// The tries that failed.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        failures: Vec<Failure>,
     },
     /// The last line.
     End {
@@ -181,7 +178,6 @@ pub fn without_times(event: &Event) -> Event {
             reply.failures.iter_mut().for_each(|failure| failure.waited_ms = 0);
         }
         Event::Step { took_ms, .. } => *took_ms = 0.0,
-        Event::Halt { failures, .. } => failures.iter_mut().for_each(|failure| failure.waited_ms = 0),
         _ => {}
     }
     event

@@ -12,8 +12,8 @@ pub struct Journal {
     path: PathBuf,
     file: Option<File>,
     events: Vec<Event>,
-    /// Events before this one have been played.
-    played: usize,
+    /// The events of the step that is being decided: from here, to there if it has been decided before.
+    step: (usize, Option<usize>),
 }
 
 impl Journal {
@@ -26,12 +26,12 @@ impl Journal {
         let file = OpenOptions::new().create(true).append(true).open(path);
         let file = file.map_err(EvaluationError::io("open", path))?;
         file.set_len(sound).map_err(EvaluationError::io("mend", path))?;
-        Ok(Journal { path: path.to_owned(), file: Some(file), events, played: 0 })
+        Ok(Journal { path: path.to_owned(), file: Some(file), events, step: (0, None) })
     }
 
     /// A log that is kept in memory only.
     pub fn in_memory() -> Journal {
-        Journal { path: PathBuf::new(), file: None, events: Vec::new(), played: 0 }
+        Journal { path: PathBuf::new(), file: None, events: Vec::new(), step: (0, None) }
     }
 
     /// Appends an event.
@@ -53,15 +53,31 @@ impl Journal {
         &self.events
     }
 
-    /// Events of the step that is being decided: those after the last step that was played. After an interruption they
-    /// may hold requests and replies already.
+    /// Events of the step that is being decided, its [`Event::Step`] not among them. After an interruption there may be
+    /// requests and replies already.
     pub fn pending(&self) -> &[Event] {
-        &self.events[self.played..]
+        let (from, to) = self.step;
+        &self.events[from..to.unwrap_or(self.events.len())]
     }
 
-    /// The events before this number are of steps that have been played.
-    pub fn set_played(&mut self, events: usize) {
-        self.played = events;
+    /// Which events [`pending`](Journal::pending) gives: from this number, to that one or to the last.
+    pub(crate) fn set_step(&mut self, from: usize, to: Option<usize>) {
+        self.step = (from, to);
+    }
+
+    /// Starts the log anew.
+    pub(crate) fn clear(&mut self) -> Result<(), EvaluationError> {
+        if let Some(file) = &self.file {
+            file.set_len(0).map_err(EvaluationError::io("empty", &self.path))?;
+        }
+        self.events.clear();
+        self.step = (0, None);
+        Ok(())
+    }
+
+    /// That something is wrong with this log.
+    pub(crate) fn complaint(&self, what: &str) -> EvaluationError {
+        EvaluationError::Malformed(format!("{}: {what}", self.path.display()))
     }
 }
 

@@ -1,6 +1,10 @@
-//! Who plays: agents that are shown turns.
+//! Who plays: planners that see the state, and agents that are shown turns.
 
-use crate::log::Journal;
+mod builtin;
+
+pub use builtin::{Contestant, Replay};
+
+use crate::log::{Event, Journal};
 use crate::turn::Turn;
 use engine::Action;
 use serde::{Deserialize, Serialize};
@@ -63,4 +67,17 @@ pub enum Halt {
     /// The log cannot be written.
     #[error("{0}")]
     Log(String),
+}
+
+impl Halt {
+    /// The line of the log; none where the log itself failed, or nothing happened that is worth telling.
+    pub(crate) fn event(&self) -> Option<Event> {
+        let reason = match self {
+            Halt::Infrastructure(_) => "infrastructure",
+            Halt::Budget(_) => "budget",
+            Halt::Rejected(_) => "rejected",
+            Halt::Interrupted | Halt::Log(_) => return None,
+        };
+        Some(Event::Halt { reason: reason.to_owned(), message: self.to_string() })
+    }
 }

@@ -1,0 +1,18 @@
+//! How long decisions take: recorded beside the results, never part of them.
+
+use std::time::Instant;
+
+/// Runs from its start.
+pub(crate) struct Stopwatch(Instant);
+
+impl Stopwatch {
+    #[expect(clippy::disallowed_methods, reason = "times are recorded, and nothing is decided by them")]
+    pub(crate) fn start() -> Stopwatch {
+        Stopwatch(Instant::now())
+    }
+
+    /// Since the start, ms, to the microsecond.
+    pub(crate) fn milliseconds(&self) -> f64 {
+        self.0.elapsed().as_micros() as f64 / 1000.0
+    }
+}

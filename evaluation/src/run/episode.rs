@@ -1,0 +1,245 @@
+//! One episode, from its first tick or from where it was interrupted to its end.
+
+use crate::error::EvaluationError;
+use crate::log::{Event, Journal, SCHEMA, Status};
+use crate::player::{Choice, Contestant, Halt, Validity};
+use crate::run::clock::Stopwatch;
+use crate::subject::{Subject, SubjectLevel};
+use crate::turn::{Before, Turn};
+use agents::{Planner, Player};
+use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
+
+/// Which episode to play.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// The game.
+    pub subject: &'a Subject,
+    /// The level.
+    pub level: &'a SubjectLevel,
+    /// Which of the episodes on this level.
+    pub run: u64,
+    /// Of the whole evaluation.
+    pub seed: Seed,
+    /// Decisions at most.
+    pub max_steps: u64,
+}
+
+impl Task<'_> {
+    /// The seed of the game's chance hangs on game, level and run only: the same for every player.
+    pub fn chance(&self) -> Seed {
+        let game = self.seed.child(&self.subject.game.digest().to_string(), 0);
+        game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
+    }
+
+    /// The file of its log, in `episodes/`.
+    pub fn file_name(&self) -> String {
+        format!("{}-lvl{}-run{}.jsonl", self.subject.id, self.level.number, self.run)
+    }
+}
+
+/// How an episode was left.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Left {
+    /// It has ended.
+    Ended(Outcome),
+    /// It was broken off.
+    Halted(Halt),
+}
+
+/// Plays an episode to its end, or takes it up where its log ends. Every step that the log holds is played again and its state
+/// hash compared; a planner's interrupted episode starts anew, which costs nothing but time.
+///
+/// # Errors
+/// The log is of another episode, or cannot be written.
+pub fn play(
+    task: &Task<'_>,
+    contestant: &mut Contestant,
+    journal: &mut Journal,
+) -> Result<Left, EvaluationError> {
+    if let Some(Event::End { outcome, .. }) = journal.events().last() {
+        return Ok(Left::Ended(*outcome));
+    }
+    if matches!(contestant, Contestant::Planner { .. }) && !journal.events().is_empty() {
+        journal.clear()?;
+    }
+    let mut play = Playing::start(task, contestant);
+    match journal.events().first() {
+        None => journal.push(play.started())?,
+        Some(first) if *first == play.started() => {}
+        Some(_) => return Err(journal.complaint("this log is of another episode; start in another folder")),
+    }
+    if let Some(halt) = play.take_up(journal)? {
+        return Ok(Left::Halted(halt));
+    }
+    while !play.is_over() {
+        if let Err(halt) = play.decide(journal)? {
+            return Ok(Left::Halted(halt));
+        }
+    }
+    let outcome = play.state.outcome();
+    let status = if play.state.is_over() { Status::Over } else { Status::StepLimit };
+    journal.push(Event::End { status, outcome, score: play.state.score(), steps: play.steps })?;
+    Ok(Left::Ended(outcome))
+}
+
+/// An episode that is being played.
+struct Playing<'a> {
+    task: &'a Task<'a>,
+    contestant: &'a mut Contestant,
+    /// What a planner remembers between decisions.
+    player: Option<Player>,
+    state: State,
+    steps: u64,
+    seen: Observation,
+    /// What was seen before the last action, the action and what it gained.
+    before: Option<(Observation, Action, f64)>,
+}
+
+impl<'a> Playing<'a> {
+    fn start(task: &'a Task<'a>, contestant: &'a mut Contestant) -> Playing<'a> {
+        let state = task.subject.game.start(&task.level.level, task.chance());
+        let player = match contestant {
+            Contestant::Planner { spec, .. } => Some(spec.player(task.chance().child(spec.name(), 0))),
+            Contestant::Agent(_) => None,
+        };
+        let seen = task.subject.game.observe(&state);
+        Playing { task, contestant, player, state, steps: 0, seen, before: None }
+    }
+
+    fn game(&self) -> &'a Game {
+        &self.task.subject.game
+    }
+
+    fn is_over(&self) -> bool {
+        self.state.is_over() || self.steps >= self.task.max_steps
+    }
+
+    /// The first line of the log.
+    fn started(&self) -> Event {
+        let Task { subject, level, run, max_steps, .. } = *self.task;
+        let (game, game_digest) = (subject.id.clone(), subject.game.digest());
+        Event::Start {
+            schema: SCHEMA,
+            semantics: SEMANTICS,
+            game,
+            game_digest,
+            level: level.number,
+            level_digest: level.level.digest(),
+            run,
+            seed: self.task.chance(),
+            max_steps,
+            hash: self.state.state_hash(),
+            avatar: place(&self.seen),
+        }
+    }
+
+    /// Plays the steps that the log holds, and shows them to the agent.
+    fn take_up(&mut self, journal: &mut Journal) -> Result<Option<Halt>, EvaluationError> {
+        journal.set_step(1, None);
+        let mut from = 1;
+        while let Some((at, action, validity)) = step_after(journal.events(), from) {
+            journal.set_step(from, Some(at));
+            let recorded = journal.events()[at].clone();
+            let choice = Choice { action, validity };
+            let (actions, before) = (self.game().actions(&self.state), self.before.take());
+            let turn = turn(self.task, self.steps, &self.seen, &before, actions);
+            if let Contestant::Agent(agent) = &mut *self.contestant
+                && let Err(halt) = agent.recall(&turn, journal, &choice)
+            {
+                return Ok(Some(halt));
+            }
+            let Event::Step { calls, took_ms, .. } = recorded else { unreachable!("it was found as a step") };
+            if self.step(choice, calls, took_ms) != recorded {
+                let step = self.steps - 1;
+                return Err(journal.complaint(&format!(
+                    "step {step} leads elsewhere than recorded; the log is damaged or of another version of the suite"
+                )));
+            }
+            from = at + 1;
+        }
+        journal.set_step(from, None);
+        Ok(None)
+    }
+
+    /// Has the contestant decide, plays it and records it.
+    fn decide(&mut self, journal: &mut Journal) -> Result<Result<(), Halt>, EvaluationError> {
+        let (game, started) = (self.game(), Stopwatch::start());
+        let decided = match (&mut *self.contestant, &mut self.player) {
+            (Contestant::Planner { spec, budget }, Some(player)) => {
+                let budget = spec.budget().unwrap_or(*budget);
+                let (action, calls) = player.plan(game, &self.state, budget);
+                Ok((Choice { action, validity: Validity::Valid }, Some(calls)))
+            }
+            (Contestant::Agent(agent), _) => {
+                let actions = game.actions(&self.state);
+                let turn = turn(self.task, self.steps, &self.seen, &self.before, actions);
+                agent.act(&turn, journal).map(|choice| (choice, None))
+            }
+            (Contestant::Planner { .. }, None) => unreachable!("planners are made at the start"),
+        };
+        match decided {
+            Ok((choice, calls)) => {
+                let event = self.step(choice, calls, started.milliseconds());
+                journal.push(event)?;
+                let played = journal.events().len();
+                journal.set_step(played, None);
+                Ok(Ok(()))
+            }
+            Err(halt) => {
+                if let Some(event) = halt.event() {
+                    journal.push(event)?;
+                }
+                Ok(Err(halt))
+            }
+        }
+    }
+
+    /// Plays an action: the event that records it.
+    fn step(&mut self, choice: Choice, calls: Option<u64>, took_ms: f64) -> Event {
+        let score = self.state.score();
+        self.game().step(&mut self.state, choice.action);
+        let seen = std::mem::replace(&mut self.seen, self.task.subject.game.observe(&self.state));
+        self.before = Some((seen, choice.action, self.state.score() - score));
+        let step = self.steps;
+        self.steps += 1;
+        Event::Step {
+            step,
+            action: choice.action,
+            validity: choice.validity,
+            score: self.state.score(),
+            hash: self.state.state_hash(),
+            outcome: self.state.outcome(),
+            avatar: place(&self.seen),
+            calls,
+            took_ms,
+        }
+    }
+}
+
+fn turn<'a>(
+    task: &'a Task<'a>,
+    number: u64,
+    observation: &'a Observation,
+    before: &'a Option<(Observation, Action, f64)>,
+    actions: &'a [Action],
+) -> Turn<'a> {
+    let before = before.as_ref().map(|(observation, action, reward)| Before {
+        observation,
+        action: *action,
+        reward: *reward,
+    });
+    let (subject, level, limit) = (task.subject, task.level.number, task.max_steps);
+    Turn { subject, level, number, limit, observation, before, actions }
+}
+
+/// The first step at or after this event, with what was played.
+fn step_after(events: &[Event], from: usize) -> Option<(usize, Action, Validity)> {
+    events.iter().enumerate().skip(from).find_map(|(at, event)| match event {
+        Event::Step { action, validity, .. } => Some((at, *action, *validity)),
+        _ => None,
+    })
+}
+
+fn place(seen: &Observation) -> Option<(i32, i32)> {
+    seen.avatar.as_ref().map(|avatar| (avatar.column, avatar.row))
+}

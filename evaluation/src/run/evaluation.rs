@@ -1,0 +1,275 @@
+//! All episodes of an evaluation, some at a time, each with its own log.
+
+use crate::error::EvaluationError;
+use crate::log::{Event, Journal};
+use crate::player::{Contestant, Halt};
+use crate::run::episode::{Left, Task, play};
+use crate::run::settings::{FORMAT, SETTINGS_FILE, Settings, SubjectEntry};
+use crate::subject::Subject;
+use engine::{Outcome, Seed};
+use rayon::prelude::*;
+use serde::Serialize;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// Held by whoever writes into a results folder.
+const LOCK_FILE: &str = ".lock";
+
+/// Episodes in a row that the surroundings may break off before the rest is left for later.
+const FAILURES_IN_A_ROW: u64 = 8;
+
+/// A results folder: `evaluation.json`, `games/` with the texts that were played, `episodes/` with a log each. It holds all
+/// that is needed to compute every metric and to replay every episode.
+#[derive(Debug)]
+pub struct Evaluation {
+    folder: PathBuf,
+    /// What was asked.
+    pub settings: Settings,
+    /// What is played, in the order of the settings.
+    pub subjects: Vec<Subject>,
+    _lock: Option<File>,
+}
+
+/// How far an evaluation is, for people who wait.
+pub trait Progress: Sync {
+    /// An episode was left.
+    fn episode(&self, task: &Task<'_>, left: &Left);
+}
+
+/// How the episodes of an evaluation were left.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Tally {
+    /// Episodes asked for.
+    pub episodes: u64,
+    /// Ended.
+    pub ended: u64,
+    /// Of these, won.
+    pub won: u64,
+    /// Broken off, or not begun because others were.
+    pub open: u64,
+    /// Why the first of them was broken off.
+    pub halted: Option<String>,
+    /// Whether that is the doing of network, server or a player's process, rather than of a cap or of the user.
+    pub infrastructure: bool,
+}
+
+impl Evaluation {
+    /// A new results folder; it must be absent or empty.
+    ///
+    /// # Errors
+    /// It is neither, or cannot be written.
+    pub fn create(
+        folder: &Path,
+        settings: Settings,
+        subjects: Vec<Subject>,
+    ) -> Result<Evaluation, EvaluationError> {
+        fs::create_dir_all(folder).map_err(EvaluationError::io("make", folder))?;
+        let mut entries = fs::read_dir(folder).map_err(EvaluationError::io("list", folder))?;
+        if entries.next().is_some() {
+            return Err(EvaluationError::Malformed(format!(
+                "{}: the folder is not empty; --resume goes on with the evaluation in it, or name another",
+                folder.display()
+            )));
+        }
+        let lock = lock(folder)?;
+        for subject in &subjects {
+            let games = folder.join("games").join(&subject.id);
+            fs::create_dir_all(&games).map_err(EvaluationError::io("make", &games))?;
+            let write = |name: &str, text: &str| {
+                let path = games.join(name);
+                fs::write(&path, text).map_err(EvaluationError::io("write", &path))
+            };
+            write("game.vgdl", &subject.source)?;
+            for level in &subject.levels {
+                write(&format!("lvl{}.txt", level.number), &level.text)?;
+            }
+        }
+        let episodes = folder.join("episodes");
+        fs::create_dir_all(&episodes).map_err(EvaluationError::io("make", &episodes))?;
+        let text = serde_json::to_string_pretty(&settings).expect("settings are plain data");
+        let (partial, path) = (folder.join("evaluation.json.partial"), folder.join(SETTINGS_FILE));
+        fs::write(&partial, text + "\n").map_err(EvaluationError::io("write", &partial))?;
+        fs::rename(&partial, &path).map_err(EvaluationError::io("write", &path))?;
+        Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: Some(lock) })
+    }
+
+    /// The evaluation in a results folder, for going on with it.
+    ///
+    /// # Errors
+    /// It is being written, by another program, or asks for something other than `settings`, or is damaged.
+    pub fn resume(folder: &Path, settings: &Settings) -> Result<Evaluation, EvaluationError> {
+        let lock = lock(folder)?;
+        let mut evaluation = Evaluation::open(folder)?;
+        if let Some(difference) = difference(&evaluation.settings, settings) {
+            return Err(EvaluationError::Malformed(format!(
+                "{}: the evaluation in it was asked for with another {difference}; ask for the same, or start in another folder",
+                folder.display()
+            )));
+        }
+        evaluation._lock = Some(lock);
+        Ok(evaluation)
+    }
+
+    /// The evaluation in a results folder, for reading.
+    ///
+    /// # Errors
+    /// There is none, it is of a newer format, or damaged.
+    pub fn open(folder: &Path) -> Result<Evaluation, EvaluationError> {
+        let path = folder.join(SETTINGS_FILE);
+        let text = fs::read_to_string(&path).map_err(|error| match error.kind() {
+            std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => EvaluationError::Malformed(format!(
+                "{}: no results of an evaluation here (no {SETTINGS_FILE}); `arcade evaluate --out DIR` writes such a folder",
+                folder.display()
+            )),
+            _ => EvaluationError::io("read", &path)(error),
+        })?;
+        let unreadable = |error: serde_json::Error| {
+            EvaluationError::Malformed(format!(
+                "{}: not the settings of an evaluation: {error}",
+                path.display()
+            ))
+        };
+        let value: serde_json::Value = serde_json::from_str(&text).map_err(unreadable)?;
+        let format = value.get("format").and_then(serde_json::Value::as_u64);
+        if let Some(format) = format.filter(|&format| format > u64::from(FORMAT)) {
+            return Err(EvaluationError::Malformed(format!(
+                "{}: results of format {format}; this version of arcade reads up to {FORMAT}: update it",
+                path.display()
+            )));
+        }
+        let settings: Settings = serde_json::from_value(value).map_err(unreadable)?;
+        if let Some(entry) = settings.games.iter().find(|entry| !is_file_name(&entry.id)) {
+            let path = path.display();
+            return Err(EvaluationError::Malformed(format!("{path}: {:?} is no name of a game", entry.id)));
+        }
+        let subjects = settings.games.iter().map(|entry| entry.read(folder)).collect::<Result<_, _>>()?;
+        Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
+    }
+
+    /// The entries that settings list for these subjects.
+    pub fn entries(subjects: &[Subject]) -> Vec<SubjectEntry> {
+        subjects.iter().map(SubjectEntry::of).collect()
+    }
+
+    /// All episodes: run by run, so that an evaluation that is broken off has played every level about equally often.
+    pub fn tasks(&self) -> Vec<Task<'_>> {
+        let Settings { seed, runs, max_steps, .. } = &self.settings;
+        let (seed, max_steps) = (Seed::from_text(seed), *max_steps);
+        let on = |run: u64| {
+            let subjects = self.subjects.iter();
+            subjects.flat_map(move |subject| {
+                subject.levels.iter().map(move |level| Task { subject, level, run, seed, max_steps })
+            })
+        };
+        (0..*runs).flat_map(on).collect()
+    }
+
+    /// The events of an episode so far; empty if it was not begun.
+    ///
+    /// # Errors
+    /// The log cannot be read, or is none.
+    pub fn events(&self, task: &Task<'_>) -> Result<Vec<Event>, EvaluationError> {
+        let path = self.log_path(task);
+        if path.exists() { crate::log::read(&path) } else { Ok(Vec::new()) }
+    }
+
+    fn log_path(&self, task: &Task<'_>) -> PathBuf {
+        self.folder.join("episodes").join(task.file_name())
+    }
+
+    /// Plays what is not played yet, on the threads of the current rayon pool. `contestant` makes the player of an episode.
+    ///
+    /// A cap, a request that the server will not have, and [`FAILURES_IN_A_ROW`] episodes that network or server broke off
+    /// leave the rest open.
+    ///
+    /// # Errors
+    /// A log cannot be read or written.
+    pub fn run(
+        &self,
+        contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
+        progress: &impl Progress,
+    ) -> Result<Tally, EvaluationError> {
+        let (stopped, failures) = (AtomicBool::new(false), AtomicU64::new(0));
+        let first = Mutex::new(None);
+        let tasks = self.tasks();
+        let lefts = tasks.par_iter().map(|task| {
+            if stopped.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            let mut journal = Journal::open(&self.log_path(task))?;
+            let left = match contestant(task) {
+                Ok(mut contestant) => play(task, &mut contestant, &mut journal)?,
+                Err(halt) => Left::Halted(halt),
+            };
+            match &left {
+                Left::Ended(_) => failures.store(0, Ordering::Relaxed),
+                Left::Halted(halt) => {
+                    let many = failures.fetch_add(1, Ordering::Relaxed) + 1 >= FAILURES_IN_A_ROW;
+                    if many || !matches!(halt, Halt::Infrastructure(_)) {
+                        stopped.store(true, Ordering::Relaxed);
+                    }
+                    first.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
+                }
+            }
+            progress.episode(task, &left);
+            Ok(Some(left))
+        });
+        let lefts = lefts.collect::<Result<Vec<Option<Left>>, EvaluationError>>()?;
+        let ended = |won: bool| {
+            let ended = |left: &&Option<Left>| match left {
+                Some(Left::Ended(outcome)) => !won || *outcome == Outcome::Won,
+                _ => false,
+            };
+            lefts.iter().filter(ended).count() as u64
+        };
+        let halted: Option<Halt> = first.into_inner().expect("no holder panics");
+        let (episodes, won, ended) = (tasks.len() as u64, ended(true), ended(false));
+        Ok(Tally {
+            episodes,
+            ended,
+            won,
+            open: episodes - ended,
+            infrastructure: matches!(halted, Some(Halt::Infrastructure(_) | Halt::Rejected(_))),
+            halted: halted.map(|halt| halt.to_string()),
+        })
+    }
+}
+
+/// Keeps others from writing into the folder; the system lets go of it when the program ends, however it ends.
+fn lock(folder: &Path) -> Result<File, EvaluationError> {
+    let path = folder.join(LOCK_FILE);
+    let file = File::create(&path).map_err(EvaluationError::io("make", &path))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(fs::TryLockError::WouldBlock) => Err(EvaluationError::Malformed(format!(
+            "{}: another `arcade evaluate` is writing into it; wait for it, or name another folder",
+            folder.display()
+        ))),
+        Err(fs::TryLockError::Error(error)) => Err(EvaluationError::io("lock", &path)(error)),
+    }
+}
+
+/// The first field in which two evaluations differ.
+fn difference(recorded: &Settings, asked: &Settings) -> Option<String> {
+    let fields = |settings: &Settings| serde_json::to_value(settings).expect("settings are plain data");
+    let (recorded, asked) = (fields(recorded), fields(asked));
+    let (recorded, asked) = (recorded.as_object()?, asked.as_object()?);
+    let differs = |name: &&String| recorded.get(*name) != asked.get(*name);
+    recorded.keys().chain(asked.keys()).find(differs).map(|name| match name.as_str() {
+        "entrant" => "player, model, prompt or decoding".to_owned(),
+        "games" => "choice of games or levels".to_owned(),
+        "max_steps" => "--max-steps".to_owned(),
+        "runs" | "seed" => format!("--{name}"),
+        "suite" | "semantics" => "version of arcade".to_owned(),
+        other => other.to_owned(),
+    })
+}
+
+/// Whether an id from a results folder stays inside it.
+fn is_file_name(id: &str) -> bool {
+    !id.is_empty()
+        && !id.starts_with('.')
+        && id.chars().all(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | ' '))
+}

@@ -1,0 +1,10 @@
+//! Whole evaluations: a results folder of settings, games and the logs of all episodes.
+
+pub(crate) mod clock;
+mod episode;
+mod evaluation;
+mod settings;
+
+pub use episode::{Left, Task, play};
+pub use evaluation::{Evaluation, Progress, Tally};
+pub use settings::{Entrant, FORMAT, LevelEntry, SETTINGS_FILE, Settings, SubjectEntry};
