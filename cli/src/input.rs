@@ -120,9 +120,15 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     })
 }
 
-/// Finds games: what [`game`] finds, and all games in a folder of such folders.
+/// The word for all corpus games, where there is no folder of that name.
+const CORPUS: &str = "corpus";
+
+/// Finds games: what [`game`] finds, all games in a folder of such folders, and `corpus`: all games of the corpus.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
+    if name == CORPUS && !path.exists() {
+        return embedded::corpus()?.games.iter().map(|known| game(&known.name)).collect();
+    }
     if !path.is_dir() {
         return Ok(vec![game(name)?]);
     }

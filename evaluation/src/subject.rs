@@ -32,7 +32,8 @@ impl Subject {
         levels: &[(usize, String, Option<usize>)],
         mut facts: SubjectFacts,
     ) -> Result<Subject, Unreadable> {
-        let game = Game::from_source(source).map_err(|problems| Unreadable { level: None, problems })?;
+        let load = if facts.as_reference { Game::from_source_as_reference } else { Game::from_source };
+        let game = load(source).map_err(|problems| Unreadable { level: None, problems })?;
         let analysis = Analysis::of(&game);
         let read = |(number, text, optimal_ticks): &(usize, String, Option<usize>)| {
             let level = game.level(text);
@@ -77,4 +78,7 @@ pub struct SubjectFacts {
     pub title: String,
     /// What kind of game it is, a sentence for each side of the taxonomy (`engine::describe::Guide::kind`).
     pub taxonomy: Vec<String>,
+    /// Whether its faults are overlooked as the reference engine does.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub as_reference: bool,
 }

@@ -173,7 +173,7 @@ fn the_surroundings_are_not_the_players_fault() {
 }
 
 fn refusal(result: Result<Evaluation, EvaluationError>) -> String {
-    result.err().expect("refused").to_string()
+    result.expect_err("refused").to_string()
 }
 
 #[test]

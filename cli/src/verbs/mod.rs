@@ -2,6 +2,7 @@
 
 pub(crate) mod conformance;
 pub(crate) mod describe;
+pub(crate) mod evaluate;
 pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod play;

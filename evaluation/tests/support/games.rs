@@ -13,6 +13,6 @@ pub(crate) const LEVELS: [&str; 2] =
 pub(crate) fn corridor() -> Subject {
     let levels: Vec<_> =
         LEVELS.iter().enumerate().map(|(number, text)| (number, (*text).to_owned(), None)).collect();
-    let facts = SubjectFacts { title: "The corridor".to_owned(), taxonomy: Vec::new() };
+    let facts = SubjectFacts { title: "The corridor".to_owned(), ..SubjectFacts::default() };
     Subject::read("corridor", CORRIDOR, &levels, facts).expect("the game is well-formed")
 }
