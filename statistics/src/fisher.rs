@@ -6,7 +6,7 @@
 
 /// How much more likely than the observed table another one may seem and still count as equally likely: beyond rounding,
 /// below any true difference between tables of counts that fit in memory.
-const SAME: f64 = 1.0 + 1e-7;
+pub(crate) const SAME: f64 = 1.0 + 1e-7;
 
 /// The two-sided p-value of `successes` among `trials` in each of two groups: the probability, the totals being what they
 /// are, of a table no more likely than this one.
@@ -22,35 +22,50 @@ const SAME: f64 = 1.0 + 1e-7;
 /// assert!((statistics::fisher([16, 4], [25, 25]) - 0.001208589982).abs() < 1e-11);
 /// ```
 pub fn fisher(successes: [u64; 2], trials: [u64; 2]) -> f64 {
-    for (k, n) in successes.into_iter().zip(trials) {
-        assert!(k <= n, "{k} successes in {n} trials");
-    }
-    let won = successes[0] + successes[1];
-    // A table is told by the successes of the first group; the others follow from the totals.
-    let (first, last) = (won.saturating_sub(trials[1]), won.min(trials[0]));
-    // The ratio of the next table's probability to this one's.
-    let ratio = |k: u64| {
-        let up = (trials[0] - k) as f64 * (won - k) as f64;
-        let down = (k + 1) as f64 * (trials[1] + k + 1 - won) as f64;
-        up / down
-    };
-    let mode = (first..last).find(|&k| ratio(k) < 1.0).unwrap_or(last);
-    // Weights relative to the likeliest table: none overflows, and what underflows adds nothing.
-    let mut weights = vec![1.0; (last - first + 1) as usize];
-    for k in mode..last {
-        weights[(k + 1 - first) as usize] = weights[(k - first) as usize] * ratio(k);
-    }
-    for k in (first..mode).rev() {
-        weights[(k - first) as usize] = weights[(k + 1 - first) as usize] / ratio(k);
-    }
-    let observed = weights[(successes[0] - first) as usize] * SAME;
-    let total = ascending(weights.iter().copied());
-    let extreme = ascending(weights.iter().copied().filter(|&weight| weight <= observed));
+    let tables = Tables::of(successes, trials);
+    let observed = tables.weights[(successes[0] - tables.first) as usize] * SAME;
+    let total = ascending(tables.weights.iter().copied());
+    let extreme = ascending(tables.weights.iter().copied().filter(|&weight| weight <= observed));
     (extreme / total).min(1.0)
 }
 
+/// All tables with the same totals. A table is told by the successes of the first group; the others follow.
+pub(crate) struct Tables {
+    /// The fewest successes that the first group can have.
+    pub(crate) first: u64,
+    /// How likely each further one is, relative to the likeliest: none overflows, and what underflows adds nothing.
+    pub(crate) weights: Vec<f64>,
+}
+
+impl Tables {
+    /// # Panics
+    /// If a group has more successes than trials.
+    pub(crate) fn of(successes: [u64; 2], trials: [u64; 2]) -> Tables {
+        for (k, n) in successes.into_iter().zip(trials) {
+            assert!(k <= n, "{k} successes in {n} trials");
+        }
+        let won = successes[0] + successes[1];
+        let (first, last) = (won.saturating_sub(trials[1]), won.min(trials[0]));
+        // The ratio of the next table's probability to this one's.
+        let ratio = |k: u64| {
+            let up = (trials[0] - k) as f64 * (won - k) as f64;
+            let down = (k + 1) as f64 * (trials[1] + k + 1 - won) as f64;
+            up / down
+        };
+        let mode = (first..last).find(|&k| ratio(k) < 1.0).unwrap_or(last);
+        let mut weights = vec![1.0; (last - first + 1) as usize];
+        for k in mode..last {
+            weights[(k + 1 - first) as usize] = weights[(k - first) as usize] * ratio(k);
+        }
+        for k in (first..mode).rev() {
+            weights[(k - first) as usize] = weights[(k + 1 - first) as usize] / ratio(k);
+        }
+        Tables { first, weights }
+    }
+}
+
 /// The sum from the smallest value up, which loses least to rounding.
-fn ascending(values: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn ascending(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);
     values.iter().sum()

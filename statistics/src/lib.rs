@@ -1,7 +1,8 @@
-//! Statistics for win rates and scores: intervals, tests, corrections and summaries that are the same bits on every machine.
+//! Statistics for win rates and scores: intervals, tests, corrections and summaries, the same bits on every machine but for what is named below.
 //!
 //! Depends on nothing of ours. Only `+ - * /` and square roots are used, in a stated order; what is drawn is drawn from
-//! ChaCha8 with the caller's seed.
+//! ChaCha8 with the caller's seed. The exceptions are for reports only: the p-values of [`student_p`], [`correlation_p`] and
+//! [`welch()`] and the sizes of [`Power`] come from a library's distributions, whose last digits may differ between machines.
 //!
 //! ```
 //! use statistics::{Summary, Z95, wilson};
@@ -12,19 +13,33 @@
 //! ```
 
 mod bootstrap;
+mod clustered;
+mod cohen;
 mod correction;
 mod difference;
 mod fisher;
+mod pearson;
+mod power;
 mod quantile;
 mod spearman;
+mod stratified;
+mod student;
 mod summary;
+mod welch;
 mod wilson;
 
 pub use bootstrap::{bootstrap, bootstrap_difference};
-pub use correction::benjamini_hochberg;
+pub use clustered::{clustered_difference, clustered_mean};
+pub use cohen::cohens_h;
+pub use correction::{benjamini_hochberg, bonferroni};
 pub use difference::difference;
 pub use fisher::fisher;
+pub use pearson::{correlation_p, pearson};
+pub use power::{Power, fisher_power};
 pub use quantile::quantile;
 pub use spearman::spearman;
+pub use stratified::{Stratified, Stratum, stratified};
+pub use student::student_p;
 pub use summary::Summary;
+pub use welch::{Welch, welch};
 pub use wilson::{Interval, Z95, wilson};

@@ -1,0 +1,179 @@
+//! How many episodes does it take to see a difference of win rates? To be asked before the run: with five episodes a side
+//! nothing but five against none can be told apart.
+//!
+//! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral Sciences*, 1988, §6.4);
+//! [`fisher_power`] adds up all tables, for the test that is then made. Fisher's test is the more cautious, above all at few
+//! trials.
+
+use crate::cohen::{angle, cohens_h};
+use crate::fisher::fisher;
+use statrs::function::erf::erfc_inv;
+
+/// What is asked of a comparison of two win rates with as many trials on each side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Power {
+    /// How often a difference may be seen where there is none, by a two-sided test: usually 0.05.
+    pub alpha: f64,
+    /// How often a difference that is there has to be seen: usually 0.8.
+    pub power: f64,
+}
+
+impl Default for Power {
+    fn default() -> Power {
+        Power { alpha: 0.05, power: 0.8 }
+    }
+}
+
+impl Power {
+    /// The smallest Cohen's h that `trials` a side show; above π, nothing does. Infinite without trials.
+    ///
+    /// ```
+    /// // 25 episodes a side show differences of h = 0.79, about 0.1 against 0.44.
+    /// let h = statistics::Power::default().detectable_h(25);
+    /// assert!((h - 0.7924).abs() < 1e-4);
+    /// ```
+    pub fn detectable_h(&self, trials: u64) -> f64 {
+        self.deviations() * (2.0 / trials as f64).sqrt()
+    }
+
+    /// The rates nearest to `base`, below and above, that `trials` a side tell from it; `None` where there is none.
+    ///
+    /// # Panics
+    /// If `base` is no proportion.
+    ///
+    /// ```
+    /// let [worse, better] = statistics::Power::default().detectable(25, 0.1);
+    /// assert_eq!(worse, None);
+    /// assert!((better.unwrap() - 0.4328).abs() < 1e-3);
+    /// ```
+    pub fn detectable(&self, trials: u64, base: f64) -> [Option<f64>; 2] {
+        let (h, base) = (self.detectable_h(trials), angle(base));
+        [base - h, base + h].map(|angle| {
+            let sine = libm::sin(angle / 2.0);
+            (0.0..=std::f64::consts::PI).contains(&angle).then_some(sine * sine)
+        })
+    }
+
+    /// The trials a side that tell `p` from `q`; `None` if they are equal.
+    ///
+    /// # Panics
+    /// If one is no proportion.
+    ///
+    /// ```
+    /// assert_eq!(statistics::Power::default().needed(0.5, 0.7), Some(93));
+    /// ```
+    pub fn needed(&self, p: f64, q: f64) -> Option<u64> {
+        let h = cohens_h(p, q);
+        let ratio = self.deviations() / h;
+        (h != 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
+    }
+
+    /// The standard deviations between no difference and one that is seen as often as asked.
+    fn deviations(&self) -> f64 {
+        quantile(1.0 - self.alpha / 2.0) + quantile(self.power)
+    }
+}
+
+/// How often [`fisher`] gives at most `alpha`, if two players with win rates `rates` play `trials` episodes each. Cost: cubic in
+/// the trials; a few hundred are fine.
+///
+/// # Panics
+/// If a rate is no proportion.
+///
+/// ```
+/// // Five episodes a side: even a player who always wins is told from one of 0.2 only in 74 of 100 evaluations.
+/// let power = statistics::fisher_power([1.0, 0.2], [5, 5], 0.05);
+/// assert!((power - 0.73728).abs() < 1e-12);
+/// ```
+pub fn fisher_power(rates: [f64; 2], trials: [u64; 2], alpha: f64) -> f64 {
+    let [ours, theirs] = [0, 1].map(|side: usize| binomial(rates[side], trials[side]));
+    let mut seen = 0.0;
+    for (a, chance) in ours.iter().enumerate() {
+        for (b, other) in theirs.iter().enumerate() {
+            if chance * other > 0.0 && fisher([a as u64, b as u64], trials) <= alpha {
+                seen += chance * other;
+            }
+        }
+    }
+    seen.min(1.0)
+}
+
+/// The probabilities of 0 to `trials` successes.
+fn binomial(rate: f64, trials: u64) -> Vec<f64> {
+    assert!((0.0..=1.0).contains(&rate), "{rate} is no proportion");
+    let mut chances = vec![1.0];
+    for _ in 0..trials {
+        let next = |k: usize| {
+            let won = if k > 0 { chances[k - 1] * rate } else { 0.0 };
+            won + chances.get(k).map_or(0.0, |chance| chance * (1.0 - rate))
+        };
+        chances = (0..=chances.len()).map(next).collect();
+    }
+    chances
+}
+
+/// The quantile of the normal distribution.
+fn quantile(share: f64) -> f64 {
+    -std::f64::consts::SQRT_2 * erfc_inv(2.0 * share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Z95;
+
+    #[test]
+    fn quantiles() {
+        assert!((quantile(0.975) - Z95).abs() < 1e-12);
+        assert!((quantile(0.8) - 0.8416212335729143).abs() < 1e-12);
+        assert!(quantile(0.5).abs() < 1e-15);
+    }
+
+    /// Cohen's table 6.4.1: at 5 %, two-sided, with a power of 0.8.
+    #[test]
+    fn published_sizes() {
+        let ask = Power::default();
+        for (h, expect) in [(0.2, 392.0), (0.5, 63.0), (0.8, 25.0), (1.0, 16.0)] {
+            let ratio = ask.deviations() / h;
+            assert_eq!((2.0 * ratio * ratio).round(), expect, "{h}");
+        }
+    }
+
+    #[test]
+    fn sizes_and_differences_agree() {
+        let ask = Power { alpha: 0.01, power: 0.9 };
+        for base in [0.0, 0.1, 0.5, 0.97] {
+            for other in ask.detectable(40, base).into_iter().flatten() {
+                let needed = ask.needed(base, other).unwrap();
+                assert!((40..=41).contains(&needed), "{base} and {other}: {needed}");
+            }
+        }
+        assert_eq!(ask.detectable(3, 0.5), [None, None]);
+        assert_eq!(ask.needed(0.4, 0.4), None);
+        assert_eq!(ask.detectable_h(0), f64::INFINITY);
+    }
+
+    /// All against nothing is the only thing that five a side show, besides four against none and five against one.
+    #[test]
+    fn five_a_side() {
+        assert_eq!(fisher_power([1.0, 0.0], [5, 5], 0.05), 1.0);
+        let (p, q): (f64, f64) = (0.9, 0.1);
+        let (five, four) = (p * p * p * p * p, 5.0 * p * p * p * p * q);
+        let expect = five * (five + four) + four * five;
+        // And the mirror image, where the worse one is lucky.
+        let (none, one) = (q * q * q * q * q, 5.0 * q * q * q * q * p);
+        let expect = expect + none * (none + one) + one * none;
+        let found = fisher_power([p, q], [5, 5], 0.05);
+        assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
+    }
+
+    /// What the arcsine says is what Fisher's test needs, but for its caution.
+    #[test]
+    fn the_approximation_is_near() {
+        for (p, q) in [(0.1, 0.4), (0.5, 0.7), (0.05, 0.2)] {
+            let needed = Power::default().needed(p, q).unwrap();
+            let found = fisher_power([p, q], [needed, needed], 0.05);
+            assert!((0.65..0.82).contains(&found), "{p} and {q} at {needed}: {found}");
+        }
+    }
+}
