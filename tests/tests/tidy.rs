@@ -43,6 +43,7 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("miette", &["cli"]),
     ("minijinja", &["cli", "evaluation"]),
     ("anyhow", &["cli", "xtask"]),
+    ("ureq", &["evaluation"]),
 ];
 
 /// The longest a Rust file may be, in lines.

@@ -1,0 +1,174 @@
+//! Answers that were paid for once, in a folder, a file each.
+
+use super::chat::{ChatReply, ChatRequest};
+use super::provider::Provider;
+use crate::error::EvaluationError;
+use engine::{Digest, Seed};
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A folder of answers. Several programs may use it at once.
+#[derive(Debug)]
+pub(super) struct Cache {
+    folder: PathBuf,
+    written: AtomicU64,
+}
+
+/// A file of the cache.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    key: Digest,
+    /// Of the reply's JSON.
+    check: Digest,
+    reply: ChatReply,
+}
+
+/// What tells answers apart.
+///
+/// All that reaches the server does: provider, URL, and the body byte by byte, in which are the model, the conversation
+/// and the decoding as they are sent; so a client that asks in another way asks something else. And the draw
+/// ([`ChatRequest::sample`]): whoever asks the same thing twice at a temperature wants two answers, and gets the same two
+/// when everything is run again. At temperature 0 there is only one answer to be had, and all draws share it. The key of
+/// the account is not in it, nor are time limits and caps, which change no answer.
+pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequest) -> Digest {
+    let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 cached reply");
+    let mut add = |part: &[u8]| {
+        hasher.update(&(part.len() as u64).to_le_bytes());
+        hasher.update(part);
+    };
+    add(provider.name().as_bytes());
+    add(url.as_bytes());
+    add(body);
+    let greedy = request.decoding.temperature == Some(0.0);
+    add(if greedy { &[] } else { Seed::as_bytes(&request.sample) });
+    Digest::from_bytes(*hasher.finalize().as_bytes())
+}
+
+impl Cache {
+    /// The cache in this folder, which is made if there is none.
+    ///
+    /// # Errors
+    /// Nothing can be written there.
+    pub(super) fn open(folder: &Path) -> Result<Cache, EvaluationError> {
+        fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
+        let cache = Cache { folder: folder.to_owned(), written: AtomicU64::new(0) };
+        let probe = cache.scratch();
+        fs::write(&probe, "")
+            .and_then(|()| fs::remove_file(&probe))
+            .map_err(EvaluationError::io("write to", folder))?;
+        Ok(cache)
+    }
+
+    /// The answer, if it is there and sound.
+    pub(super) fn get(&self, key: Digest) -> Option<ChatReply> {
+        let entry: Entry = serde_json::from_slice(&fs::read(self.path(key)).ok()?).ok()?;
+        (entry.key == key && entry.check == check(&entry.reply)).then_some(entry.reply)
+    }
+
+    /// Keeps an answer. One that cannot be written is not kept: the disk may be full, but the answer is there.
+    pub(super) fn put(&self, key: Digest, reply: &ChatReply) {
+        let reply = ChatReply { failures: Vec::new(), ..reply.clone() };
+        let entry = Entry { key, check: check(&reply), reply };
+        let bytes = serde_json::to_vec(&entry).expect("replies are plain data");
+        let (scratch, path) = (self.scratch(), self.path(key));
+        let folder = path.parent().expect("entries lie in a folder");
+        let kept = fs::create_dir_all(folder).and_then(|()| fs::write(&scratch, bytes));
+        if kept.and_then(|()| fs::rename(&scratch, &path)).is_err() {
+            let _ = fs::remove_file(&scratch);
+        }
+    }
+
+    /// Entries are spread over folders by the first two digits of their keys: there may be a million.
+    fn path(&self, key: Digest) -> PathBuf {
+        let name = key.to_string();
+        self.folder.join(&name[..2]).join(format!("{name}.json"))
+    }
+
+    /// A file that no other thread or program writes.
+    fn scratch(&self) -> PathBuf {
+        let number = self.written.fetch_add(1, Ordering::Relaxed);
+        self.folder.join(format!("{}-{number}.partial", std::process::id()))
+    }
+}
+
+fn check(reply: &ChatReply) -> Digest {
+    Digest::of(&serde_json::to_vec(reply).expect("replies are plain data"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::client::chat::{ChatMessage, Decoding, Finish, Role, Usage};
+
+    fn request(temperature: Option<f64>, sample: &str) -> ChatRequest {
+        let messages = vec![ChatMessage { role: Role::User, text: "Hi".to_owned(), image: None }];
+        let decoding = Decoding { temperature, ..Decoding::default() };
+        ChatRequest { messages, decoding, sample: Seed::from_text(sample) }
+    }
+
+    fn reply() -> ChatReply {
+        ChatReply {
+            text: "Action: 2 é \u{1}".to_owned(),
+            reasoning: None,
+            finish: Finish::Stop,
+            usage: Usage { input_tokens: Some(3), ..Usage::default() },
+            served_by: Some("m".to_owned()),
+            failures: Vec::new(),
+            latency_ms: 0.1,
+            cached: false,
+        }
+    }
+
+    #[test]
+    fn keys() {
+        let of = |url: &str, body: &str, request: &ChatRequest| {
+            key(Provider::OpenAi, url, body.as_bytes(), request)
+        };
+        let warm = request(Some(0.7), "a");
+        let base = of("u", "b", &warm);
+        assert_ne!(base, of("u", "b", &request(Some(0.7), "b")), "two draws are two answers");
+        assert_ne!(base, of("v", "b", &warm));
+        assert_ne!(base, of("u", "c", &warm));
+        assert_ne!(of("ub", "", &warm), of("u", "b", &warm));
+        assert_ne!(base, key(Provider::Compatible, "u", b"b", &warm));
+        let unset = of("u", "b", &request(None, "a"));
+        assert_ne!(unset, of("u", "b", &request(None, "b")), "the provider's default is not 0");
+        let cold = |sample| of("u", "b", &request(Some(0.0), sample));
+        assert_eq!(cold("a"), cold("b"), "there is one answer at temperature 0");
+    }
+
+    #[test]
+    fn what_is_put_is_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::open(&folder.path().join("new/cache")).unwrap();
+        let key = Digest::of(b"key");
+        assert_eq!(cache.get(key), None);
+        cache.put(key, &reply());
+        assert_eq!(cache.get(key), Some(reply()));
+        assert_eq!(cache.get(Digest::of(b"other")), None);
+        let left = fs::read_dir(&cache.folder).unwrap().count();
+        assert_eq!(left, 1, "no scratch files are left");
+    }
+
+    #[test]
+    fn what_is_corrupt_is_not_there_and_written_anew() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::open(folder.path()).unwrap();
+        let key = Digest::of(b"key");
+        cache.put(key, &reply());
+        let sound = fs::read_to_string(cache.path(key)).unwrap();
+        for corrupt in ["", &sound[..sound.len() / 2], &sound.replace("Action: 2", "Action: 3"), "{}"] {
+            fs::write(cache.path(key), corrupt).unwrap();
+            assert_eq!(cache.get(key), None, "{corrupt}");
+            cache.put(key, &reply());
+            assert_eq!(cache.get(key), Some(reply()));
+        }
+        let elsewhere = cache.path(Digest::of(b"other"));
+        fs::create_dir_all(elsewhere.parent().unwrap()).unwrap();
+        fs::copy(cache.path(key), &elsewhere).unwrap();
+        assert_eq!(cache.get(Digest::of(b"other")), None, "an answer to another question");
+    }
+}

@@ -1,0 +1,290 @@
+//! Caps on what an evaluation may spend, shared by all its threads.
+
+use super::chat::Usage;
+use super::estimate::{Estimate, text_tokens};
+use super::prices::{Price, Usd};
+use crate::log::Event;
+use std::sync::{Mutex, MutexGuard};
+
+/// What may be spent; what is `None` is not limited.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limits {
+    /// Money, by the table of prices.
+    pub cost: Option<Usd>,
+    /// Tokens, of prompts and answers.
+    pub tokens: Option<u64>,
+    /// Requests that are answered. The tries of one request count once.
+    pub requests: Option<u64>,
+}
+
+/// What has been spent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Spent {
+    /// Requests that were answered.
+    pub requests: u64,
+    /// Tokens of prompts and answers.
+    pub tokens: u64,
+    /// Money, as far as prices are known.
+    pub cost: Usd,
+}
+
+/// Keeps an evaluation within its limits.
+///
+/// A request is let through if its prompt, the prompts under way and what has been spent stay within all limits
+/// together. It is charged once, by what its reply says; where a reply does not say, by our own count of its words. What
+/// answers will cost is not known before: a limit can be exceeded by the answers under way when it is met. Tries that
+/// failed are not charged, because nobody tells what they cost.
+#[derive(Debug)]
+pub struct Caps {
+    limits: Limits,
+    price: Option<Price>,
+    ledger: Mutex<Ledger>,
+}
+
+#[derive(Debug, Default)]
+struct Ledger {
+    spent: Spent,
+    /// Requests under way, with their prompts.
+    reserved: Spent,
+}
+
+impl Caps {
+    /// Caps at these limits, for a model of this price, if it is known.
+    pub fn new(limits: Limits, price: Option<Price>) -> Caps {
+        Caps { limits, price, ledger: Mutex::default() }
+    }
+
+    /// The limits.
+    pub fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    /// What has been spent so far; requests under way are not in it.
+    pub fn spent(&self) -> Spent {
+        self.ledger().spent
+    }
+
+    /// Charges what the log of an episode says was paid before the program was started again. Answers from the cache
+    /// cost nothing.
+    pub fn charge_past(&self, events: &[Event]) {
+        let mut prompt = 0;
+        for event in events {
+            match event {
+                Event::Request { tokens, .. } => prompt = *tokens,
+                Event::Reply(reply) if !reply.cached => {
+                    let charge = self.charge(&reply.usage, prompt, &reply.text, reply.reasoning.as_deref());
+                    let mut ledger = self.ledger();
+                    ledger.spent = ledger.spent.plus(charge);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Lets a request with a prompt of about so many tokens through.
+    ///
+    /// # Errors
+    /// A limit forbids it: which.
+    pub(super) fn reserve(&self, prompt: u64) -> Result<Reservation<'_>, String> {
+        let usage = Usage { input_tokens: Some(prompt), output_tokens: Some(0), ..Usage::default() };
+        let cost = self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default();
+        let share = Spent { requests: 1, tokens: prompt, cost };
+        let mut ledger = self.ledger();
+        let reserved = ledger.reserved.plus(share);
+        if let Some(problem) = self.limits.forbid(&ledger.spent.plus(reserved)) {
+            return Err(format!(
+                "the next request would exceed {problem}; {} so far",
+                ledger.spent.in_words()
+            ));
+        }
+        ledger.reserved = reserved;
+        drop(ledger);
+        Ok(Reservation { caps: self, share, prompt })
+    }
+
+    fn charge(&self, usage: &Usage, prompt: u64, text: &str, reasoning: Option<&str>) -> Spent {
+        let counted = || text_tokens(text) + reasoning.map_or(0, text_tokens);
+        let usage = Usage {
+            input_tokens: usage.input_tokens.or(Some(prompt)),
+            output_tokens: usage.output_tokens.or_else(|| Some(counted())),
+            ..*usage
+        };
+        let told = [usage.input_tokens, usage.output_tokens];
+        Spent {
+            requests: 1,
+            tokens: told.into_iter().flatten().fold(0, u64::saturating_add),
+            cost: self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default(),
+        }
+    }
+
+    fn ledger(&self) -> MutexGuard<'_, Ledger> {
+        self.ledger.lock().expect("nothing panics while it holds the ledger")
+    }
+}
+
+impl Limits {
+    /// Which limit this much would exceed, in words.
+    fn forbid(&self, spent: &Spent) -> Option<String> {
+        if let Some(limit) = self.cost.filter(|limit| spent.cost > *limit) {
+            return Some(format!("--max-cost {limit}"));
+        }
+        if let Some(limit) = self.tokens.filter(|limit| spent.tokens > *limit) {
+            return Some(format!("--max-tokens {limit}"));
+        }
+        let limit = self.requests.filter(|limit| spent.requests > *limit)?;
+        Some(format!("--max-requests {limit}"))
+    }
+
+    /// Which limit a whole evaluation would exceed by its estimate, in words; the answer of a dry run.
+    pub fn forbid_estimate(&self, estimate: &Estimate) -> Option<String> {
+        let tokens = estimate.input_tokens.saturating_add(estimate.output_tokens);
+        self.forbid(&Spent { requests: estimate.requests, tokens, cost: estimate.cost.unwrap_or_default() })
+    }
+}
+
+impl Spent {
+    fn plus(self, other: Spent) -> Spent {
+        Spent {
+            requests: self.requests.saturating_add(other.requests),
+            tokens: self.tokens.saturating_add(other.tokens),
+            cost: self.cost.plus(other.cost),
+        }
+    }
+
+    fn minus(self, other: Spent) -> Spent {
+        Spent {
+            requests: self.requests.saturating_sub(other.requests),
+            tokens: self.tokens.saturating_sub(other.tokens),
+            cost: self.cost.minus(other.cost),
+        }
+    }
+
+    fn in_words(&self) -> String {
+        format!("{} requests, {} tokens, {}", self.requests, self.tokens, self.cost)
+    }
+}
+
+/// A request under way. Dropped without a charge, it cost nothing.
+#[derive(Debug)]
+#[must_use]
+pub(super) struct Reservation<'a> {
+    caps: &'a Caps,
+    share: Spent,
+    prompt: u64,
+}
+
+impl Reservation<'_> {
+    /// Charges what the reply says.
+    pub(super) fn settle(mut self, usage: &Usage, text: &str, reasoning: Option<&str>) {
+        let charge = self.caps.charge(usage, self.prompt, text, reasoning);
+        // At once, so that nobody sees the request both under way and paid.
+        let share = std::mem::take(&mut self.share);
+        let mut ledger = self.caps.ledger();
+        ledger.reserved = ledger.reserved.minus(share);
+        ledger.spent = ledger.spent.plus(charge);
+    }
+}
+
+impl Drop for Reservation<'_> {
+    fn drop(&mut self) {
+        let mut ledger = self.caps.ledger();
+        ledger.reserved = ledger.reserved.minus(self.share);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::client::chat::Finish;
+    use crate::log::{Reply, ReplyClass};
+
+    fn price() -> Price {
+        Price { input: 1.0, cached_input: 0.5, cache_write: 1.0, output: 10.0, as_of: String::new() }
+    }
+
+    fn usage(input: u64, output: u64) -> Usage {
+        Usage { input_tokens: Some(input), output_tokens: Some(output), ..Usage::default() }
+    }
+
+    #[test]
+    fn each_limit_forbids() {
+        let check = |limits: Limits, words: &str| {
+            let caps = Caps::new(limits, Some(price()));
+            caps.reserve(100).unwrap().settle(&usage(100, 10), "", None);
+            let problem = caps.reserve(100).unwrap_err();
+            assert!(
+                problem.contains(words) && problem.contains("1 requests, 110 tokens, $0.0002"),
+                "{problem}"
+            );
+        };
+        check(Limits { requests: Some(1), ..Limits::default() }, "--max-requests 1");
+        check(Limits { tokens: Some(209), ..Limits::default() }, "--max-tokens 209");
+        check(Limits { cost: Usd::from_dollars(0.000299), ..Limits::default() }, "--max-cost $0.0003");
+        let caps = Caps::new(Limits { tokens: Some(210), ..Limits::default() }, None);
+        caps.reserve(100).unwrap().settle(&usage(100, 10), "", None);
+        caps.reserve(100).unwrap().settle(&usage(100, 0), "", None);
+        assert_eq!(caps.spent(), Spent { requests: 2, tokens: 210, cost: Usd::default() });
+    }
+
+    #[test]
+    fn requests_under_way_count_until_they_fail() {
+        let caps = Caps::new(Limits { requests: Some(1), ..Limits::default() }, None);
+        let reservation = caps.reserve(5).unwrap();
+        assert!(caps.reserve(5).is_err());
+        drop(reservation);
+        assert_eq!(caps.spent(), Spent::default());
+        assert!(caps.reserve(5).is_ok());
+    }
+
+    #[test]
+    fn what_a_reply_does_not_say_is_counted() {
+        let caps = Caps::new(Limits::default(), Some(price()));
+        caps.reserve(50).unwrap().settle(&Usage::default(), "Action: up, I say", None);
+        let spent = caps.spent();
+        assert!(spent.tokens > 50 && spent.tokens < 60 && spent.cost > Usd::default(), "{spent:?}");
+    }
+
+    #[test]
+    fn the_past_is_charged_as_it_was() {
+        let reply = |cached| {
+            Event::Reply(Reply {
+                step: 0,
+                attempt: 0,
+                class: ReplyClass::Strict,
+                text: "up".to_owned(),
+                reasoning: None,
+                action: None,
+                stage: None,
+                finish: Finish::Stop,
+                usage: usage(100, 10),
+                served_by: None,
+                failures: Vec::new(),
+                cached,
+                latency_ms: 0.0,
+            })
+        };
+        let request = || Event::Request { step: 0, attempt: 0, messages: Vec::new(), tokens: 90 };
+        let first = Caps::new(Limits::default(), Some(price()));
+        first.reserve(90).unwrap().settle(&usage(100, 10), "up", None);
+        let again = Caps::new(Limits::default(), Some(price()));
+        again.charge_past(&[request(), reply(false), request(), reply(true), request()]);
+        assert_eq!(again.spent(), first.spent());
+    }
+
+    #[test]
+    fn threads_do_not_spend_past_the_limit() {
+        let caps = Caps::new(Limits { requests: Some(10), ..Limits::default() }, None);
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..10 {
+                        if let Ok(reservation) = caps.reserve(1) {
+                            reservation.settle(&usage(1, 1), "", None);
+                        }
+                    }
+                });
+            }
+        });
+        assert_eq!(caps.spent(), Spent { requests: 10, tokens: 20, cost: Usd::default() });
+    }
+}

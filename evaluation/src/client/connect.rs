@@ -1,0 +1,259 @@
+//! From what a user asks for to a model that answers.
+
+use super::cache::Cache;
+use super::caps::{Caps, Limits};
+use super::chat::{Decoding, Model};
+use super::clock::{Clock, SystemClock};
+use super::key::{Key, environment};
+use super::pace::Pace;
+use super::prices::{Price, Prices};
+use super::provider::Provider;
+use super::remote::Remote;
+use super::spec::ModelSpec;
+use super::wire::Wire;
+use crate::error::EvaluationError;
+use engine::Digest;
+use serde::{Deserialize, Serialize};
+use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// What a user asks for. No key is in it: keys are read from the environment.
+#[derive(Clone, Debug)]
+pub struct ModelOptions {
+    /// The model: `openai:…`, `anthropic:…`, `gemini:…`; with a base URL any name.
+    pub model: String,
+    /// Where it is served, if not by the provider itself.
+    pub base_url: Option<String>,
+    /// The variable of the environment that holds the key, if not the provider's.
+    pub key_variable: Option<String>,
+    /// How answers are sampled.
+    pub decoding: Decoding,
+    /// What may be spent.
+    pub limits: Limits,
+    /// A table of prices that comes before the embedded one.
+    pub prices: Option<PathBuf>,
+    /// The folder of the response cache, if one is wanted.
+    pub cache: Option<PathBuf>,
+    /// Requests at once.
+    pub concurrency: NonZeroUsize,
+    /// Requests that begin in a minute.
+    pub requests_per_minute: Option<NonZeroU64>,
+    /// Tokens of a minute's requests and replies.
+    pub tokens_per_minute: Option<NonZeroU64>,
+    /// Tries of a request in all.
+    pub tries: NonZeroU32,
+    /// How long a try may take, from the first byte to the last.
+    pub timeout: Duration,
+    /// How long a connection may take to come about.
+    pub connect_timeout: Duration,
+    /// Bytes of a reply at most.
+    pub reply_limit: u64,
+}
+
+impl ModelOptions {
+    /// This model, everything else as it usually is: four requests at once and eight tries, ten minutes for a try and
+    /// ten seconds for its connection, replies of 4 MiB, no caps, no cache.
+    pub fn new(model: &str) -> ModelOptions {
+        ModelOptions {
+            model: model.to_owned(),
+            base_url: None,
+            key_variable: None,
+            decoding: Decoding::default(),
+            limits: Limits::default(),
+            prices: None,
+            cache: None,
+            concurrency: NonZeroUsize::new(4).expect("not zero"),
+            requests_per_minute: None,
+            tokens_per_minute: None,
+            tries: NonZeroU32::new(8).expect("not zero"),
+            timeout: Duration::from_secs(600),
+            connect_timeout: Duration::from_secs(10),
+            reply_limit: 4 << 20,
+        }
+    }
+}
+
+/// A model that is ready to answer.
+pub struct Connection {
+    /// The model. All threads may share it.
+    pub model: Box<dyn Model>,
+    /// What it has spent and may spend.
+    pub caps: Arc<Caps>,
+    /// What was configured, for the results.
+    pub settings: ModelSettings,
+    /// What its tokens cost, if it is known.
+    pub price: Option<Price>,
+}
+
+/// What was configured, as far as it has a part in the answers: to be kept with the results. Caps, rates, tries and the
+/// cache have none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelSettings {
+    /// The protocol.
+    pub provider: Provider,
+    /// Host of the server, and port if one is given.
+    pub server: String,
+    /// The model as the server calls it.
+    pub model: String,
+    /// How answers are sampled, with what the provider cannot do without: what requests are to be made with.
+    pub decoding: Decoding,
+}
+
+impl ModelSettings {
+    /// Tells settings apart.
+    pub fn digest(&self) -> Digest {
+        Digest::of(&serde_json::to_vec(self).expect("settings are plain data"))
+    }
+}
+
+/// What is configured by these options. Nothing is connected and no key is needed: dry runs ask for it too.
+///
+/// # Errors
+/// The options are malformed, or ask for what the provider does not have.
+pub fn settings(options: &ModelOptions) -> Result<ModelSettings, EvaluationError> {
+    let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
+    let decoding = spec.provider.decoding(&options.decoding)?;
+    Ok(ModelSettings { provider: spec.provider, server: spec.server.host, model: spec.model, decoding })
+}
+
+/// What the model's tokens cost, if a table tells.
+///
+/// # Errors
+/// The options are malformed, the table cannot be used, or a cap on the cost could not be kept, for lack of a price.
+pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
+    let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
+    let prices = options.prices.as_deref().map_or_else(|| Ok(Prices::embedded()), Prices::with_file)?;
+    let price = prices.find(spec.provider, &spec.model);
+    if options.limits.cost.is_some() && price.is_none() {
+        let (provider, model) = (spec.provider.name(), &spec.model);
+        let problem = format!(
+            "--max-cost needs a price, and none is known for `{model}`; give one with --prices FILE \
+             (provider = \"{provider}\", name = \"{model}\"), or use --max-tokens"
+        );
+        return Err(EvaluationError::Malformed(problem));
+    }
+    Ok(price)
+}
+
+/// The model that these options ask for. Nothing is sent yet: whether the server answers, the first request tells.
+///
+/// # Errors
+/// The options are malformed, a key is missing, or a file or folder cannot be used.
+pub fn connect(options: &ModelOptions) -> Result<Connection, EvaluationError> {
+    connect_with(options, &environment, Arc::new(SystemClock::start()))
+}
+
+/// [`connect`] with another environment and clock; for tests, which have neither keys nor time.
+///
+/// # Errors
+/// As [`connect`].
+pub fn connect_with(
+    options: &ModelOptions,
+    environment: &dyn Fn(&str) -> Option<String>,
+    clock: Arc<dyn Clock>,
+) -> Result<Connection, EvaluationError> {
+    let (settings, price) = (settings(options)?, price(options)?);
+    let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
+    let key = key(options, &spec, environment)?;
+    let caps = Arc::new(Caps::new(options.limits, price.clone()));
+    let remote = Remote {
+        wire: Wire::new(&spec.server, options.timeout, options.connect_timeout, options.reply_limit),
+        pace: Pace::new(
+            options.concurrency,
+            options.requests_per_minute,
+            options.tokens_per_minute,
+            clock.clone(),
+        ),
+        cache: options.cache.as_deref().map(Cache::open).transpose()?,
+        caps: caps.clone(),
+        tries: options.tries,
+        spec,
+        key,
+        clock,
+    };
+    Ok(Connection { model: Box::new(remote), caps, settings, price })
+}
+
+/// The key to send. This machine gets none, and no other gets one unencrypted, unless the user names the variable.
+fn key(
+    options: &ModelOptions,
+    spec: &ModelSpec,
+    environment: &dyn Fn(&str) -> Option<String>,
+) -> Result<Option<Key>, EvaluationError> {
+    let usual = spec.provider.key_variable();
+    let wanted = |variable: &str| {
+        let key = Key::read(variable, environment)?;
+        let problem = format!("{} wants a key, and {variable} is not set; export it first", spec.server.host);
+        key.map(Some).ok_or(EvaluationError::Malformed(problem))
+    };
+    match &options.key_variable {
+        Some(variable) => wanted(variable),
+        None if spec.server.loopback || !spec.server.encrypted => Ok(None),
+        None if spec.server.own => wanted(usual),
+        None => Key::read(usual, environment),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all_keys(variable: &str) -> Option<String> {
+        variable.ends_with("_API_KEY").then(|| format!("zebra-{variable}"))
+    }
+
+    fn sent(model: &str, base_url: Option<&str>, named: Option<&str>) -> Option<String> {
+        let options = ModelOptions { key_variable: named.map(str::to_owned), ..ModelOptions::new(model) };
+        let spec = ModelSpec::parse(model, base_url).unwrap();
+        key(&options, &spec, &all_keys).unwrap().map(|key| key.variable().to_owned())
+    }
+
+    #[test]
+    fn which_key_goes_where() {
+        let variable = |name: &str| Some(name.to_owned());
+        assert_eq!(sent("openai:m", None, None), variable("OPENAI_API_KEY"));
+        assert_eq!(sent("anthropic:m", None, None), variable("ANTHROPIC_API_KEY"));
+        assert_eq!(sent("gemini:m", None, None), variable("GEMINI_API_KEY"));
+        assert_eq!(sent("m", Some("https://example.org/v1"), None), variable("OPENAI_API_KEY"));
+        assert_eq!(sent("m", Some("http://example.org/v1"), None), None, "not in the clear");
+        assert_eq!(sent("m", Some("http://localhost:8000/v1"), None), None);
+        assert_eq!(sent("openai:m", Some("http://127.0.0.1:1/v1"), None), None);
+        assert_eq!(sent("m", Some("http://localhost:8000/v1"), Some("MY_API_KEY")), variable("MY_API_KEY"));
+    }
+
+    fn problem(options: &ModelOptions, environment: &dyn Fn(&str) -> Option<String>) -> String {
+        let connection = connect_with(options, environment, Arc::new(SystemClock::start()));
+        connection.err().expect("it cannot be connected").to_string()
+    }
+
+    #[test]
+    fn what_is_missing_is_named() {
+        let nothing = |_: &str| None;
+        assert!(problem(&ModelOptions::new("openai:m"), &nothing).contains("OPENAI_API_KEY is not set"));
+        let named = ModelOptions { key_variable: Some("MINE".to_owned()), ..ModelOptions::new("gemini:m") };
+        assert!(problem(&named, &all_keys).contains("MINE is not set"));
+        let mut capped = ModelOptions::new("openai:gpt-99");
+        capped.limits.cost = super::super::prices::Usd::from_dollars(1.0);
+        assert!(problem(&capped, &all_keys).contains("name = \"gpt-99\""));
+        let mut seeded = ModelOptions::new("anthropic:m");
+        seeded.decoding.seed = Some(1);
+        assert!(problem(&seeded, &all_keys).contains("no sampling seed"));
+    }
+
+    #[test]
+    fn settings_say_what_is_sent() {
+        let mut options = ModelOptions::new("anthropic:claude-sonnet-4-5-20250929");
+        let found = settings(&options).unwrap();
+        assert_eq!(found.decoding.max_output_tokens, Some(8192));
+        assert_eq!(found.server, "api.anthropic.com");
+        assert_eq!(price(&options).unwrap().unwrap().output, 15.0);
+        let text = serde_json::to_string(&found).unwrap();
+        let back: ModelSettings = serde_json::from_str(&text).unwrap();
+        assert_eq!((back.digest(), &back), (found.digest(), &found));
+        options.decoding.temperature = Some(0.5);
+        assert_ne!(settings(&options).unwrap().digest(), found.digest());
+    }
+}

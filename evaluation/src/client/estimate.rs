@@ -1,0 +1,109 @@
+//! What requests will take, before any is sent.
+
+use super::chat::{ChatRequest, Usage};
+use super::prices::{Price, Usd};
+
+/// Tokens of a text, roughly and rather too many: a token is seldom less than three bytes of English, and grids of
+/// symbols are worse than English.
+pub(super) fn text_tokens(text: &str) -> u64 {
+    (text.len() as u64).div_ceil(3)
+}
+
+/// Tokens by which providers count a picture of the size that we send, roughly.
+const PICTURE: u64 = 1000;
+
+/// Tokens that mark a message as one.
+const MARKS: u64 = 4;
+
+/// Tokens of a request's prompt, roughly and rather too many.
+pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
+    let message = |text: &str, picture: bool| text_tokens(text) + MARKS + if picture { PICTURE } else { 0 };
+    request.messages.iter().map(|each| message(&each.text, each.image.is_some())).sum()
+}
+
+/// Requests whose prompts begin alike, those of an episode say, as the caller expects them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Batch {
+    /// How many.
+    pub requests: u64,
+    /// Tokens with which every prompt begins, the same in all.
+    pub stable_tokens: u64,
+    /// Tokens of a prompt after these, on average.
+    pub changing_tokens: u64,
+    /// Tokens of an answer, reasoning included, on average.
+    pub output_tokens: u64,
+}
+
+/// What a whole evaluation will take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Estimate {
+    /// Requests, if none is asked again.
+    pub requests: u64,
+    /// Tokens of all prompts.
+    pub input_tokens: u64,
+    /// Of these, tokens that the provider may have in its cache: all but the first of what is stable.
+    pub cacheable_tokens: u64,
+    /// Tokens of all answers.
+    pub output_tokens: u64,
+    /// What it costs if the provider's cache is of no use; none if the price is unknown.
+    pub cost: Option<Usd>,
+    /// What it costs if the cache holds all that it may.
+    pub cost_if_cached: Option<Usd>,
+}
+
+impl Estimate {
+    /// What these requests will take.
+    pub fn of(batches: &[Batch], price: Option<&Price>) -> Estimate {
+        let mut all = Estimate::default();
+        let mut written = 0u64;
+        for batch in batches {
+            let input =
+                batch.stable_tokens.saturating_add(batch.changing_tokens).saturating_mul(batch.requests);
+            let cacheable = batch.stable_tokens.saturating_mul(batch.requests.saturating_sub(1));
+            all.requests = all.requests.saturating_add(batch.requests);
+            all.input_tokens = all.input_tokens.saturating_add(input);
+            all.cacheable_tokens = all.cacheable_tokens.saturating_add(cacheable);
+            all.output_tokens =
+                all.output_tokens.saturating_add(batch.output_tokens.saturating_mul(batch.requests));
+            written = written.saturating_add(if batch.requests > 0 { batch.stable_tokens } else { 0 });
+        }
+        let plain = Usage {
+            input_tokens: Some(all.input_tokens),
+            output_tokens: Some(all.output_tokens),
+            ..Usage::default()
+        };
+        let cached = Usage {
+            cached_input_tokens: Some(all.cacheable_tokens),
+            cache_write_tokens: Some(written),
+            ..plain
+        };
+        all.cost = price.and_then(|price| price.cost(&plain));
+        all.cost_if_cached = price.and_then(|price| price.cost(&cached));
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_episodes() {
+        let price =
+            Price { input: 2.0, cached_input: 0.2, cache_write: 2.5, output: 10.0, as_of: String::new() };
+        let episode = Batch { requests: 100, stable_tokens: 1000, changing_tokens: 200, output_tokens: 50 };
+        let shorter = Batch { requests: 10, ..episode };
+        let estimate = Estimate::of(&[episode, shorter], Some(&price));
+        assert_eq!((estimate.requests, estimate.input_tokens), (110, 132_000));
+        assert_eq!((estimate.cacheable_tokens, estimate.output_tokens), (108_000, 5_500));
+        let output = 0.055;
+        assert_eq!(estimate.cost, Usd::from_dollars(0.264 + output));
+        assert_eq!(
+            estimate.cost_if_cached,
+            Usd::from_dollars(0.108 * 0.2 + 0.002 * 2.5 + 0.022 * 2.0 + output)
+        );
+        let unpriced = Estimate::of(&[episode, shorter], None);
+        assert_eq!((unpriced.cost, unpriced.input_tokens), (None, 132_000));
+        assert_eq!(Estimate::of(&[], None), Estimate::default());
+    }
+}

@@ -1,0 +1,226 @@
+//! What an HTTP reply amounts to: an answer, a passing failure, or a server that will not.
+
+use super::chat::{Finish, Usage};
+use super::provider::{Answer, Provider};
+use super::wire::HttpReply;
+use serde_json::Value;
+use std::time::{Duration, SystemTime};
+
+/// Why there is no answer from a try.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Fault {
+    /// Another try may get one.
+    Passing {
+        /// The status, if there was one.
+        status: Option<u16>,
+        /// What happened.
+        message: String,
+        /// How long the server asks to wait.
+        wait: Option<Duration>,
+    },
+    /// The server will not answer this request, however often it is asked.
+    Final {
+        /// The status.
+        status: u16,
+        /// Why, in the server's words.
+        message: String,
+    },
+}
+
+/// Characters of a server's words that are kept.
+const WORDS: usize = 300;
+
+/// What a reply that came at `date` amounts to.
+pub(super) fn judge(provider: Provider, reply: &HttpReply, date: SystemTime) -> Result<Answer, Fault> {
+    let status = reply.status;
+    let passing = |message: String, wait| Fault::Passing { status: Some(status), message, wait };
+    if (200..300).contains(&status) {
+        return provider.answer(&reply.body).map_err(|problem| match body_kind(&reply.body) {
+            Some(kind) => passing(kind.to_owned(), None),
+            None => passing(shorten(&problem), None),
+        });
+    }
+    let complaint = Complaint::read(&reply.body);
+    if complaint.declines() {
+        return Ok(Answer {
+            text: shorten(&complaint.message),
+            reasoning: None,
+            finish: Finish::Refusal,
+            usage: Usage::default(),
+            served_by: None,
+        });
+    }
+    let words = match (body_kind(&reply.body), &reply.location) {
+        (_, Some(target)) if (300..400).contains(&status) => format!("it redirects to {}", shorten(target)),
+        (Some(kind), _) => kind.to_owned(),
+        (None, _) => shorten(&complaint.message),
+    };
+    let may_pass = matches!(status, 408 | 409 | 425 | 429 | 500..600);
+    if may_pass && complaint.code != "insufficient_quota" {
+        let asked = reply.retry_after.as_deref().and_then(|value| retry_after(value, date));
+        return Err(passing(words, asked.or(complaint.wait)));
+    }
+    Err(Fault::Final { status, message: words })
+}
+
+/// What a body is that no server of models would send.
+fn body_kind(body: &str) -> Option<&'static str> {
+    let body = body.trim_start();
+    if body.is_empty() {
+        return Some("an empty body");
+    }
+    body.starts_with('<').then_some("a page of HTML")
+}
+
+/// How long a `Retry-After` asks to wait: seconds, or until a date.
+fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
+    let value = value.trim();
+    if let Ok(seconds) = value.parse::<u64>() {
+        return Some(Duration::from_secs(seconds));
+    }
+    let until = httpdate::parse_http_date(value).ok()?;
+    Some(until.duration_since(date).unwrap_or_default())
+}
+
+/// What the body of an error says, in any of the shapes that servers give it.
+struct Complaint {
+    message: String,
+    code: String,
+    wait: Option<Duration>,
+}
+
+impl Complaint {
+    fn read(body: &str) -> Complaint {
+        let parsed: Value = serde_json::from_str(body).unwrap_or_default();
+        // Some put a list around it.
+        let parsed = parsed.get(0).unwrap_or(&parsed);
+        let error = parsed.get("error").unwrap_or(parsed);
+        let text = |value: Option<&Value>| value.and_then(Value::as_str).map(str::to_owned);
+        let message =
+            text(error.get("message")).or_else(|| text(Some(error))).or_else(|| text(error.get("detail")));
+        let code = text(error.get("code")).or_else(|| text(error.get("type")));
+        let details = error.get("details").and_then(Value::as_array);
+        let delay = details.and_then(|all| all.iter().find_map(|detail| detail.get("retryDelay")?.as_str()));
+        Complaint {
+            message: message.unwrap_or_else(|| body.to_owned()),
+            code: code.unwrap_or_default(),
+            wait: delay.and_then(seconds),
+        }
+    }
+
+    /// Whether it is the provider's filter that will not have these words.
+    fn declines(&self) -> bool {
+        match self.code.as_str() {
+            "content_filter" | "content_policy_violation" => true,
+            "invalid_prompt" => self.message.contains("policy"),
+            _ => false,
+        }
+    }
+}
+
+/// A time as Gemini writes it: `34.07s`.
+fn seconds(text: &str) -> Option<Duration> {
+    Duration::try_from_secs_f64(text.strip_suffix('s')?.parse().ok()?).ok()
+}
+
+/// On one line, without what a terminal would obey, and not too long.
+pub(super) fn shorten(text: &str) -> String {
+    let plain = text.replace(char::is_control, " ");
+    let line = plain.split_whitespace().collect::<Vec<_>>().join(" ");
+    if line.chars().count() <= WORDS { line } else { line.chars().take(WORDS).chain(['…']).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reply(status: u16, body: &str) -> HttpReply {
+        HttpReply { status, retry_after: None, location: None, body: body.to_owned() }
+    }
+
+    fn judged(status: u16, body: &str) -> Result<Answer, Fault> {
+        judge(Provider::Compatible, &reply(status, body), SystemTime::UNIX_EPOCH)
+    }
+
+    #[test]
+    fn statuses() {
+        for status in [408, 409, 425, 429, 500, 502, 503, 504, 529] {
+            let fault = judged(status, "{\"error\":{\"message\":\"later\"}}").unwrap_err();
+            let expect = Fault::Passing { status: Some(status), message: "later".to_owned(), wait: None };
+            assert_eq!(fault, expect);
+        }
+        for status in [400, 401, 402, 403, 404, 413, 422] {
+            let fault = judged(status, "{\"error\":{\"message\":\"no\"}}").unwrap_err();
+            assert_eq!(fault, Fault::Final { status, message: "no".to_owned() });
+        }
+    }
+
+    #[test]
+    fn complaints_of_all_shapes() {
+        for (body, words) in [
+            ("{\"error\":{\"message\":\"one\",\"type\":\"x\"}}", "one"),
+            ("{\"error\":\"two\"}", "two"),
+            ("{\"object\":\"error\",\"message\":\"three\",\"code\":400}", "three"),
+            ("{\"detail\":\"four\"}", "four"),
+            ("[{\"error\":{\"message\":\"five\"}}]", "five"),
+            ("six\n\u{1b}[31mred", "six [31mred"),
+            ("", "an empty body"),
+            ("<!doctype html><title>no</title>", "a page of HTML"),
+        ] {
+            assert_eq!(judged(400, body), Err(Fault::Final { status: 400, message: words.to_owned() }));
+        }
+        let Err(Fault::Final { message, .. }) = judged(400, &"x".repeat(5000)) else { panic!() };
+        assert_eq!(message.chars().count(), WORDS + 1);
+    }
+
+    #[test]
+    fn an_account_without_money_is_final_and_a_filter_is_a_refusal() {
+        let quota = "{\"error\":{\"message\":\"pay\",\"code\":\"insufficient_quota\"}}";
+        assert_eq!(judged(429, quota), Err(Fault::Final { status: 429, message: "pay".to_owned() }));
+        let filter = "{\"error\":{\"message\":\"filtered\",\"code\":\"content_filter\"}}";
+        let answer = judged(400, filter).unwrap();
+        assert_eq!((answer.finish, answer.text.as_str()), (Finish::Refusal, "filtered"));
+        let flagged = "{\"error\":{\"message\":\"against our usage policy\",\"code\":\"invalid_prompt\"}}";
+        assert_eq!(judged(400, flagged).unwrap().finish, Finish::Refusal);
+    }
+
+    #[test]
+    fn a_redirect_is_told() {
+        let mut moved = reply(308, "");
+        moved.location = Some("https://example.org/v1".to_owned());
+        let fault = judge(Provider::Compatible, &moved, SystemTime::UNIX_EPOCH).unwrap_err();
+        assert_eq!(
+            fault,
+            Fault::Final { status: 308, message: "it redirects to https://example.org/v1".to_owned() }
+        );
+    }
+
+    #[test]
+    fn waits_that_servers_ask_for() {
+        let date = httpdate::parse_http_date("Tue, 01 Dec 2026 08:00:00 GMT").unwrap();
+        let check = |value: &str, expect: Option<u64>| {
+            assert_eq!(retry_after(value, date), expect.map(Duration::from_secs), "{value}");
+        };
+        check("7", Some(7));
+        check("Tue, 01 Dec 2026 08:01:30 GMT", Some(90));
+        check("Tue, 01 Dec 2026 07:00:00 GMT", Some(0));
+        check("soon", None);
+        check("-5", None);
+        let body = "{\"error\":{\"code\":429,\"message\":\"later\",\"details\":[{\"@type\":\"a\"},{\"retryDelay\":\"34.5s\"}]}}";
+        let Err(Fault::Passing { wait, .. }) = judged(429, body) else { panic!() };
+        assert_eq!(wait, Some(Duration::from_millis(34_500)));
+    }
+
+    #[test]
+    fn bodies_that_are_no_replies_pass() {
+        for (body, words) in [
+            ("", "an empty body"),
+            (" \n", "an empty body"),
+            ("<html>busy</html>", "a page of HTML"),
+            ("{\"choices\": [", "not a reply"),
+        ] {
+            let Err(Fault::Passing { status, message, .. }) = judged(200, body) else { panic!("{body}") };
+            assert!(status == Some(200) && message.contains(words), "{message}");
+        }
+    }
+}

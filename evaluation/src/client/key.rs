@@ -1,0 +1,105 @@
+//! Keys of providers: read from the environment, shown to nobody but the provider.
+
+use crate::error::EvaluationError;
+use std::fmt;
+use ureq::http::HeaderValue;
+
+/// A key. It has no `Display`, and its `Debug` does not show it.
+#[derive(Clone)]
+pub(super) struct Key {
+    variable: String,
+    secret: String,
+}
+
+/// Replies are searched for the key only from this length on: what is shorter may well be a word of an answer.
+const TELLING: usize = 16;
+
+/// What stands where a server has repeated the key.
+const HIDDEN: &str = "[key]";
+
+/// The environment, as the client looks at it: for keys, and for nothing else.
+#[expect(clippy::disallowed_methods, reason = "keys come from the environment only, and decide no action")]
+pub(super) fn environment(variable: &str) -> Option<String> {
+    std::env::var(variable).ok()
+}
+
+impl Key {
+    /// The key in this variable of `environment`; none if it is not set, or empty.
+    pub(super) fn read(
+        variable: &str,
+        environment: &dyn Fn(&str) -> Option<String>,
+    ) -> Result<Option<Key>, EvaluationError> {
+        let Some(value) = environment(variable) else { return Ok(None) };
+        let secret = value.trim();
+        if secret.is_empty() {
+            return Ok(None);
+        }
+        if !secret.bytes().all(|byte| byte.is_ascii_graphic()) {
+            let problem = format!("the value of {variable} has characters that no key has; set it again");
+            return Err(EvaluationError::Malformed(problem));
+        }
+        Ok(Some(Key { variable: variable.to_owned(), secret: secret.to_owned() }))
+    }
+
+    /// The variable that it is from.
+    pub(super) fn variable(&self) -> &str {
+        &self.variable
+    }
+
+    /// The value of a header: the key after `prefix`.
+    pub(super) fn header(&self, prefix: &str) -> HeaderValue {
+        let value = HeaderValue::from_str(&format!("{prefix}{}", self.secret));
+        let mut value = value.expect("keys are visible ASCII");
+        value.set_sensitive(true);
+        value
+    }
+
+    /// A server's complaint without the key.
+    pub(super) fn hide_in_words(&self, words: &str) -> String {
+        words.replace(&self.secret, HIDDEN)
+    }
+
+    /// The body of a reply without the key.
+    pub(super) fn hide_in_body(&self, body: String) -> String {
+        if self.secret.len() >= TELLING && body.contains(&self.secret) {
+            return self.hide_in_words(&body);
+        }
+        body
+    }
+}
+
+impl fmt::Debug for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Key({})", self.variable)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(value: &'static str) -> Result<Option<Key>, EvaluationError> {
+        Key::read("SOME_API_KEY", &move |name: &str| (name == "SOME_API_KEY").then(|| value.to_owned()))
+    }
+
+    #[test]
+    fn what_is_not_a_key() {
+        assert!(read("").unwrap().is_none());
+        assert!(read(" \n").unwrap().is_none());
+        assert!(Key::read("OTHER", &|_| None).unwrap().is_none());
+        let problem = read("sk-zebra zebra").unwrap_err().to_string();
+        assert!(problem.contains("SOME_API_KEY") && !problem.contains("zebra"), "{problem}");
+    }
+
+    #[test]
+    fn it_is_not_shown() {
+        let key = read("sk-zebra-0123456789\n").unwrap().unwrap();
+        assert_eq!(format!("{key:?}"), "Key(SOME_API_KEY)");
+        assert!(!format!("{:?}", key.header("Bearer ")).contains("zebra"));
+        assert_eq!(key.header("Bearer ").to_str().unwrap(), "Bearer sk-zebra-0123456789");
+        assert_eq!(key.hide_in_words("no such key: sk-zebra-0123456789."), "no such key: [key].");
+        assert_eq!(key.hide_in_body("{\"sk-zebra-0123456789\"}".to_owned()), "{\"[key]\"}");
+        let short = read("up").unwrap().unwrap();
+        assert_eq!(short.hide_in_body("Action: up".to_owned()), "Action: up", "a word, not the key");
+    }
+}

@@ -1,0 +1,190 @@
+//! How many requests are under way at once, and how many begin in a minute.
+
+use super::clock::Clock;
+use std::num::{NonZeroU64, NonZeroUsize};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard};
+use std::time::Duration;
+
+/// Holds requests back until it is their turn. Requests and tokens of a minute are spread evenly over it: a server that
+/// counts in seconds is content too.
+pub(super) struct Pace {
+    clock: Arc<dyn Clock>,
+    requests_per_minute: Option<NonZeroU64>,
+    tokens_per_minute: Option<NonZeroU64>,
+    free: Mutex<usize>,
+    freed: Condvar,
+    schedule: Mutex<Schedule>,
+}
+
+/// From when on the next request may begin, for each reason to wait.
+#[derive(Default)]
+struct Schedule {
+    requests: Duration,
+    tokens: Duration,
+    server: Duration,
+}
+
+/// A minute in nanoseconds.
+const MINUTE: u128 = 60_000_000_000;
+
+/// How long a number of things takes at so many a minute.
+fn span(things: u64, per_minute: NonZeroU64) -> Duration {
+    let nanoseconds = u128::from(things) * MINUTE / u128::from(per_minute.get());
+    Duration::from_nanos(nanoseconds.try_into().unwrap_or(u64::MAX))
+}
+
+impl Pace {
+    /// So many at once, and so many requests and tokens a minute.
+    pub(super) fn new(
+        concurrency: NonZeroUsize,
+        requests_per_minute: Option<NonZeroU64>,
+        tokens_per_minute: Option<NonZeroU64>,
+        clock: Arc<dyn Clock>,
+    ) -> Pace {
+        Pace {
+            clock,
+            requests_per_minute,
+            tokens_per_minute,
+            free: Mutex::new(concurrency.get()),
+            freed: Condvar::new(),
+            schedule: Mutex::default(),
+        }
+    }
+
+    /// Waits until fewer than the limit are under way. The slot is kept between the tries of a request, so that a server
+    /// with troubles gets fewer requests, not others.
+    pub(super) fn enter(&self) -> Slot<'_> {
+        let free = self.free.lock().expect(NO_PANIC);
+        let mut free = self.freed.wait_while(free, |free| *free == 0).expect(NO_PANIC);
+        *free -= 1;
+        Slot { pace: self }
+    }
+
+    /// Waits until a request of about so many tokens may begin.
+    pub(super) fn wait(&self, tokens: u64) {
+        let now = self.clock.elapsed();
+        let mut schedule = self.schedule();
+        let begin = now.max(schedule.requests).max(schedule.tokens).max(schedule.server);
+        if let Some(limit) = self.requests_per_minute {
+            schedule.requests = begin.saturating_add(span(1, limit));
+        }
+        if let Some(limit) = self.tokens_per_minute {
+            schedule.tokens = begin.saturating_add(span(tokens, limit));
+        }
+        drop(schedule);
+        if begin > now {
+            self.clock.sleep(begin - now);
+        }
+    }
+
+    /// A request has taken so many tokens more than it was let through with.
+    pub(super) fn add_tokens(&self, tokens: u64) {
+        if let Some(limit) = self.tokens_per_minute {
+            let mut schedule = self.schedule();
+            schedule.tokens = schedule.tokens.saturating_add(span(tokens, limit));
+        }
+    }
+
+    /// The server wants no request for so long, from anybody.
+    pub(super) fn hold(&self, time: Duration) {
+        let until = self.clock.elapsed().saturating_add(time);
+        let mut schedule = self.schedule();
+        schedule.server = schedule.server.max(until);
+    }
+
+    fn schedule(&self) -> MutexGuard<'_, Schedule> {
+        self.schedule.lock().expect(NO_PANIC)
+    }
+}
+
+const NO_PANIC: &str = "nothing panics while it holds this lock";
+
+/// A place among the requests under way, free again when dropped.
+#[must_use]
+pub(super) struct Slot<'a> {
+    pace: &'a Pace,
+}
+
+impl Drop for Slot<'_> {
+    fn drop(&mut self) {
+        *self.pace.free.lock().expect(NO_PANIC) += 1;
+        self.pace.freed.notify_one();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::time::SystemTime;
+
+    /// Passes only in sleep.
+    #[derive(Default)]
+    struct Dial(Mutex<Duration>);
+
+    impl Clock for Dial {
+        fn elapsed(&self) -> Duration {
+            *self.0.lock().unwrap()
+        }
+        fn date(&self) -> SystemTime {
+            SystemTime::UNIX_EPOCH
+        }
+        fn sleep(&self, time: Duration) {
+            *self.0.lock().unwrap() += time;
+        }
+    }
+
+    fn pace(requests: Option<u64>, tokens: Option<u64>) -> (Pace, Arc<Dial>) {
+        let clock = Arc::new(Dial::default());
+        let limit = |limit: Option<u64>| limit.and_then(NonZeroU64::new);
+        (Pace::new(NonZeroUsize::MIN, limit(requests), limit(tokens), clock.clone()), clock)
+    }
+
+    #[test]
+    fn requests_are_spread_over_the_minute() {
+        let (pace, clock) = pace(Some(30), None);
+        (0..4).for_each(|_| pace.wait(1_000_000));
+        assert_eq!(clock.elapsed(), Duration::from_secs(6));
+    }
+
+    #[test]
+    fn tokens_are_spread_over_the_minute() {
+        let (pace, clock) = pace(None, Some(6000));
+        pace.wait(500);
+        pace.wait(500);
+        assert_eq!(clock.elapsed(), Duration::from_secs(5));
+        pace.add_tokens(100);
+        pace.wait(0);
+        assert_eq!(clock.elapsed(), Duration::from_secs(11));
+    }
+
+    #[test]
+    fn the_server_holds_everybody_back() {
+        let (pace, clock) = pace(None, None);
+        pace.wait(1);
+        assert_eq!(clock.elapsed(), Duration::ZERO);
+        pace.hold(Duration::from_secs(9));
+        pace.hold(Duration::from_secs(3));
+        pace.wait(1);
+        assert_eq!(clock.elapsed(), Duration::from_secs(9));
+    }
+
+    #[test]
+    fn never_more_at_once_than_allowed() {
+        let pace = Pace::new(NonZeroUsize::new(2).unwrap(), None, None, Arc::new(Dial::default()));
+        let (inside, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        std::thread::scope(|scope| {
+            for _ in 0..6 {
+                scope.spawn(|| {
+                    for _ in 0..50 {
+                        let _slot = pace.enter();
+                        most.fetch_max(inside.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
+                        std::thread::yield_now();
+                        inside.fetch_sub(1, Ordering::SeqCst);
+                    }
+                });
+            }
+        });
+        assert!(most.into_inner() <= 2);
+    }
+}

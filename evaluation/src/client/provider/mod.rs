@@ -1,0 +1,205 @@
+//! The protocols that servers of models speak: a file each, which makes the body of a request and reads that of a reply.
+
+mod anthropic;
+mod gemini;
+mod openai;
+
+use super::chat::{ChatRequest, Decoding, Finish, Usage};
+use super::key::Key;
+use crate::error::EvaluationError;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use ureq::http::HeaderValue;
+
+/// Whose protocol a server speaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Provider {
+    /// OpenAI's chat completions, in the dialect of its own servers.
+    OpenAi,
+    /// Chat completions as other servers speak them: vLLM, llama.cpp, Ollama, gateways.
+    Compatible,
+    /// Anthropic's messages.
+    Anthropic,
+    /// Gemini's `generateContent`.
+    Gemini,
+}
+
+/// What a body says that is a reply.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Answer {
+    pub(super) text: String,
+    pub(super) reasoning: Option<String>,
+    pub(super) finish: Finish,
+    pub(super) usage: Usage,
+    pub(super) served_by: Option<String>,
+}
+
+impl Provider {
+    /// The provider of the prefix of an id.
+    pub(super) fn from_prefix(prefix: &str) -> Option<Provider> {
+        match prefix {
+            "openai" => Some(Provider::OpenAi),
+            "anthropic" => Some(Provider::Anthropic),
+            "gemini" => Some(Provider::Gemini),
+            _ => None,
+        }
+    }
+
+    /// Its name in price tables, settings and prefixes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Provider::OpenAi => "openai",
+            Provider::Compatible => "compatible",
+            Provider::Anthropic => "anthropic",
+            Provider::Gemini => "gemini",
+        }
+    }
+
+    /// The base URL of its own servers.
+    pub(super) fn own_url(self) -> Option<&'static str> {
+        match self {
+            Provider::OpenAi => Some("https://api.openai.com/v1"),
+            Provider::Compatible => None,
+            Provider::Anthropic => Some("https://api.anthropic.com/v1"),
+            Provider::Gemini => Some("https://generativelanguage.googleapis.com/v1beta"),
+        }
+    }
+
+    /// The variable of the environment that holds the key.
+    pub fn key_variable(self) -> &'static str {
+        match self {
+            Provider::OpenAi | Provider::Compatible => "OPENAI_API_KEY",
+            Provider::Anthropic => "ANTHROPIC_API_KEY",
+            Provider::Gemini => "GEMINI_API_KEY",
+        }
+    }
+
+    /// The decoding that is sent: what was asked for, and what this provider cannot do without.
+    ///
+    /// # Errors
+    /// It asks for what the provider does not have.
+    pub(super) fn decoding(self, asked: &Decoding) -> Result<Decoding, EvaluationError> {
+        let mut decoding = asked.clone();
+        if self == Provider::Anthropic {
+            if asked.seed.is_some() {
+                let problem = "anthropic has no sampling seed; leave it out".to_owned();
+                return Err(EvaluationError::Malformed(problem));
+            }
+            decoding.max_output_tokens.get_or_insert(anthropic::MAX_TOKENS);
+        }
+        Ok(decoding)
+    }
+
+    /// What is appended to the base URL.
+    pub(super) fn path(self, model: &str) -> String {
+        match self {
+            Provider::OpenAi | Provider::Compatible => "/chat/completions".to_owned(),
+            Provider::Anthropic => "/messages".to_owned(),
+            Provider::Gemini => format!("/models/{model}:generateContent"),
+        }
+    }
+
+    /// The headers beside `Content-Type`.
+    pub(super) fn headers(self, key: Option<&Key>) -> Vec<(&'static str, HeaderValue)> {
+        let mut headers = Vec::new();
+        if self == Provider::Anthropic {
+            headers.push(("anthropic-version", HeaderValue::from_static(anthropic::VERSION)));
+        }
+        headers.extend(key.map(|key| match self {
+            Provider::OpenAi | Provider::Compatible => ("authorization", key.header("Bearer ")),
+            Provider::Anthropic => ("x-api-key", key.header("")),
+            Provider::Gemini => ("x-goog-api-key", key.header("")),
+        }));
+        headers
+    }
+
+    /// The body of a request.
+    pub(super) fn body(self, model: &str, request: &ChatRequest) -> Value {
+        match self {
+            Provider::OpenAi => openai::body(model, request, openai::Dialect::Own),
+            Provider::Compatible => openai::body(model, request, openai::Dialect::Compatible),
+            Provider::Anthropic => anthropic::body(model, request),
+            Provider::Gemini => gemini::body(request),
+        }
+    }
+
+    /// What the body of a reply says.
+    ///
+    /// # Errors
+    /// It is not a reply: why, in words.
+    pub(super) fn answer(self, body: &str) -> Result<Answer, String> {
+        match self {
+            Provider::OpenAi | Provider::Compatible => openai::answer(body),
+            Provider::Anthropic => anthropic::answer(body),
+            Provider::Gemini => gemini::answer(body),
+        }
+    }
+}
+
+/// What is sent for a message without words, by protocols that do not allow any: a model that has said nothing is
+/// shown that it has.
+const NO_WORDS: &str = "(no words)";
+
+/// The words, or [`NO_WORDS`].
+fn words_or_none(text: &str) -> &str {
+    if text.trim().is_empty() { NO_WORDS } else { text }
+}
+
+/// A picture as text.
+fn base64(picture: &[u8]) -> String {
+    STANDARD.encode(picture)
+}
+
+/// The fields that are given, as an object.
+fn object(fields: Vec<(&str, Option<Value>)>) -> Value {
+    fields.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
+}
+
+/// Reads a body as a `T`.
+fn parse<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, String> {
+    serde_json::from_str(body).map_err(|error| format!("a body that is not a reply: {error}"))
+}
+
+/// Joined by a line each; none if there is none.
+fn joined(texts: Vec<String>) -> Option<String> {
+    (!texts.is_empty()).then(|| texts.join("\n"))
+}
+
+#[cfg(test)]
+mod examples {
+    use super::*;
+    use crate::client::chat::{ChatMessage, Role};
+    use engine::Seed;
+
+    /// A conversation with all that a request can have.
+    pub(super) fn request() -> ChatRequest {
+        let message = |role, text: &str| ChatMessage { role, text: text.to_owned(), image: None };
+        let mut last = message(Role::User, "Now?");
+        last.image = Some(vec![1, 2, 3]);
+        ChatRequest {
+            messages: vec![
+                message(Role::System, "The rules."),
+                message(Role::User, "First."),
+                message(Role::Assistant, ""),
+                last,
+            ],
+            decoding: Decoding {
+                temperature: Some(0.5),
+                top_p: Some(0.9),
+                max_output_tokens: Some(64),
+                seed: Some(7),
+                reasoning_effort: Some("low".to_owned()),
+            },
+            sample: Seed::from_text("examples"),
+        }
+    }
+
+    /// A request with nothing but a word.
+    pub(super) fn bare() -> ChatRequest {
+        let messages = vec![ChatMessage { role: Role::User, text: "Hi".to_owned(), image: None }];
+        ChatRequest { messages, decoding: Decoding::default(), sample: Seed::from_text("bare") }
+    }
+}

@@ -1,0 +1,200 @@
+//! A model on a server: tries again what may pass, keeps within caps and pace, and answers from the cache what it can.
+
+use super::cache::{self, Cache};
+use super::caps::Caps;
+use super::chat::{ChatError, ChatErrorKind, ChatReply, ChatRequest, Failure, Model};
+use super::clock::Clock;
+use super::estimate::prompt_tokens;
+use super::fault::{Fault, judge, shorten};
+use super::key::Key;
+use super::pace::Pace;
+use super::provider::Answer;
+use super::spec::ModelSpec;
+use super::wire::Wire;
+use engine::{Digest, Sampler};
+use std::num::NonZeroU32;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// A model on a server.
+pub(super) struct Remote {
+    pub(super) spec: ModelSpec,
+    pub(super) key: Option<Key>,
+    pub(super) wire: Wire,
+    pub(super) pace: Pace,
+    pub(super) caps: Arc<Caps>,
+    pub(super) cache: Option<Cache>,
+    pub(super) tries: NonZeroU32,
+    pub(super) clock: Arc<dyn Clock>,
+}
+
+/// The wait after the first try; it doubles with every further one.
+const FIRST_WAIT: Duration = Duration::from_secs(1);
+
+/// The longest wait of our own choice.
+const LONGEST_WAIT: Duration = Duration::from_secs(60);
+
+/// The longest wait that a server may ask for.
+const LONGEST_ASKED: Duration = Duration::from_secs(300);
+
+impl Model for Remote {
+    fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError> {
+        let provider = self.spec.provider;
+        let url = format!("{}{}", self.spec.server.base_url, provider.path(&self.spec.model));
+        let body = provider.body(&self.spec.model, request).to_string().into_bytes();
+        let entry = self.cache.as_ref().map(|cache| (cache, cache::key(provider, &url, &body, request)));
+        if let Some(reply) = entry.and_then(|(cache, key)| cache.get(key)) {
+            return Ok(ChatReply { cached: true, ..reply });
+        }
+        let _slot = self.pace.enter();
+        self.pay(request, &url, &body, entry)
+    }
+}
+
+impl Remote {
+    /// An answer that is not in the cache.
+    fn pay(
+        &self,
+        request: &ChatRequest,
+        url: &str,
+        body: &[u8],
+        entry: Option<(&Cache, Digest)>,
+    ) -> Result<ChatReply, ChatError> {
+        let prompt = prompt_tokens(request);
+        let reservation = self.caps.reserve(prompt).map_err(|message| ChatError {
+            kind: ChatErrorKind::Budget,
+            message,
+            failures: Vec::new(),
+        })?;
+        let mut jitter = request.sample.child("jitter", 0).sampler();
+        let mut failures = Vec::new();
+        loop {
+            self.pace.wait(prompt);
+            let begin = self.clock.elapsed();
+            let outcome = self.try_once(url, body);
+            let latency_ms = (self.clock.elapsed() - begin).as_secs_f64() * 1e3;
+            let (status, message, asked) = match outcome {
+                Ok(answer) => {
+                    let reply = self.reply(answer, failures, latency_ms);
+                    reservation.settle(&reply.usage, &reply.text, reply.reasoning.as_deref());
+                    let used = [reply.usage.input_tokens, reply.usage.output_tokens];
+                    let used = used.into_iter().flatten().fold(0, u64::saturating_add);
+                    self.pace.add_tokens(used.saturating_sub(prompt));
+                    if let Some((cache, key)) = entry {
+                        cache.put(key, &reply);
+                    }
+                    return Ok(reply);
+                }
+                Err(Fault::Final { status, message }) => {
+                    failures.push(Failure { status: Some(status), message: message.clone(), waited_ms: 0 });
+                    return Err(self.rejected(status, &message, failures));
+                }
+                Err(Fault::Passing { status, message, wait }) => (status, message, wait),
+            };
+            let number = failures.len() as u32 + 1;
+            let too_long = asked.is_some_and(|time| time > LONGEST_ASKED);
+            if number == self.tries.get() || too_long {
+                failures.push(Failure { status, message, waited_ms: 0 });
+                return Err(self.given_up(failures, asked.filter(|_| too_long)));
+            }
+            if let Some(time) = asked {
+                self.pace.hold(time);
+            }
+            let wait = wait(number, asked, &mut jitter);
+            failures.push(Failure { status, message, waited_ms: wait.as_millis() as u64 });
+            self.clock.sleep(wait);
+        }
+    }
+
+    fn try_once(&self, url: &str, body: &[u8]) -> Result<Answer, Fault> {
+        let headers = self.spec.provider.headers(self.key.as_ref());
+        let outcome = self.wire.post(url, &headers, body);
+        let hide = |words: String| match &self.key {
+            Some(key) => key.hide_in_words(&words),
+            None => words,
+        };
+        let mut reply = outcome.map_err(|(status, problem)| {
+            let message = shorten(&hide(problem));
+            Fault::Passing { status, message, wait: None }
+        })?;
+        if let Some(key) = &self.key {
+            reply.body = key.hide_in_body(reply.body);
+        }
+        judge(self.spec.provider, &reply, self.clock.date()).map_err(|fault| match fault {
+            Fault::Passing { status, message, wait } => {
+                Fault::Passing { status, message: hide(message), wait }
+            }
+            Fault::Final { status, message } => Fault::Final { status, message: hide(message) },
+        })
+    }
+
+    fn reply(&self, answer: Answer, failures: Vec<Failure>, latency_ms: f64) -> ChatReply {
+        ChatReply {
+            text: answer.text,
+            reasoning: answer.reasoning,
+            finish: answer.finish,
+            usage: answer.usage,
+            served_by: answer.served_by,
+            failures,
+            latency_ms,
+            cached: false,
+        }
+    }
+
+    fn rejected(&self, status: u16, words: &str, failures: Vec<Failure>) -> ChatError {
+        let (host, model) = (&self.spec.server.host, &self.spec.model);
+        let next = match (status, &self.key) {
+            (401 | 403, Some(key)) => {
+                format!("; is the key in {} right, and meant for {host}?", key.variable())
+            }
+            (401 | 403, None) => "; if it wants a key, name its variable with --api-key-env".to_owned(),
+            (404, _) if self.spec.server.own => format!("; is `{model}` the right name?"),
+            (404, _) => {
+                format!("; is `{model}` the right name, and does the base URL end as it should (`/v1`)?")
+            }
+            _ => String::new(),
+        };
+        let message = format!("{host} will not answer ({status}: {words}){next}");
+        ChatError { kind: ChatErrorKind::Rejected, message, failures }
+    }
+
+    fn given_up(&self, failures: Vec<Failure>, asked: Option<Duration>) -> ChatError {
+        let host = &self.spec.server.host;
+        let last = failures.last().expect("there was a try");
+        let status = last.status.map(|status| format!("{status}: ")).unwrap_or_default();
+        let times = if failures.len() == 1 { "once".to_owned() } else { format!("{} times", failures.len()) };
+        let asked = asked.map(|time| format!(", and asks to wait {} s", time.as_secs())).unwrap_or_default();
+        let message = format!(
+            "{host} failed {times}, at last with {status}{}{asked}; go on later with --resume",
+            last.message
+        );
+        ChatError { kind: ChatErrorKind::Infrastructure, message, failures }
+    }
+}
+
+/// How long to wait after a failed try: what the server asks for and a little more, or else exponentially longer with
+/// every try, between half of it and all, so that threads that failed together do not try together again.
+fn wait(number: u32, asked: Option<Duration>, jitter: &mut Sampler) -> Duration {
+    if let Some(time) = asked {
+        return time + FIRST_WAIT.mul_f64(jitter.unit());
+    }
+    let doubled = FIRST_WAIT.saturating_mul(1u32.checked_shl(number - 1).unwrap_or(u32::MAX));
+    doubled.min(LONGEST_WAIT).mul_f64(0.5 + 0.5 * jitter.unit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Seed;
+
+    #[test]
+    fn waits_double_up_to_a_minute() {
+        let mut jitter = Seed::from_text("jitter").sampler();
+        for (number, seconds) in [(1, 1.0), (2, 2.0), (5, 16.0), (7, 60.0), (40, 60.0)] {
+            let time = wait(number, None, &mut jitter).as_secs_f64();
+            assert!(time >= seconds / 2.0 && time <= seconds, "{time} after try {number}");
+        }
+        let time = wait(3, Some(Duration::from_secs(20)), &mut jitter).as_secs_f64();
+        assert!((20.0..21.0).contains(&time), "{time}");
+    }
+}

@@ -1,0 +1,93 @@
+//! One HTTP exchange: within a time, and never more of a reply than a limit.
+
+use super::spec::Server;
+use std::io::Read;
+use std::time::Duration;
+use ureq::http::HeaderValue;
+use ureq::http::header::{LOCATION, RETRY_AFTER};
+use ureq::{Agent, Error};
+
+/// Sends requests to a server.
+pub(super) struct Wire {
+    agent: Agent,
+    reply_limit: u64,
+    timeout: Duration,
+    connect_timeout: Duration,
+}
+
+/// What came back, whatever its status.
+#[derive(Clone, Debug)]
+pub(super) struct HttpReply {
+    pub(super) status: u16,
+    pub(super) retry_after: Option<String>,
+    pub(super) location: Option<String>,
+    pub(super) body: String,
+}
+
+impl Wire {
+    /// For requests to `server` that take at most `timeout` with all that they are, and replies of at most `reply_limit`
+    /// bytes. Proxies of the environment are used, except for this machine.
+    pub(super) fn new(
+        server: &Server,
+        timeout: Duration,
+        connect_timeout: Duration,
+        reply_limit: u64,
+    ) -> Wire {
+        let mut config = Agent::config_builder()
+            .http_status_as_error(false)
+            // A redirect could lead the key elsewhere.
+            .max_redirects(0)
+            .max_redirects_will_error(false)
+            .timeout_global(Some(timeout))
+            .timeout_connect(Some(connect_timeout))
+            .user_agent(concat!("infinite-arcade/", env!("CARGO_PKG_VERSION")));
+        if server.loopback {
+            config = config.proxy(None);
+        }
+        Wire { agent: config.build().new_agent(), reply_limit, timeout, connect_timeout }
+    }
+
+    /// Posts JSON, and reads what comes back.
+    ///
+    /// # Errors
+    /// Nothing comes back, or not all of it, or too much, or what is no text: what happened.
+    pub(super) fn post(
+        &self,
+        url: &str,
+        headers: &[(&'static str, HeaderValue)],
+        body: &[u8],
+    ) -> Result<HttpReply, (Option<u16>, String)> {
+        let mut request = self.agent.post(url).content_type("application/json");
+        for (name, value) in headers {
+            request = request.header(*name, value.clone());
+        }
+        let mut response = request.send(body).map_err(|error| (None, self.in_words(error)))?;
+        let status = response.status().as_u16();
+        let header =
+            |name| response.headers().get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
+        let (retry_after, location) = (header(RETRY_AFTER), header(LOCATION));
+        let mut bytes = Vec::new();
+        // A byte more than allowed tells that there is too much.
+        let reader = response.body_mut().as_reader().take(self.reply_limit.saturating_add(1));
+        let read = { reader }.read_to_end(&mut bytes);
+        read.map_err(|error| (Some(status), self.in_words(Error::from(error))))?;
+        if bytes.len() as u64 > self.reply_limit {
+            return Err((Some(status), format!("a body of more than {} bytes", self.reply_limit)));
+        }
+        let body = String::from_utf8(bytes)
+            .map_err(|_| (Some(status), "a body that is no UTF-8 text".to_owned()))?;
+        Ok(HttpReply { status, retry_after, location, body })
+    }
+
+    fn in_words(&self, error: Error) -> String {
+        match error {
+            Error::Timeout(ureq::Timeout::Connect) => {
+                format!("no connection within {:?}", self.connect_timeout)
+            }
+            Error::Timeout(_) => format!("no whole answer within {:?}", self.timeout),
+            Error::HostNotFound => "the host is not found".to_owned(),
+            Error::Io(error) => format!("the connection failed: {error}"),
+            other => format!("the exchange failed: {other}"),
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! A server on loopback that answers as it is told to, well or badly, and a clock that passes only in sleep.
+
+#![allow(dead_code, reason = "every test file uses its part")]
+
+use evaluation::client::Clock;
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::sync::{Arc, Condvar, Mutex};
+use std::thread::JoinHandle;
+use std::time::{Duration, SystemTime};
+
+/// What the server does with a request.
+#[derive(Clone, Debug)]
+pub(crate) enum Act {
+    /// Replies.
+    Reply {
+        /// The status.
+        status: u16,
+        /// Headers beside the length of the body.
+        headers: Vec<(String, String)>,
+        /// The body.
+        body: Vec<u8>,
+    },
+    /// Says nothing, until the server is dropped.
+    Hang,
+    /// Sends these bytes, of which HTTP knows nothing, and cuts the connection.
+    Cut(Vec<u8>),
+}
+
+/// A request as the server got it.
+#[derive(Clone, Debug)]
+pub(crate) struct Asked {
+    /// Path and query.
+    pub(crate) path: String,
+    /// Names in lower case.
+    pub(crate) headers: Vec<(String, String)>,
+    /// The body.
+    pub(crate) body: String,
+}
+
+impl Asked {
+    /// The value of a header.
+    pub(crate) fn header(&self, name: &str) -> Option<&str> {
+        self.headers.iter().find(|(found, _)| found == name).map(|(_, value)| value.as_str())
+    }
+
+    /// The body, which is JSON.
+    pub(crate) fn json(&self) -> Value {
+        serde_json::from_str(&self.body).expect("requests are JSON")
+    }
+}
+
+impl Act {
+    /// A reply with this status and body.
+    pub(crate) fn reply(status: u16, body: impl Into<Vec<u8>>) -> Act {
+        Act::Reply { status, headers: Vec::new(), body: body.into() }
+    }
+
+    /// The same with one header more.
+    pub(crate) fn with_header(self, name: &str, value: &str) -> Act {
+        match self {
+            Act::Reply { status, mut headers, body } => {
+                headers.push((name.to_owned(), value.to_owned()));
+                Act::Reply { status, headers, body }
+            }
+            other => other,
+        }
+    }
+
+    /// A chat completion with these words, 100 tokens of prompt and 10 of answer.
+    pub(crate) fn completion(text: &str) -> Act {
+        let body = json!({
+            "model": "served",
+            "choices": [{ "index": 0, "message": { "role": "assistant", "content": text }, "finish_reason": "stop" }],
+            "usage": { "prompt_tokens": 100, "completion_tokens": 10, "total_tokens": 110 },
+        });
+        Act::reply(200, body.to_string())
+    }
+}
+
+/// The server. It answers every request on a connection of its own.
+pub(crate) struct Server {
+    address: SocketAddr,
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+}
+
+type Script = dyn Fn(usize, &Asked) -> Act + Send + Sync;
+
+struct Shared {
+    script: Box<Script>,
+    state: Mutex<State>,
+    closed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    asked: Vec<Asked>,
+    at_once: usize,
+    most_at_once: usize,
+    closed: bool,
+}
+
+impl Server {
+    /// A server that asks `script` what to do with each request; they are counted from 0.
+    pub(crate) fn start(script: impl Fn(usize, &Asked) -> Act + Send + Sync + 'static) -> Server {
+        let listener = TcpListener::bind(("127.0.0.1", 0)).expect("loopback has a free port");
+        let address = listener.local_addr().expect("it is bound");
+        let shared =
+            Arc::new(Shared { script: Box::new(script), state: Mutex::default(), closed: Condvar::new() });
+        let for_thread = shared.clone();
+        let thread = std::thread::spawn(move || accept(&listener, &for_thread));
+        Server { address, shared, thread: Some(thread) }
+    }
+
+    /// A server that does these things one after the other, and the last one for ever.
+    pub(crate) fn scripted(acts: Vec<Act>) -> Server {
+        Server::start(move |number, _| acts[number.min(acts.len() - 1)].clone())
+    }
+
+    /// What `--base-url` is given.
+    pub(crate) fn base_url(&self) -> String {
+        format!("http://{}/v1", self.address)
+    }
+
+    /// All requests so far.
+    pub(crate) fn asked(&self) -> Vec<Asked> {
+        self.shared.state.lock().unwrap().asked.clone()
+    }
+
+    /// The most requests that were under way at once.
+    pub(crate) fn most_at_once(&self) -> usize {
+        self.shared.state.lock().unwrap().most_at_once
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.shared.state.lock().unwrap().closed = true;
+        self.shared.closed.notify_all();
+        // Wakes the thread that waits for connections.
+        let _ = TcpStream::connect(self.address);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
+    for stream in listener.incoming() {
+        if shared.state.lock().unwrap().closed {
+            return;
+        }
+        if let Ok(stream) = stream {
+            let shared = shared.clone();
+            std::thread::spawn(move || serve(stream, &shared));
+        }
+    }
+}
+
+/// One request and what is done with it. Errors of the connection are the client's business.
+fn serve(mut stream: TcpStream, shared: &Shared) {
+    let Some(asked) = read(&mut stream) else { return };
+    let number = {
+        let mut state = shared.state.lock().unwrap();
+        state.asked.push(asked.clone());
+        state.at_once += 1;
+        state.most_at_once = state.most_at_once.max(state.at_once);
+        state.asked.len() - 1
+    };
+    let act = (shared.script)(number, &asked);
+    // Before the answer: the client may ask again as soon as it has it.
+    let leave = || shared.state.lock().unwrap().at_once -= 1;
+    match act {
+        Act::Reply { status, headers, body } => {
+            let mut head = format!("HTTP/1.1 {status} As scripted\r\nContent-Length: {}\r\n", body.len());
+            head.extend(headers.iter().map(|(name, value)| format!("{name}: {value}\r\n")));
+            head.push_str("Connection: close\r\n\r\n");
+            leave();
+            let _ = stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&body));
+        }
+        Act::Cut(bytes) => {
+            leave();
+            let _ = stream.write_all(&bytes);
+        }
+        Act::Hang => {
+            let state = shared.state.lock().unwrap();
+            let mut state = shared.closed.wait_while(state, |state| !state.closed).unwrap();
+            state.at_once -= 1;
+        }
+    }
+}
+
+fn read(stream: &mut TcpStream) -> Option<Asked> {
+    let mut reader = BufReader::new(stream);
+    let mut line = String::new();
+    reader.read_line(&mut line).ok()?;
+    let path = line.split(' ').nth(1)?.to_owned();
+    let mut headers = Vec::new();
+    loop {
+        let mut line = String::new();
+        reader.read_line(&mut line).ok()?;
+        let Some((name, value)) = line.trim_end().split_once(':') else { break };
+        headers.push((name.to_lowercase(), value.trim().to_owned()));
+    }
+    let length = headers.iter().find(|(name, _)| name == "content-length").map_or("0", |(_, value)| value);
+    let mut body = vec![0; length.parse().ok()?];
+    reader.read_exact(&mut body).ok()?;
+    Some(Asked { path, headers, body: String::from_utf8(body).ok()? })
+}
+
+/// A clock on which no time passes but in sleep.
+#[derive(Default)]
+pub(crate) struct Dial(Mutex<Vec<Duration>>);
+
+impl Dial {
+    /// All sleeps.
+    pub(crate) fn sleeps(&self) -> Vec<Duration> {
+        self.0.lock().unwrap().clone()
+    }
+
+    /// The date at the beginning.
+    pub(crate) fn begin() -> SystemTime {
+        SystemTime::UNIX_EPOCH + Duration::from_secs(1_796_000_000)
+    }
+}
+
+impl Clock for Dial {
+    fn elapsed(&self) -> Duration {
+        self.0.lock().unwrap().iter().sum()
+    }
+
+    fn date(&self) -> SystemTime {
+        Dial::begin() + self.elapsed()
+    }
+
+    fn sleep(&self, time: Duration) {
+        self.0.lock().unwrap().push(time);
+    }
+}
+
+impl Dial {
+    /// Time since the beginning, ms.
+    pub(crate) fn elapsed_ms(&self) -> u64 {
+        self.elapsed().as_millis() as u64
+    }
+}
