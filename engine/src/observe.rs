@@ -37,6 +37,8 @@ pub struct SeenAvatar {
     pub row: i32,
     /// Where it faces.
     pub facing: Direction,
+    /// Its health points; 0 in games without.
+    pub health: i32,
 }
 
 /// Everything about one sprite that a golden trace records.
@@ -143,6 +145,7 @@ impl Game {
             column: cell(sprite.rect.x, sprite.rect.w),
             row: cell(sprite.rect.y, sprite.rect.h),
             facing: sprite.orientation,
+            health: sprite.health,
         })
     }
 

@@ -5,12 +5,18 @@
 //! [`Event`]s from which every metric is recomputed and by which the episode replays bit for bit. A model is reached
 //! through [`client::Model`].
 
+pub mod answer;
 pub mod client;
+pub mod encoding;
 mod error;
+pub mod legend;
 pub mod log;
+mod mask;
 pub mod player;
+pub mod prompt;
 pub mod run;
 mod subject;
+pub mod tokens;
 mod turn;
 
 pub use error::EvaluationError;

@@ -55,12 +55,30 @@ impl Style {
 /// # Errors
 /// If a cell is too small or too large, or the picture would be.
 pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, RenderError> {
+    let (columns, rows) = state.size();
+    let size = (columns.cast_unsigned(), rows.cast_unsigned());
+    let (mut picture, height) = framed(looks, size, style, |picture, left| {
+        sprites(picture, looks, state, left, style.cell);
+    })?;
+    if style.caption {
+        caption::draw(&mut picture, looks, state, style, height);
+    }
+    Ok(picture)
+}
+
+/// A picture with its board, whose sprites `draw` puts in, given the left edge; with the legend and with room for the caption
+/// above it, as the style has it; and the height of the board, below which the caption goes.
+pub(crate) fn framed(
+    looks: &Looks,
+    (columns, rows): (u32, u32),
+    style: &Style,
+    draw: impl FnOnce(&mut Picture, u32),
+) -> Result<(Picture, u32), RenderError> {
     let Style { cell, .. } = *style;
     if !(MIN_CELL..=MAX_CELL).contains(&cell) {
         return Err(RenderError::Cell { cell });
     }
-    let (columns, rows) = state.size();
-    let (own, height) = (columns.cast_unsigned() * cell, rows.cast_unsigned() * cell);
+    let (own, height) = (columns * cell, rows * cell);
     let width = if style.caption || style.legend { own.max(MIN_WIDTH) } else { own };
     let (strip, keys) = (caption::height(looks, style), legend::height(looks, style, width));
     let whole = u64::from(width) * u64::from(height + strip + keys);
@@ -70,20 +88,17 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
     let mut picture = Picture::new(width, height + strip + keys);
     let left = (width - own) / 2;
     ground(&mut picture, left, own, height, cell);
-    sprites(&mut picture, looks, state, left, cell);
+    draw(&mut picture, left);
     // What leaves the board is covered by what lies around it.
     for (x, w) in [(0, left), (left + own, width - own - left)] {
         if w > 0 {
             picture.rect(Place { x: x as f32, y: 0.0, w: w as f32, h: height as f32 }, INK);
         }
     }
-    if strip > 0 {
-        caption::draw(&mut picture, looks, state, style, height);
-    }
     if keys > 0 {
         legend::draw(&mut picture, looks, style, height + strip);
     }
-    Ok(picture)
+    Ok((picture, height))
 }
 
 fn ground(picture: &mut Picture, left: u32, width: u32, height: u32, cell: u32) {
@@ -124,14 +139,19 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
         };
         let covers = !look.glyph.is_ground() && !below.insert([rect.x, rect.y, rect.w, rect.h]);
         if covers {
-            let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
-            place = Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER };
+            place = over(place);
         }
         let dead = record.flags & DISABLED != 0;
         let look = if dead { Look { glyph: Glyph::Fallen, ..look } } else { look };
         let place = if look.glyph.is_ground() { place } else { plated(picture, place, look) };
         picture.sprite(place, game.name(stype), look, facing(&record, look.glyph));
     }
+}
+
+/// The place of a sprite that stands over another one.
+pub(crate) fn over(place: Place) -> Place {
+    let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
+    Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }
 }
 
 /// A sprite much wider than high, or higher than wide, is a plate of its size with its form in the middle: stretched, it would
@@ -156,12 +176,16 @@ fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
     if !glyph.turns() && glyph != Glyph::Avatar {
         return None;
     }
-    let (x, y) = record.orientation;
-    let length = (x * x + y * y).sqrt();
-    if length > 0.0 {
-        return Some([(x / length) as f32, (y / length) as f32]);
+    if let Some(front) = unit(record.orientation) {
+        return Some(front);
     }
     let rotation = record.rotation;
     (glyph == Glyph::Craft && rotation != 0.0)
         .then(|| [libm::cos(rotation) as f32, libm::sin(rotation) as f32])
+}
+
+/// A direction made one long; none if it points nowhere.
+pub(crate) fn unit((x, y): (f64, f64)) -> Option<Point> {
+    let length = (x * x + y * y).sqrt();
+    (length > 0.0).then(|| [(x / length) as f32, (y / length) as f32])
 }

@@ -134,6 +134,7 @@ impl Glyph {
             Role::Wall => Glyph::Wall,
             Role::Cover => Glyph::Cover,
             Role::Refuge => Glyph::Refuge,
+            Role::Floor if is_thing(analysis, stype) => neutral(analysis.game().class(stype)),
             Role::Floor => Glyph::Floor,
             Role::Neutral if still => neutral(analysis.game().class(stype)),
             Role::Neutral if matches!(facts.motion, Motion::Straight(_)) => Glyph::Raft,
@@ -180,6 +181,14 @@ fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     let below = |symbol: &&u8| game.places(**symbol).last() != Some(&stype);
     let facts = analysis.facts(stype);
     stays && facts.motion == Motion::Still && facts.symbols.iter().filter(below).count() > 1
+}
+
+/// Rules are about it, and no level character places anything over it: nothing happens to the avatar on it, but it is no
+/// ground either.
+fn is_thing(analysis: &Analysis, stype: SpriteType) -> bool {
+    let game = analysis.game();
+    let above = |symbol: &u8| game.places(*symbol).last() == Some(&stype);
+    !analysis.is_scenery(stype) && analysis.facts(stype).symbols.iter().all(above)
 }
 
 /// What gives a key: a button if touching it is enough, coins if many can be held.

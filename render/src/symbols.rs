@@ -1,4 +1,4 @@
-//! One ASCII character for each sprite type of a game, for boards as text.
+//! One character for each sprite type of a game, for boards as text: ASCII as long as it lasts.
 
 use crate::glyph::Glyph;
 use crate::look::Looks;
@@ -11,17 +11,20 @@ pub struct Symbols(Vec<char>);
 /// An empty cell, or one with nothing but floor.
 pub const EMPTY: char = '.';
 
-/// Characters that are given to types for which neither their own nor a letter of their name is free.
+/// Characters that are given to types for which neither their own nor a letter of their name is free. After them come the
+/// letters of other alphabets, so that no two types ever share one.
 const SPARE: &str =
     "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
 
 impl Symbols {
     /// A type has the level character that places it on top of floor alone, if there is one and it is free; else a letter
-    /// of its name; else any. Types that are never seen, and floors, have [`EMPTY`].
+    /// of its name; else any. Types that are never seen, and floors that no rule is about, have [`EMPTY`].
     pub fn of(analysis: &Analysis, looks: &Looks) -> Symbols {
         let game = analysis.game();
-        let is_floor =
-            |stype: SpriteType| !looks.is_visible(stype) || looks.look(stype).glyph == Glyph::Floor;
+        let is_floor = |stype: SpriteType| {
+            let scenery = || looks.look(stype).glyph == Glyph::Floor && analysis.is_scenery(stype);
+            !looks.is_visible(stype) || scenery()
+        };
         let mut symbols = vec![EMPTY; game.sprite_types().count()];
         let mut taken = vec![EMPTY, ' ', '#'];
         let shown: Vec<SpriteType> = looks.shown().filter(|&stype| !is_floor(stype)).collect();
@@ -43,10 +46,9 @@ impl Symbols {
         for stype in left {
             let name = game.name(stype);
             let letters = name.chars().chain(name.chars().map(|letter| letter.to_ascii_uppercase()));
-            let mut free =
-                letters.chain(SPARE.chars()).filter(|c| c.is_ascii_graphic() && !taken.contains(c));
-            // More types than characters: the rest share one.
-            let symbol = free.next().unwrap_or('?');
+            let known = letters.chain(SPARE.chars()).filter(char::is_ascii_graphic);
+            let others = ('\u{C0}'..=char::MAX).filter(|c| c.is_alphabetic());
+            let symbol = known.chain(others).find(|c| !taken.contains(c)).expect("types are far fewer");
             taken.push(symbol);
             symbols[stype.index()] = symbol;
         }

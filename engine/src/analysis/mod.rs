@@ -18,6 +18,7 @@ mod prospect;
 mod reach;
 mod requirement;
 mod role;
+mod scenery;
 mod taxonomy;
 mod touch;
 mod ways;

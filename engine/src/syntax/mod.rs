@@ -10,6 +10,7 @@ mod literal;
 mod parse;
 mod print;
 mod reference;
+mod rename;
 mod repair;
 mod sections;
 mod tokens;

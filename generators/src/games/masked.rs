@@ -4,8 +4,8 @@
 //! Who has read about games knows what a `key` is for; who plays the twin has to find out. The names `wall` and `avatar`
 //! stay, as the engine knows them by these.
 
-use engine::syntax::{Header, MappingLine, Param, SpriteLine, Trivia, Word};
-use engine::{Description, ParameterKind, Sampler, Seed, effect_parameters};
+use engine::syntax::{MappingLine, SpriteLine, Trivia};
+use engine::{Description, Sampler, Seed};
 use std::collections::BTreeMap;
 
 /// Level characters of masked games.
@@ -27,40 +27,13 @@ impl Masked {
     pub fn of(description: &Description, seed: Seed) -> Masked {
         let mut sampler = seed.child("masked", 0).sampler();
         let mask = Mask::draw(description, &mut sampler);
-        let mut masked = description.clone();
-        masked.header = Header { trivia: Trivia::default(), ..masked.header };
-        for param in &mut masked.header.params {
-            if param.key.text == "obs" {
-                mask.rename(&mut param.value);
-            }
-        }
+        let mut masked = description.renamed(&mask.names);
+        masked.header.trivia = Trivia::default();
         mask.sprites(&mut masked.sprites);
         mask.mapping(&mut masked.mapping);
-        for line in &mut masked.interactions {
-            line.trivia = Trivia::default();
-            mask.rename(&mut line.first);
-            line.second.iter_mut().for_each(|word| mask.rename(word));
-            let planned = line.params.iter().filter(|param| param.key.text == "ftype");
-            let keywords: Vec<&str> = std::iter::once(line.effect.text.as_str())
-                .chain(planned.map(|param| param.value.text.as_str()))
-                .collect();
-            let kinds: Vec<_> = keywords.into_iter().flat_map(effect_parameters).collect();
-            use ParameterKind as K;
-            let names = |key: &str| {
-                let is_name = |kind: &K| matches!(kind, K::Sprite | K::OptionalSprite | K::Sprites);
-                kinds.iter().any(|(name, kind)| *name == key && is_name(kind))
-            };
-            let named =
-                line.params.iter_mut().filter(|param| names(&param.key.text) || param.key.text == "itype");
-            named.for_each(|param| mask.rename(&mut param.value));
-        }
-        for line in &mut masked.terminations {
-            line.trivia = Trivia::default();
-            mask.params(&mut line.params);
-        }
-        for line in &mut masked.parameters {
-            line.trivia = Trivia::default();
-        }
+        masked.interactions.iter_mut().for_each(|line| line.trivia = Trivia::default());
+        masked.terminations.iter_mut().for_each(|line| line.trivia = Trivia::default());
+        masked.parameters.iter_mut().for_each(|line| line.trivia = Trivia::default());
         masked.section_trivia = Default::default();
         masked.tail = Vec::new();
         Masked { description: masked, symbols: mask.symbols }
@@ -122,28 +95,10 @@ impl Mask {
         Mask { names: names.collect(), symbols: symbols.collect(), colors: colors.collect() }
     }
 
-    /// Each name of a comma list.
-    fn rename(&self, word: &mut Word) {
-        let parts = word.text.split(',').map(|part| self.names.get(part).map_or(part, String::as_str));
-        word.text = parts.collect::<Vec<_>>().join(",");
-    }
-
-    /// The parameters of sprites and terminations that name sprite types.
-    fn params(&self, params: &mut [Param]) {
-        for param in params {
-            let key = param.key.text.as_str();
-            if key.starts_with("stype") || ["ammo", "spawnBehind", "resource_name"].contains(&key) {
-                self.rename(&mut param.value);
-            }
-        }
-    }
-
     fn sprites(&self, lines: &mut [SpriteLine]) {
         for line in lines {
             line.trivia = Trivia::default();
-            self.rename(&mut line.name);
             line.params.retain(|param| param.key.text != "img");
-            self.params(&mut line.params);
             for param in line.params.iter_mut().filter(|param| param.key.text == "color") {
                 if let Some(color) = self.colors.get(&param.value.text) {
                     param.value.text.clone_from(color);
@@ -158,7 +113,6 @@ impl Mask {
         for line in lines.iter_mut() {
             line.trivia = Trivia::default();
             line.symbol = self.symbols[&line.symbol];
-            line.names.iter_mut().for_each(|name| self.rename(name));
         }
         for (&symbol, &masked) in self.symbols.iter().filter(|(symbol, _)| !mapped.contains(symbol)) {
             let name = if symbol == 'w' { "wall" } else { "avatar" };

@@ -1,0 +1,41 @@
+//! A character a cell.
+
+use super::scene::{Scene, places};
+use crate::legend::Legend;
+use engine::Observation;
+use render::EMPTY;
+
+/// The board in rows of characters, each row a line: the uppermost sprite of each cell that is no floor, and the avatar over
+/// all. What is between cells is in all that it overlaps, the avatar apart. Cost: O(cells).
+pub fn grid(observation: &Observation, legend: &Legend) -> String {
+    let scene = Scene::of(observation, legend);
+    let lines = (0..scene.rows).map(|row| {
+        let line = (0..scene.columns).map(|column| symbol(legend, scene.at(column, row)));
+        line.collect::<String>()
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The character of a cell that holds these.
+pub(super) fn symbol(legend: &Legend, names: &[&str]) -> char {
+    names.last().and_then(|name| legend.entry(name)).map_or(EMPTY, |entry| entry.symbol)
+}
+
+/// What one character a cell cannot show: `frost over snow: (3,4) (5,4)`, a line for each pile of several sprites, in the
+/// order in which they come on the board. Cost: O(cells × piles).
+pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
+    let scene = Scene::of(observation, legend);
+    let mut piles: Vec<(&[&str], Vec<(usize, usize)>)> = Vec::new();
+    for (cell, names) in scene.cells.iter().enumerate().filter(|(_, names)| names.len() > 1) {
+        let at = (cell % scene.columns, cell / scene.columns);
+        match piles.iter_mut().find(|(pile, _)| *pile == names.as_slice()) {
+            Some((_, cells)) => cells.push(at),
+            None => piles.push((names, vec![at])),
+        }
+    }
+    let line = |(names, cells): &(&[&str], Vec<(usize, usize)>)| {
+        let names: Vec<&str> = names.iter().rev().copied().collect();
+        format!("{}: {}", names.join(" over "), places(cells))
+    };
+    piles.iter().map(line).collect()
+}

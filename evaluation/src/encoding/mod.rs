@@ -1,0 +1,19 @@
+//! What is seen, in the forms that a player may read it in: each a pure function of an observation and the legend.
+//!
+//! Cells are told as `(x,y)`: the column from 0 at the left, the row from 0 at the top.
+
+mod coordinates;
+mod grid;
+mod grounding;
+mod image;
+mod json;
+mod rotated;
+mod scene;
+
+pub use coordinates::coordinates;
+pub use grid::{grid, stacks};
+pub use grounding::grounding;
+pub use image::image;
+pub use json::json;
+pub use rotated::rotated;
+pub(crate) use scene::direction_name;

@@ -1,0 +1,70 @@
+//! What of an observation is told at all: floors left out, and the avatar in one cell.
+
+use crate::legend::Legend;
+use engine::{Direction, Observation};
+
+/// An observation, as all encodings read it.
+#[derive(Clone, Debug)]
+pub(crate) struct Scene<'a> {
+    /// Columns of the board.
+    pub(crate) columns: usize,
+    /// Rows of the board.
+    pub(crate) rows: usize,
+    /// Row-major: the names in each cell from the lowest to the uppermost, floors left out. The avatar is in the cell of
+    /// its middle alone, over everything else.
+    pub(crate) cells: Vec<Vec<&'a str>>,
+    /// Column and row of the avatar, where it is on the board.
+    pub(crate) avatar: Option<(usize, usize)>,
+}
+
+impl<'a> Scene<'a> {
+    pub(crate) fn of(observation: &'a Observation, legend: &Legend) -> Scene<'a> {
+        let avatar = observation.avatar.as_ref();
+        let is_own = |name: &String| avatar.is_some_and(|avatar| avatar.name == *name);
+        let told = |names: &'a Vec<String>| {
+            let told = names.iter().filter(|name| !is_own(name) && legend.tells(name));
+            told.map(String::as_str).collect()
+        };
+        let mut cells: Vec<Vec<&str>> = observation.cells.iter().map(told).collect();
+        let place = avatar.and_then(|avatar| {
+            let (column, row) = (usize::try_from(avatar.column).ok()?, usize::try_from(avatar.row).ok()?);
+            (column < observation.columns && row < observation.rows).then_some((column, row))
+        });
+        if let (Some((column, row)), Some(avatar)) = (place, avatar) {
+            cells[row * observation.columns + column].push(&avatar.name);
+        }
+        Scene { columns: observation.columns, rows: observation.rows, cells, avatar: place }
+    }
+
+    /// The names in a cell, from the lowest to the uppermost.
+    pub(crate) fn at(&self, column: usize, row: usize) -> &[&'a str] {
+        &self.cells[row * self.columns + column]
+    }
+
+    /// The cells that hold a name, row by row.
+    pub(crate) fn places<'b>(&'b self, name: &'b str) -> impl Iterator<Item = (usize, usize)> + 'b {
+        let holding = self.cells.iter().enumerate().filter(move |(_, names)| names.contains(&name));
+        holding.map(|(cell, _)| (cell % self.columns, cell / self.columns))
+    }
+}
+
+/// `(3,4)`.
+pub(crate) fn place((column, row): (usize, usize)) -> String {
+    format!("({column},{row})")
+}
+
+/// `(3,4) (5,4)`.
+pub(crate) fn places(all: &[(usize, usize)]) -> String {
+    all.iter().map(|&cell| place(cell)).collect::<Vec<_>>().join(" ")
+}
+
+/// `up`, `left`, `down`, `right`; none for any other.
+pub(crate) fn direction_name(direction: Direction) -> Option<&'static str> {
+    let names = [
+        (Direction::UP, "up"),
+        (Direction::LEFT, "left"),
+        (Direction::DOWN, "down"),
+        (Direction::RIGHT, "right"),
+    ];
+    names.iter().find(|(known, _)| *known == direction).map(|(_, name)| *name)
+}

@@ -1,0 +1,161 @@
+//! What the characters of a board stand for: one table for each game, the same in all levels, states and episodes.
+
+use engine::{Analysis, Seed, SpriteType};
+use render::{EMPTY, Glyph, Looks, Symbols};
+use std::collections::BTreeMap;
+
+/// The character of the avatar, in whichever state it is.
+pub const AVATAR: char = '@';
+
+/// What shuffled symbols are drawn from.
+const POOL: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+
+/// How characters are given to sprite types.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LegendOptions {
+    /// Each state of the avatar has a character of its own, like any other type, instead of [`AVATAR`]: whoever plays has
+    /// to keep track of who it is.
+    pub tracking: bool,
+    /// The characters are drawn from letters and digits, another table for each number, so that none of them tells
+    /// anything by itself.
+    pub shuffled: Option<u64>,
+}
+
+/// What a sprite type is to a reader of boards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// The player.
+    Avatar,
+    /// It blocks the way for good.
+    Wall,
+    /// What lies under the others, and is not told.
+    Floor,
+    /// Anything else.
+    Thing,
+}
+
+/// A sprite type that can be seen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Its name.
+    pub name: String,
+    /// Its character; [`EMPTY`] for floors.
+    pub symbol: char,
+    /// What it is.
+    pub standing: Standing,
+}
+
+/// The table of one game. No two entries share a character, but for the states of the avatar and floors.
+#[derive(Clone, Debug)]
+pub struct Legend {
+    looks: Looks,
+    /// The avatar first, then in the order of the registry: what things are for, and how much they matter, is not told.
+    entries: Vec<Entry>,
+    places: BTreeMap<String, usize>,
+}
+
+impl Legend {
+    /// The table of an analysed game: the same game and options always give the same.
+    pub fn new(analysis: &Analysis, options: &LegendOptions) -> Legend {
+        let (game, looks) = (analysis.game(), Looks::of(analysis));
+        let symbols = Symbols::of(analysis, &looks);
+        let mut types: Vec<SpriteType> = looks.shown().collect();
+        let is_avatar = |stype| analysis.avatars().iter().any(|avatar| avatar.stype == stype);
+        types.sort_by_key(|&stype| (!is_avatar(stype), stype));
+        let entry = |&stype: &SpriteType| {
+            let standing = match looks.look(stype).glyph {
+                _ if is_avatar(stype) => Standing::Avatar,
+                Glyph::Wall => Standing::Wall,
+                _ if symbols.symbol(stype) == EMPTY => Standing::Floor,
+                _ => Standing::Thing,
+            };
+            Entry { name: game.name(stype).to_owned(), symbol: symbols.symbol(stype), standing }
+        };
+        let mut entries: Vec<Entry> = types.iter().map(entry).collect();
+        if !options.tracking {
+            unite_avatars(&mut entries);
+        }
+        if let Some(number) = options.shuffled {
+            shuffle(&mut entries, number);
+        }
+        let places = entries.iter().enumerate().map(|(at, entry)| (entry.name.clone(), at)).collect();
+        Legend { looks, entries, places }
+    }
+
+    /// What can be seen in the game, the avatar first.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The entry of a name; none for what is never seen.
+    pub fn entry(&self, name: &str) -> Option<&Entry> {
+        self.places.get(name).map(|&at| &self.entries[at])
+    }
+
+    /// How the types look in pictures.
+    pub fn looks(&self) -> &Looks {
+        &self.looks
+    }
+
+    /// What is told of a cell: names that are no floor.
+    pub(crate) fn tells(&self, name: &str) -> bool {
+        self.entry(name).is_some_and(|entry| entry.standing != Standing::Floor)
+    }
+
+    /// A line for each character: the character, a blank, the names.
+    pub fn lines(&self) -> Vec<String> {
+        let names = |standing: Standing| {
+            let all = self.entries.iter().filter(move |entry| entry.standing == standing);
+            all.map(|entry| entry.name.as_str()).collect::<Vec<_>>()
+        };
+        let mut lines = match names(Standing::Floor)[..] {
+            [] => vec![format!("{EMPTY} nothing")],
+            ref floors => vec![format!("{EMPTY} nothing or {}", floors.join(" or "))],
+        };
+        let avatars = names(Standing::Avatar);
+        let mut before = None;
+        for entry in self.entries.iter().filter(|entry| entry.standing != Standing::Floor) {
+            let united = entry.standing == Standing::Avatar && self.is_united();
+            if before.replace(entry.symbol) == Some(entry.symbol) {
+                continue;
+            }
+            lines.push(match united {
+                true => format!("{} you: {}", entry.symbol, avatars.join(" or ")),
+                false => format!("{} {}", entry.symbol, entry.name),
+            });
+        }
+        lines
+    }
+
+    /// Whether all states of the avatar share a character.
+    fn is_united(&self) -> bool {
+        let mut avatars = self.entries.iter().filter(|entry| entry.standing == Standing::Avatar);
+        let first = avatars.next().map(|entry| entry.symbol);
+        avatars.all(|entry| Some(entry.symbol) == first)
+    }
+}
+
+/// All states of the avatar become [`AVATAR`]; who had that takes over a character that came free.
+fn unite_avatars(entries: &mut [Entry]) {
+    let is_avatar = |entry: &&Entry| entry.standing == Standing::Avatar;
+    let Some(free) = entries.iter().find(is_avatar).map(|entry| entry.symbol) else { return };
+    for entry in entries.iter_mut() {
+        if entry.standing == Standing::Avatar {
+            entry.symbol = AVATAR;
+        } else if entry.symbol == AVATAR {
+            entry.symbol = free;
+        }
+    }
+}
+
+/// Draws other characters, the same for entries that shared one.
+fn shuffle(entries: &mut [Entry], number: u64) {
+    let mut pool: Vec<char> = POOL.chars().collect();
+    Seed::from_text("shuffled symbols").child("symbols", number).sampler().shuffle(&mut pool);
+    let mut pool = pool.into_iter().chain(('\u{C0}'..=char::MAX).filter(|c| c.is_alphabetic()));
+    let mut drawn = BTreeMap::from([(EMPTY, EMPTY)]);
+    for entry in entries {
+        let next = || pool.next().expect("types are far fewer than characters");
+        entry.symbol = *drawn.entry(entry.symbol).or_insert_with(next);
+    }
+}

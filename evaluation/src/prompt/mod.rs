@@ -1,0 +1,359 @@
+//! Prompts: the conversation that a language model is shown at a turn.
+//!
+//! The static part (rules, legend, actions, the format of answers) comes first and is the same to the byte in all turns of all
+//! levels; what is seen follows. The words are in `templates/`; [`Prompter::digest`] covers them and the settings.
+//! [`docs/prompts.md`](../../../docs/prompts.md) shows an example, part by part.
+
+mod history;
+mod sections;
+mod settings;
+mod turn;
+
+pub use history::{Attempt, Past};
+pub use sections::{TASK, sections};
+pub use settings::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
+
+use crate::answer::{self, Format, Reading};
+use crate::client::{ChatMessage, Role};
+use crate::encoding;
+use crate::error::EvaluationError;
+use crate::legend::{Legend, LegendOptions};
+use crate::mask::Mask;
+use crate::subject::Subject;
+use crate::tokens;
+use crate::turn::Turn;
+use engine::describe::Guide;
+use engine::syntax::print_bare;
+use engine::{Action, Analysis, Digest};
+use minijinja::Environment;
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::{Serde, Value};
+use render::Style;
+use serde::Serialize;
+
+/// The version of the templates: bumped when a word of them changes, so that results tell prompts apart at a glance.
+pub const VERSION: u32 = 1;
+
+/// The words of prompts, by name.
+const TEMPLATES: [(&str, &str); 5] = [
+    ("standard_static.j2", include_str!("templates/standard_static.j2")),
+    ("standard_turn.j2", include_str!("templates/standard_turn.j2")),
+    ("reference_static.j2", include_str!("templates/reference_static.j2")),
+    ("reference_turn.j2", include_str!("templates/reference_turn.j2")),
+    ("complaint.j2", include_str!("templates/complaint.j2")),
+];
+
+/// Actions in the order of the reference's numbers.
+const NUMBERED: [Action; 6] =
+    [Action::Nil, Action::Use, Action::Left, Action::Right, Action::Down, Action::Up];
+
+/// Writes the prompts of one game.
+#[derive(Debug)]
+pub struct Prompter {
+    settings: PromptSettings,
+    environment: Environment<'static>,
+    legend: Legend,
+    mask: Option<Mask>,
+    /// All actions of all states of the avatar, in the order in which they are listed.
+    actions: Vec<Action>,
+    /// Whether there is anything to hold in the game.
+    holding: bool,
+    static_part: String,
+    static_tokens: Vec<PartTokens>,
+}
+
+/// Tokens of a part of a prompt.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PartTokens {
+    /// The heading of the section; [`TASK`] for what is before the first.
+    pub part: String,
+    /// How many, by [`tokens::count`].
+    pub tokens: u64,
+}
+
+/// Tokens of a prompt.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PromptTokens {
+    /// The static part, by section.
+    pub fixed: Vec<PartTokens>,
+    /// What is seen now, by section; a picture is estimated.
+    pub turn: Vec<PartTokens>,
+    /// Earlier turns, and earlier answers of this turn.
+    pub history: u64,
+    /// The whole, frames of messages included.
+    pub total: u64,
+}
+
+impl PromptTokens {
+    /// Tokens of the static part.
+    pub fn fixed(&self) -> u64 {
+        self.fixed.iter().map(|part| part.tokens).sum()
+    }
+
+    /// Tokens of what is seen now.
+    pub fn turn(&self) -> u64 {
+        self.turn.iter().map(|part| part.tokens).sum()
+    }
+}
+
+/// What a model is asked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Prompt {
+    /// The conversation.
+    pub messages: Vec<ChatMessage>,
+    /// What of it tells the newest turn: what [`Past::new`] wants when the turn is over.
+    pub shown: String,
+    /// Earlier turns that are left out, counted from the first.
+    pub left_out: usize,
+    /// How long it is.
+    pub tokens: PromptTokens,
+}
+
+impl Prompter {
+    /// Prepares the prompts of a game.
+    ///
+    /// # Errors
+    /// The settings are out of their ranges, or the names of the game cannot be masked.
+    pub fn new(subject: &Subject, settings: PromptSettings) -> Result<Prompter, EvaluationError> {
+        let cell = settings.encodings.image_cell;
+        if !(render::MIN_CELL..=40).contains(&cell) {
+            let message = format!("image_cell is {cell}; cells of pictures in prompts have 4 to 40 pixels");
+            return Err(EvaluationError::Malformed(message));
+        }
+        let mask = if settings.masked_names { Some(Mask::of(&subject.game)?) } else { None };
+        let masked = mask.as_ref().map(|mask| Analysis::of(mask.game()));
+        let analysis = masked.as_ref().unwrap_or(&subject.analysis);
+        // The characters of a game can tell as much as its names.
+        let shuffled = settings.shuffled_symbols.or(settings.masked_names.then_some(0));
+        let options = LegendOptions { tracking: settings.identity_tracking, shuffled };
+        let legend = Legend::new(analysis, &options);
+        let game = analysis.game();
+        let offered = |action: &Action| {
+            let by = |stype| *action == Action::Nil || game.actions_of(stype).contains(action);
+            analysis.avatars().iter().any(|avatar| by(avatar.stype)) || *action == Action::Nil
+        };
+        let order = match settings.style {
+            PromptStyle::Standard => Action::ALL,
+            PromptStyle::Reference => NUMBERED,
+        };
+        let actions: Vec<Action> = order.into_iter().filter(offered).collect();
+        let mut prompter = Prompter {
+            environment: environment(),
+            legend,
+            mask,
+            actions,
+            holding: !analysis.resources().is_empty(),
+            static_part: String::new(),
+            static_tokens: Vec::new(),
+            settings,
+        };
+        prompter.static_part = prompter.write_static(analysis);
+        prompter.static_tokens = by_section(&prompter.static_part);
+        Ok(prompter)
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &PromptSettings {
+        &self.settings
+    }
+
+    /// The table of characters.
+    pub fn legend(&self) -> &Legend {
+        &self.legend
+    }
+
+    /// The actions in the order in which they are listed, which is that of their numbers in the reference's style.
+    pub fn actions(&self) -> &[Action] {
+        &self.actions
+    }
+
+    /// What every prompt of the game starts with, the same to the byte.
+    pub fn static_part(&self) -> &str {
+        &self.static_part
+    }
+
+    /// BLAKE3 over [`VERSION`], all templates and the settings: prompts of two runs of the same game and the same digest are
+    /// the same, under the same [`engine::SEMANTICS`].
+    pub fn digest(&self) -> Digest {
+        let settings = serde_json::to_string(&self.settings).expect("plain data");
+        let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
+        hasher.update(&VERSION.to_le_bytes());
+        let texts = TEMPLATES.iter().flat_map(|(name, text)| [*name, *text]).chain([settings.as_str()]);
+        for text in texts {
+            hasher.update(&(text.len() as u64).to_le_bytes()).update(text.as_bytes());
+        }
+        Digest::from_bytes(*hasher.finalize().as_bytes())
+    }
+
+    /// The conversation at a turn. `past`: the turns of the episode before it, all of them (zero-shot mode leaves them out);
+    /// `attempts`: answers of this turn that could not be used, each with its complaint. Pictures are shown of the newest
+    /// turn only. Never an error: what does not fit the budget is left out by whole turns, the newest one never.
+    pub fn prompt(&self, turn: &Turn<'_>, past: &[Past], attempts: &[Attempt]) -> Prompt {
+        let shown = self.write_turn(turn, past);
+        let (image, picture_tokens) = self.picture(turn);
+        let mut turn_tokens = by_section(&shown);
+        turn_tokens.extend(picture_tokens.map(|tokens| PartTokens { part: "Picture".to_owned(), tokens }));
+        let attempts: Vec<Attempt> = Past::new(String::new(), attempts, Action::Nil).attempts;
+        let past = if self.settings.mode == Mode::ZeroShot { &[] } else { past };
+        let fixed = history::cost(&self.static_part);
+        let again = history::spoken(&attempts);
+        let now = history::cost(&shown) + picture_tokens.unwrap_or(0) + again;
+        let left_out = history::first_kept(past, fixed, now, self.settings.history_tokens);
+        let mut messages = Vec::new();
+        // The reference's zero-shot prompt is one message.
+        let single = self.settings.style == PromptStyle::Reference && self.settings.mode == Mode::ZeroShot;
+        if !single {
+            messages.push(message(Role::System, &self.static_part));
+        }
+        for turn in &past[left_out..] {
+            messages.push(message(Role::User, &turn.shown));
+            speak(&mut messages, &turn.attempts);
+        }
+        let text = if single { format!("{}\n\n{shown}", self.static_part) } else { shown.clone() };
+        messages.push(ChatMessage { role: Role::User, text, image });
+        speak(&mut messages, &attempts);
+        let before: u64 = past[left_out..].iter().map(|turn| turn.tokens).sum();
+        let tokens = PromptTokens {
+            fixed: self.static_tokens.clone(),
+            turn: turn_tokens,
+            history: before + again,
+            total: fixed + before + now,
+        };
+        Prompt { messages, shown, left_out, tokens }
+    }
+
+    /// What is said to an answer that cannot be used; `why` is a clause about it, such as those of [`Reading::Invalid`].
+    pub fn complaint(&self, why: &str) -> String {
+        self.render(
+            "complaint.j2",
+            data(serde_json::json!({
+                "why": why,
+                "format": self.format() == Format::Word,
+                "actions": self.words(),
+            })),
+        )
+    }
+
+    /// What an answer to a turn says.
+    pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading {
+        answer::read(answer, self.format(), &self.actions, turn.actions)
+    }
+
+    /// The format that is asked for.
+    pub fn format(&self) -> Format {
+        match self.settings.style {
+            PromptStyle::Standard => Format::Word,
+            PromptStyle::Reference => Format::Number,
+        }
+    }
+
+    fn words(&self) -> Vec<String> {
+        self.actions.iter().map(ToString::to_string).collect()
+    }
+
+    fn write_static(&self, analysis: &Analysis) -> String {
+        let guide = Guide::from_analysis(analysis);
+        let (described, vgdl) = match self.settings.rules {
+            Rules::Described => (true, None),
+            Rules::Vgdl => (false, Some(print_bare(analysis.game().description()))),
+            Rules::None => (false, None),
+        };
+        let template = match self.settings.style {
+            PromptStyle::Standard => "standard_static.j2",
+            PromptStyle::Reference => "reference_static.j2",
+        };
+        let text = self.render(
+            template,
+            data(serde_json::json!({
+                "settings": self.settings,
+                "described": described,
+                "vgdl": vgdl,
+                "winning": guide.winning,
+                "losing": guide.losing,
+                "sprites": guide.sprites,
+                "groups": guide.groups,
+                "clockwork": guide.clockwork,
+                "meetings": guide.meetings,
+                "controls": guide.controls,
+                "legend": self.legend.lines(),
+                "actions": self.words(),
+                "shuffled": self.settings.shuffled_symbols.is_some() || self.settings.masked_names,
+            })),
+        );
+        text.trim_end().to_owned()
+    }
+
+    fn write_turn(&self, turn: &Turn<'_>, past: &[Past]) -> String {
+        let template = match self.settings.style {
+            PromptStyle::Standard => "standard_turn.j2",
+            PromptStyle::Reference => "reference_turn.j2",
+        };
+        let mask = |seen| self.mask.as_ref().map(|mask| mask.observation(seen));
+        let seen = mask(turn.observation);
+        let before = turn.before.as_ref().and_then(|before| mask(before.observation));
+        let view = turn::View {
+            legend: &self.legend,
+            settings: &self.settings,
+            actions: &self.actions,
+            holding: self.holding,
+            turn,
+            now: seen.as_ref().unwrap_or(turn.observation),
+            before: turn.before.as_ref().map(|own| before.as_ref().unwrap_or(own.observation)),
+            recent: past.iter().rev().take(3).rev().map(|turn| turn.played).collect(),
+        };
+        let text = self.render(template, data(view.data()));
+        text.trim_end().to_owned()
+    }
+
+    fn picture(&self, turn: &Turn<'_>) -> (Option<Vec<u8>>, Option<u64>) {
+        if !self.settings.encodings.image {
+            return (None, None);
+        }
+        let seen = self.mask.as_ref().map(|mask| mask.observation(turn.observation));
+        let seen = seen.as_ref().unwrap_or(turn.observation);
+        let (columns, rows) = (seen.columns as u32, seen.rows as u32);
+        let cell = Style::cell_for(columns, rows).min(self.settings.encodings.image_cell);
+        let bytes = encoding::image(seen, &self.legend, cell, true)
+            .expect("boards have fewer cells than pictures pixels");
+        (Some(bytes), Some(tokens::of_picture(columns * cell, rows * cell)))
+    }
+
+    fn render(&self, template: &str, data: Value) -> String {
+        let template = self.environment.get_template(template).expect("it is among the templates");
+        template.render(data).expect("the templates are ours, and a test writes with each")
+    }
+}
+
+fn data(data: serde_json::Value) -> Value {
+    Value::from(Serde(data))
+}
+
+fn environment() -> Environment<'static> {
+    let mut environment = Environment::new();
+    let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build();
+    environment.set_syntax(syntax.expect("the delimiters are the usual ones"));
+    for (name, text) in TEMPLATES {
+        environment.add_template(name, text).expect("the templates are ours");
+    }
+    environment
+}
+
+fn by_section(text: &str) -> Vec<PartTokens> {
+    let part = |(heading, body): (&str, &str)| {
+        let heading_tokens = if heading == TASK { 0 } else { tokens::count(&format!("## {heading}\n")) };
+        PartTokens { part: heading.to_owned(), tokens: heading_tokens + tokens::count(body) }
+    };
+    sections(text).into_iter().map(part).collect()
+}
+
+fn message(role: Role, text: &str) -> ChatMessage {
+    ChatMessage { role, text: text.to_owned(), image: None }
+}
+
+/// Answers and what was said to them.
+fn speak(messages: &mut Vec<ChatMessage>, attempts: &[Attempt]) {
+    for attempt in attempts {
+        messages.push(message(Role::Assistant, &attempt.answer));
+        messages.extend(attempt.complaint.as_ref().map(|complaint| message(Role::User, complaint)));
+    }
+}

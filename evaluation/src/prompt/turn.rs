@@ -1,0 +1,139 @@
+//! What the templates of a turn are given.
+
+use super::{Encodings, PromptSettings, PromptStyle};
+use crate::encoding::{self, direction_name};
+use crate::legend::{Entry, Legend};
+use crate::turn::Turn;
+use engine::{Action, Observation, SeenAvatar};
+use render::EMPTY;
+use serde_json::{Value, json};
+
+/// A turn, as it is to be told.
+pub(super) struct View<'a> {
+    pub(super) legend: &'a Legend,
+    pub(super) settings: &'a PromptSettings,
+    /// The actions that the static part lists.
+    pub(super) actions: &'a [Action],
+    /// Whether there is anything to hold in the game.
+    pub(super) holding: bool,
+    pub(super) turn: &'a Turn<'a>,
+    /// What is seen, under the names that are told.
+    pub(super) now: &'a Observation,
+    /// What was seen a turn before.
+    pub(super) before: Option<&'a Observation>,
+    /// The last actions that were played, the newest last.
+    pub(super) recent: Vec<Action>,
+}
+
+impl View<'_> {
+    pub(super) fn data(&self) -> Value {
+        let (now, turn) = (self.now, self.turn);
+        let left = turn.limit.saturating_sub(turn.number);
+        let mut data = json!({
+            "settings": self.settings,
+            "tick": now.ticks,
+            "last_tick": u64::from(now.ticks) + left,
+            "score": now.score.to_string(),
+            "avatar": now.avatar.as_ref().map(avatar),
+            "holds": self.holding.then(|| holds(now)),
+            "reward": turn.before.map(|before| signed(before.reward)),
+        });
+        let more = match self.settings.style {
+            PromptStyle::Standard => self.standard(),
+            PromptStyle::Reference => self.reference(),
+        };
+        if let (Value::Object(data), Value::Object(more)) = (&mut data, more) {
+            data.extend(more);
+        }
+        data
+    }
+
+    fn standard(&self) -> Value {
+        let (now, legend) = (self.now, self.legend);
+        let Encodings { grid, spaced, grounding, coordinates, rotated, json, image, .. } =
+            self.settings.encodings;
+        let offered = |action: &&Action| self.turn.actions.contains(action);
+        let actions: Vec<String> = self.actions.iter().filter(offered).map(ToString::to_string).collect();
+        json!({
+            "actions_now": (actions.len() < self.actions.len()).then_some(actions),
+            "feedback": self.settings.has_feedback().then(|| self.feedback()).flatten(),
+            "grid": grid.then(|| board(encoding::grid(now, legend), spaced)),
+            "stacks": if grid { encoding::stacks(now, legend) } else { Vec::new() },
+            "grounding": if grounding { encoding::grounding(now, legend) } else { Vec::new() },
+            "coordinates": if coordinates { encoding::coordinates(now, legend) } else { Vec::new() },
+            "rotated": rotated.then(|| board(encoding::rotated(now, legend), spaced)),
+            "json": json.then(|| encoding::json(now, legend)),
+            "image": image,
+        })
+    }
+
+    /// What came of the action before.
+    fn feedback(&self) -> Option<Value> {
+        let (before, played) = (self.before?, self.turn.before?);
+        let (from, to) = (before.avatar.as_ref(), self.now.avatar.as_ref());
+        let both = from.zip(to);
+        let facing = |avatar: &SeenAvatar| direction_name(avatar.facing);
+        Some(json!({
+            "action": played.action.to_string(),
+            "from": from.map(avatar),
+            "moved": both.is_some_and(|(from, to)| (from.column, from.row) != (to.column, to.row)),
+            "turned": both.filter(|(from, to)| from.facing != to.facing).and_then(|(_, to)| facing(to)),
+            "became": both.filter(|(from, to)| from.name != to.name).map(|(_, to)| to.name.clone()),
+            "gone": from.is_some() && to.is_none(),
+        }))
+    }
+
+    /// What the reference's composition shows.
+    fn reference(&self) -> Value {
+        let (now, legend) = (self.now, self.legend);
+        let grid = encoding::grid(now, legend);
+        let cells: Vec<Value> = grid
+            .lines()
+            .enumerate()
+            .flat_map(|(row, line)| {
+                line.chars().enumerate().map(move |(column, symbol)| json!([row, column, symbol.to_string()]))
+            })
+            .collect();
+        let names = |entry: &Entry| json!([entry.name, entry.symbol.to_string()]);
+        let told = legend.entries().iter().filter(|entry| entry.symbol != EMPTY);
+        json!({
+            "mapping": told.map(names).collect::<Vec<Value>>(),
+            "grid": grid,
+            "cells": cells,
+            "last_grid": self.before.map(|before| encoding::grid(before, legend)),
+            "last_avatar": self.before.and_then(|before| before.avatar.as_ref()).map(avatar),
+            "recent": self.recent.iter().map(ToString::to_string).collect::<Vec<String>>(),
+        })
+    }
+}
+
+fn avatar(avatar: &SeenAvatar) -> Value {
+    json!({
+        "name": avatar.name,
+        "column": avatar.column,
+        "row": avatar.row,
+        "facing": direction_name(avatar.facing),
+        "health": avatar.health,
+    })
+}
+
+/// A board, if asked for with a blank between the characters of a row.
+fn board(rows: String, spaced: bool) -> String {
+    if !spaced {
+        return rows;
+    }
+    let row = |row: &str| row.chars().map(String::from).collect::<Vec<String>>().join(" ");
+    rows.lines().map(row).collect::<Vec<String>>().join("\n")
+}
+
+/// What the avatar holds: `2 key, 1 gem`; `nothing`.
+fn holds(seen: &Observation) -> String {
+    let held = seen.resources.iter().filter(|(_, amount)| *amount != 0);
+    let held: Vec<String> = held.map(|(name, amount)| format!("{amount} {name}")).collect();
+    if held.is_empty() { "nothing".to_owned() } else { held.join(", ") }
+}
+
+/// `+2`, `-1`, `0`.
+fn signed(reward: f64) -> String {
+    if reward > 0.0 { format!("+{reward}") } else { reward.to_string() }
+}

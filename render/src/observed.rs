@@ -1,0 +1,46 @@
+//! What a player is shown as a picture.
+
+use crate::board::{Style, framed, over, unit};
+use crate::error::RenderError;
+use crate::glyph::Glyph;
+use crate::look::Looks;
+use crate::picture::{Picture, Place};
+use engine::Observation;
+
+/// Draws an observation: no more than it tells. So sprites fill the cells that they overlap, and only the avatar's front
+/// shows; the avatar is drawn once, in the cell of its middle. The caption of the style is left out. Cost: O(cells).
+///
+/// # Errors
+/// If a cell is too small or too large, or the picture would be.
+pub fn observed(looks: &Looks, observation: &Observation, style: &Style) -> Result<Picture, RenderError> {
+    let style = Style { caption: false, ..*style };
+    let (columns, size) = (observation.columns, (observation.columns as u32, observation.rows as u32));
+    let (picture, _) = framed(looks, size, &style, |picture, left| {
+        let at = |column: i32, row: i32| Place {
+            x: left as f32 + column as f32 * style.cell as f32,
+            y: row as f32 * style.cell as f32,
+            w: style.cell as f32,
+            h: style.cell as f32,
+        };
+        let avatar = observation.avatar.as_ref();
+        for (cell, names) in observation.cells.iter().enumerate() {
+            let (column, row) = ((cell % columns) as i32, (cell / columns) as i32);
+            let own = avatar.filter(|avatar| (avatar.column, avatar.row) == (column, row));
+            let others = names.iter().filter(|name| avatar.is_none_or(|avatar| avatar.name != **name));
+            let mut covered = false;
+            for name in others.chain(own.map(|avatar| &avatar.name)) {
+                let Some(stype) = looks.game().sprite_type(name) else { continue };
+                let look = looks.look(stype);
+                let ground = look.glyph.is_ground();
+                let place = at(column, row);
+                let place = if covered && !ground { over(place) } else { place };
+                covered |= !ground;
+                let turns = look.glyph.turns() || look.glyph == Glyph::Avatar;
+                let front = own.filter(|avatar| turns && avatar.name == *name);
+                let front = front.and_then(|avatar| unit((avatar.facing.x, avatar.facing.y)));
+                picture.sprite(place, name, look, front);
+            }
+        }
+    })?;
+    Ok(picture)
+}
