@@ -5,7 +5,7 @@ use crate::game_report::{GameCase, GameValidator};
 use crate::ladder::{Fared, Ladder};
 use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
-use statistics::{Interval, Z95};
+use statistics::{Interval, Z95, wilson};
 
 /// Over all levels together, the strongest player of the ladder wins more often than the best of those who do not look ahead,
 /// and so does the strongest of those held out: by a margin that even the lower end of the 95 % interval of the difference
@@ -29,6 +29,18 @@ struct Total {
 }
 
 impl Total {
+    /// What it wins of its plays.
+    fn share(&self) -> f64 {
+        self.wins as f64 / self.plays.max(1) as f64
+    }
+
+    /// After `times` as many plays again, of which it wins a share.
+    fn going_on(&self, times: f64, share: f64) -> Total {
+        let plays = (self.plays as f64 * times).round();
+        let wins = self.wins + (plays * share).round() as u64;
+        Total { wins, plays: self.plays + plays as u64, ..self.clone() }
+    }
+
     /// By how much more it wins, as an interval.
     fn above(&self, floor: &Total) -> Interval {
         statistics::difference([self.wins, floor.wins], [self.plays, floor.plays], Z95)
@@ -81,11 +93,16 @@ impl GameValidator for SkillOverall {
 }
 
 impl SkillOverall {
-    /// Whether the first levels of a game leave it little hope: even the upper end of the interval is below the margin. `planned`
-    /// tells of a deterministic game of which each of these levels has a win.
-    pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool) -> bool {
-        sides(ladders, planned)
-            .is_some_and(|(floor, sides)| sides.iter().any(|total| total.above(&floor).high < self.wins))
+    /// Whether the first levels of a game, of `levels` in all, leave it no hope: it would miss the margin even if the strong
+    /// went on to win the share at the upper end of the 95 % interval (Wilson's) of what they win on these. `planned` tells of
+    /// a deterministic game of which each of these levels has a win. Of all levels, it is what the criterion finds.
+    pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool, levels: usize) -> bool {
+        let ahead = levels.saturating_sub(ladders.len()) as f64 / ladders.len().max(1) as f64;
+        sides(ladders, planned).is_some_and(|(floor, sides)| {
+            let floor = floor.going_on(ahead, floor.share());
+            let hoped = |total: &Total| total.going_on(ahead, wilson(total.wins, total.plays, Z95).high);
+            sides.iter().any(|total| hoped(total).above(&floor).low < self.wins)
+        })
     }
 }
 
@@ -123,9 +140,8 @@ fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<Fared>) -> Vec<Total
 
 /// Who wins the greatest share; of equals, the weaker by name of the ladder.
 fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
-    let share = |total: &Total| total.wins as f64 / total.plays.max(1) as f64;
     totals.fold(None, |best: Option<&Total>, total| match best {
-        Some(best) if share(best) >= share(total) => Some(best),
+        Some(best) if best.share() >= total.share() => Some(best),
         _ => Some(total),
     })
 }

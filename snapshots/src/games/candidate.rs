@@ -28,7 +28,7 @@ pub struct MadeGame {
     pub text: String,
     /// What is told of it.
     pub card: Card,
-    /// Its levels, from the easiest that was asked for to the hardest.
+    /// Its levels, from the easiest to the hardest.
     pub levels: Vec<FoundLevel>,
     /// What was found of all levels together.
     pub together: Vec<Judgement>,
@@ -62,7 +62,8 @@ impl Candidate {
         let mut tree = game.description().clone();
         tree.header.trivia.above.insert(0, format!("canary {canary}"));
         tree.header.trivia.above.insert(0, title.clone());
-        let cards = found.levels.iter().enumerate().map(|(number, level)| level.card(number));
+        let rated = found.levels.iter().zip(&found.mcts).enumerate();
+        let cards = rated.map(|(number, (level, mcts))| level.card(number, mcts));
         let (levels, witnesses) = cards.collect::<Option<Vec<_>>>()?.into_iter().unzip();
         let card = Card {
             canary: canary.to_owned(),
@@ -78,7 +79,7 @@ impl Candidate {
             rules: engine::describe(&game),
             levels,
         };
-        let FoundLevels { levels, together } = found;
+        let FoundLevels { levels, together, .. } = found;
         Some(MadeGame { text: syntax::print(&tree), game, card, levels, together, witnesses })
     }
 }

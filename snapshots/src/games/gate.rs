@@ -1,7 +1,7 @@
 //! The last word on a game: levels for it, what it can do without, and the panel.
 
 use super::candidate::{Candidate, MadeGame};
-use super::levels::{FoundLevel, FoundLevels, Levels};
+use super::levels::{FoundLevel, Levels};
 use super::order::GameOrder;
 use super::shrink::shrunk;
 use crate::mint::Tally;
@@ -89,7 +89,8 @@ impl<'a> Gate<'a> {
         levels.together(&candidate.game, &found, seed.child("second look", 0), tally)?;
         let together =
             levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
-        let made = candidate.finish(FoundLevels { levels: found, together }, self.canary);
+        let found = levels.told(&candidate.game, found, together, tally);
+        let made = candidate.finish(found, self.canary);
         if made.is_some() {
             tally.game_accepted();
         }
@@ -112,4 +113,77 @@ fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
     let won = levels.iter().filter_map(|found| Some((&found.level, found.report.witness.as_ref()?)));
     let used: BTreeSet<usize> = won.flat_map(|(level, witness)| used_rules(game, level, witness)).collect();
     used.difference(&guards).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels::Method;
+    use generators::Variation;
+    use generators::games::GameVariation;
+    use validators::Criteria;
+
+    /// Two levels, and few and weak players.
+    fn order() -> GameOrder {
+        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
+        let criteria = Criteria {
+            ask: names(&[
+                "well-formed",
+                "not-idle",
+                "not-random",
+                "winnable",
+                "length",
+                "skill",
+                "skill-overall",
+            ]),
+            budget: 50_000,
+            ladder: names(&["do-nothing", "random", "olets:50"]),
+            held_out: names(&["olets:200"]),
+            ladder_plays: 8,
+            skill_overall: 0.0,
+            ..GameOrder::criteria_by_default()
+        };
+        let order = GameOrder::new(Method::Constructive, 1);
+        GameOrder { levels: 2, least_interactions: 4, least_mechanics: 1, criteria, ..order }
+    }
+
+    fn judge(order: &GameOrder, known: &[GameForm], genome: &GameGenome) -> (Option<MadeGame>, Tally) {
+        let mut tally = Tally::default();
+        let seed = Seed::from_text("gate");
+        let made = Gate::new(order, known, "canary").judge(genome, 0, seed, &mut tally);
+        (made, tally)
+    }
+
+    #[test]
+    fn a_game_that_fails_at_one_thing_is_refused_by_its_name() {
+        let variation = GameVariation::default();
+        let seed = Seed::from_text("gate");
+        let (genome, made) = (0..20)
+            .filter_map(|number| variation.create(seed.child("game", number)))
+            .find_map(|genome| {
+                Some((judge(&order(), &[], &genome).0?, genome)).map(|(made, genome)| (genome, made))
+            })
+            .expect("one of them passes");
+        assert!(made.levels.len() == 2 && made.witnesses.len() == 2);
+        let check = |alter: &dyn Fn(&mut GameOrder), known: &[GameForm], reason: &str| {
+            let mut order = order();
+            alter(&mut order);
+            let (made, tally) = judge(&order, known, &genome);
+            assert!(made.is_none(), "{reason}");
+            assert_eq!((tally.games_tried, tally.games_accepted), (1, 0), "{reason}");
+            assert!(tally.rejections.contains_key(reason), "{reason}: {}", tally.reasons());
+        };
+        let same = |_: &mut GameOrder| {};
+        check(&same, &[GameForm::of(&genome_game(&genome))], NEAR_KNOWN);
+        check(&same, &[GameForm::of(&made.game)], NEAR_KNOWN);
+        check(&|order| order.least_interactions = 100, &[], MEAGRE);
+        check(&|order| order.least_mechanics = 100, &[], MEAGRE);
+        check(&|order| order.criteria.least_ticks = 1000, &[], "length");
+        check(&|order| order.criteria.skill_overall = 1.0, &[], "skill-overall");
+        check(&|order| order.level_tries = 0, &[], "no level 0");
+    }
+
+    fn genome_game(genome: &GameGenome) -> Game {
+        Candidate::generated(genome.build().unwrap(), "constructive", 0).unwrap().game
+    }
 }

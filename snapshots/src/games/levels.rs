@@ -15,8 +15,6 @@ pub struct FoundLevel {
     pub level: Level,
     /// What its judges found; its witness wins it.
     pub report: Report,
-    /// How often plain tree search wins it.
-    pub mcts: Rate,
     /// The difficulty that its generator was asked for, from 0 to 1.
     pub difficulty: f64,
     /// Which candidate for its place it was, counted from 0.
@@ -28,8 +26,10 @@ pub struct FoundLevel {
 /// The levels of a game, and what was found of all of them together.
 #[derive(Clone, Debug)]
 pub struct FoundLevels {
-    /// From the easiest that was asked for to the hardest.
+    /// In the order of the game: from the easiest to the hardest for the ladder, if it played, or else as was asked for.
     pub levels: Vec<FoundLevel>,
+    /// How often plain tree search wins each.
+    pub mcts: Vec<Rate>,
     /// What the judges of the game found.
     pub together: Vec<Judgement>,
 }
@@ -54,10 +54,29 @@ impl Levels<'_> {
     pub(crate) fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
         let levels = self.each(game, tally)?;
         let together = self.together(game, &levels, self.seed.child("judges of the game", 0), tally)?;
-        Some(FoundLevels { levels, together })
+        Some(self.told(game, levels, together, tally))
     }
 
-    /// All levels, from the easiest asked for to the hardest; None as soon as one cannot be had.
+    /// Levels that were let in, with what else is told of them.
+    pub(crate) fn told(
+        &self,
+        game: &Game,
+        levels: Vec<FoundLevel>,
+        together: Vec<Judgement>,
+        tally: &mut Tally,
+    ) -> FoundLevels {
+        let rate = |found: &FoundLevel| {
+            let seed = found.seed.child("mcts verdict", 0);
+            let witness = found.report.witness.as_ref()?;
+            Some(mcts_rate(game, &found.level, witness, self.criteria, seed))
+        };
+        let mcts: Vec<Rate> = levels.iter().filter_map(rate).collect();
+        tally.calls(mcts.iter().map(|rate| rate.calls).sum());
+        FoundLevels { levels, mcts, together }
+    }
+
+    /// All levels, from the easiest to the hardest; None as soon as one cannot be had, or skill cannot be hoped to pay over
+    /// all of them.
     pub(crate) fn each(&self, game: &Game, tally: &mut Tally) -> Option<Vec<FoundLevel>> {
         let mut levels: Vec<(u32, FoundLevel)> = Vec::new();
         // The easiest may be too easy, and the hardest too hard: what is to fail should fail soon.
@@ -79,14 +98,19 @@ impl Levels<'_> {
             }
         }
         levels.sort_by_key(|(number, _)| *number);
-        Some(levels.into_iter().map(|(_, level)| level).collect())
+        let mut levels: Vec<FoundLevel> = levels.into_iter().map(|(_, level)| level).collect();
+        // What was asked for is a guess: how the ladder fared is known. Of equals, what was asked for.
+        levels.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
+        Some(levels)
     }
 
-    /// Whether skill cannot be hoped to pay over all levels, after the first of them: before the others cost as much again.
+    /// Whether skill cannot be hoped to pay over all levels, after some of them: before the others cost as much again. After
+    /// all, whether it does not.
     fn is_hopeless(&self, game: &Game, levels: &[(u32, FoundLevel)]) -> bool {
         let ladders: Vec<_> = levels.iter().filter_map(|(_, found)| found.report.ladder()).collect();
         let skill = SkillOverall { wins: self.criteria.skill_overall };
-        self.criteria.asks("skill-overall") && skill.is_hopeless(&ladders, game.is_deterministic())
+        self.criteria.asks("skill-overall")
+            && skill.is_hopeless(&ladders, game.is_deterministic(), self.count as usize)
     }
 
     /// What the judges of the game find; None if one of them says no.
@@ -173,10 +197,13 @@ impl Levels<'_> {
         let report = panel.screen(game, &level, seed.child("judges", 0));
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
         tally.level(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum(), obstacle);
-        let witness = report.witness.as_ref().filter(|_| obstacle.is_none())?;
-        let mcts = mcts_rate(game, &level, witness, self.criteria, seed.child("mcts verdict", 0));
-        tally.calls(mcts.calls);
-        Some(FoundLevel { level, report, mcts, difficulty, candidate, seed })
+        (obstacle.is_none() && report.witness.is_some()).then_some(FoundLevel {
+            level,
+            report,
+            difficulty,
+            candidate,
+            seed,
+        })
     }
 }
 
@@ -193,9 +220,14 @@ fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
 }
 
 impl FoundLevel {
+    /// How easy it is for the ladder, from 0 to 1; the same for all levels if none played.
+    fn ease(&self) -> f64 {
+        self.report.ladder().and_then(|ladder| ladder.ease).unwrap_or_default()
+    }
+
     /// What a card tells of the level, and the episode that wins it; none unless its judges were asked about idle and random
     /// play and for a win.
-    pub(crate) fn card(&self, number: usize) -> Option<(LevelCard, Episode)> {
+    pub(crate) fn card(&self, number: usize, mcts: &Rate) -> Option<(LevelCard, Episode)> {
         let report = &self.report;
         let rate = |criterion: &str| -> Option<Rate> { report.finding(criterion)?.measured.clone() };
         let witness = report.witness.clone()?;
@@ -211,7 +243,7 @@ impl FoundLevel {
             witness_score: witness.score,
             optimal_ticks: report.finding("winnable").and_then(|finding| finding.optimal),
             search_calls: report.finding("winnable").map_or(0, Finding::calls),
-            mcts: self.mcts.clone(),
+            mcts: mcts.clone(),
             random: rate("not-random")?,
             idle: rate("not-idle")?,
             ladder: report.ladder().cloned(),

@@ -128,10 +128,9 @@ impl Maker<'_> {
     /// Attempts from one on, until a game is accepted.
     fn attempt(&self, number: u32, from: u32) -> Attempted {
         let mut attempted = Attempted { made: None, tally: Tally::default(), looks: 0 };
-        let kind = self.kind(number);
-        let variation = GameVariation::new(GameConfig { kinds: vec![kind] });
         let seed = self.seed.child("game", u64::from(number));
         for attempt in from..self.order.effort.attempts {
+            let variation = GameVariation::new(GameConfig { kinds: vec![self.kind(number, attempt)] });
             let seed = seed.child("attempt", u64::from(attempt));
             let proposed: Vec<GameGenome> = match self.order.method {
                 Method::Constructive => self.drawn(&variation, seed, &mut attempted).into_iter().collect(),
@@ -153,11 +152,20 @@ impl Maker<'_> {
         attempted
     }
 
-    /// Kinds take turns, in an order that is drawn.
-    fn kind(&self, number: u32) -> Kind {
-        let mut kinds = self.order.kinds.clone();
-        self.seed.child("kinds", 0).sampler().shuffle(&mut kinds);
-        kinds[number as usize % kinds.len()]
+    /// Kinds take turns, in an order that is drawn. Some seldom come to anything: after as many attempts as are given to one
+    /// kind, its place goes to another one, in an order of its own.
+    fn kind(&self, number: u32, attempt: u32) -> Kind {
+        let shuffled = |mut kinds: Vec<Kind>, seed: Seed| {
+            seed.sampler().shuffle(&mut kinds);
+            kinds
+        };
+        let turns = shuffled(self.order.kinds.clone(), self.seed.child("kinds", 0));
+        let first = turns[number as usize % turns.len()];
+        let others = turns.into_iter().filter(|&kind| kind != first).collect();
+        let others = shuffled(others, self.seed.child("other kinds", u64::from(number)));
+        let passed = attempt / self.order.effort.patience.max(1);
+        let kinds: Vec<Kind> = [first].into_iter().chain(others).collect();
+        kinds[passed as usize % kinds.len()]
     }
 
     /// A game as it is drawn, if a look promises something.

@@ -35,6 +35,8 @@ pub struct GameOrder {
 pub struct GameEffort {
     /// Attempts: constructive games, searches, or, of an archive, rounds.
     pub attempts: u32,
+    /// Attempts for a place after which it goes to another kind. An archive has all kinds anyway.
+    pub patience: u32,
     /// Candidates that a search looks at in one attempt.
     pub looks: u32,
     /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
@@ -44,9 +46,9 @@ pub struct GameEffort {
 impl GameOrder {
     /// `count` games of all kinds by a method, five levels each.
     pub fn new(method: Method, count: u32) -> GameOrder {
-        let attempts = match method {
-            Method::Constructive => 60,
-            Method::Search | Method::Evolutionary => 8,
+        let (attempts, patience) = match method {
+            Method::Constructive => (96, 8),
+            Method::Search | Method::Evolutionary => (12, 2),
         };
         GameOrder {
             method,
@@ -58,7 +60,7 @@ impl GameOrder {
             least_interactions: 7,
             least_mechanics: 3,
             criteria: GameOrder::criteria_by_default(),
-            effort: GameEffort { attempts, looks: 24, batch: 4 },
+            effort: GameEffort { attempts, patience, looks: 24, batch: 4 },
         }
     }
 

@@ -4,7 +4,7 @@ use super::candidate::Candidate;
 use super::levels::FoundLevel;
 use engine::{Episode, Game, Level};
 use generators::games::GameGenome;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use validators::{Recorded, executions};
 
 /// Things that are taken away from one game at most.
@@ -24,11 +24,12 @@ pub(super) fn shrunk(
     candidate: impl Fn(&GameGenome) -> Option<Candidate>,
 ) -> Option<Candidate> {
     let played = Played::of(levels);
+    // What plays alike does the same in the same episodes: one recording serves all that come of this game.
+    let uses = played.executions(&first.game);
     let mut smallest: Option<(GameGenome, Candidate)> = None;
     for _ in 0..STEPS {
         let (from, game) =
             smallest.as_ref().map_or((genome, &first.game), |(genome, candidate)| (genome, &candidate.game));
-        let uses = played.executions(game);
         let smaller = from.shrunk_once().into_iter().find_map(|smaller| {
             let candidate = candidate(&smaller)?;
             played.alike(game, &candidate.game, &uses).then_some((smaller, candidate))
@@ -57,22 +58,22 @@ impl Played {
     }
 
     /// Where the rules of a game, by their text, are executed.
-    fn executions(&self, game: &Game) -> Vec<Vec<[usize; 2]>> {
-        let Some(levels) = self.read(game) else { return Vec::new() };
+    fn executions(&self, game: &Game) -> BTreeMap<String, Vec<[usize; 2]>> {
+        let Some(levels) = self.read(game) else { return BTreeMap::new() };
         let recorded =
             levels.iter().zip(&self.levels).map(|(level, (_, episodes))| Recorded { level, episodes });
-        executions(game, &recorded.collect::<Vec<_>>())
+        rules(game).zip(executions(game, &recorded.collect::<Vec<_>>())).collect()
     }
 
-    /// Whether a smaller game plays as a game does, of which `uses` says where its rules are executed.
-    fn alike(&self, game: &Game, smaller: &Game, uses: &[Vec<[usize; 2]>]) -> bool {
+    /// Whether a smaller game plays as a game does; `uses` says where rules are executed.
+    fn alike(&self, game: &Game, smaller: &Game, uses: &BTreeMap<String, Vec<[usize; 2]>>) -> bool {
         let Some(levels) = self.read(smaller) else { return false };
         let same = |[level, episode]: [usize; 2]| {
             ends_alike(smaller, &levels[level], &self.levels[level].1[episode])
         };
         let kept: BTreeSet<String> = rules(smaller).collect();
-        let gone = rules(game).zip(uses).filter(|(rule, _)| !kept.contains(rule));
-        let telling = gone.flat_map(|(_, uses)| uses.iter().take(USES).copied());
+        let gone = rules(game).filter(|rule| !kept.contains(rule)).filter_map(|rule| uses.get(&rule));
+        let telling = gone.flat_map(|uses| uses.iter().take(USES).copied());
         let witnesses = (0..levels.len()).map(|level| [level, 0]);
         let all = self.levels.iter().enumerate();
         let all = all.flat_map(|(level, (_, episodes))| (0..episodes.len()).map(move |at| [level, at]));
@@ -99,4 +100,69 @@ fn ends_alike(game: &Game, level: &Level, episode: &Episode) -> bool {
         game.step(&mut state, action);
     }
     state.outcome() == episode.outcome && state.score() == episode.score
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::levels::Levels;
+    use super::*;
+    use crate::mint::Tally;
+    use crate::recipe::Board;
+    use engine::{Action, Seed};
+    use generators::Variation;
+    use generators::games::GameVariation;
+    use validators::{Criteria, Panel};
+
+    /// Levels that were won, and nothing else played on them.
+    fn won(game: &Game, seed: Seed) -> Option<Vec<FoundLevel>> {
+        let ask = ["well-formed", "winnable"].map(str::to_owned).to_vec();
+        let criteria = Criteria { ask, budget: 20_000, ..Criteria::default() };
+        let panel = Panel::new(&criteria);
+        let board = Board::default();
+        let levels = Levels { count: 2, tries: 2, board: &board, criteria: &criteria, panel: &panel, seed };
+        levels.each(game, &mut Tally::default())
+    }
+
+    #[test]
+    fn a_rule_that_nothing_runs_is_taken_away_and_the_rest_plays_alike() {
+        let variation = GameVariation::default();
+        let seed = Seed::from_text("shrink");
+        let candidate =
+            |genome: &GameGenome| Candidate::generated(genome.build().ok()?, "constructive", 0).ok();
+        let mut shrank = 0;
+        for number in 0..6 {
+            let genome = variation.create(seed.child("game", number)).unwrap();
+            let first = candidate(&genome).unwrap();
+            let Some(levels) = won(&first.game, seed.child("levels", number)) else { continue };
+            let played = Played::of(&levels);
+            let uses = played.executions(&first.game);
+            let idle: BTreeSet<&String> =
+                uses.iter().filter(|(_, uses)| uses.is_empty()).map(|(rule, _)| rule).collect();
+            let Some(smaller) = shrunk(&genome, &first, &levels, candidate) else { continue };
+            assert!(played.alike(&first.game, &smaller.game, &uses), "{}", smaller.title);
+            let kept: BTreeSet<String> = rules(&smaller.game).collect();
+            shrank += usize::from(idle.iter().any(|rule| !kept.contains(*rule)));
+        }
+        assert!(shrank >= 2, "{shrank} games have lost a rule that nothing ran");
+    }
+
+    #[test]
+    fn a_rule_that_decides_an_episode_is_kept() {
+        let source = "BasicGame\n  SpriteSet\n    gem > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > gem\n  InteractionSet\n    avatar wall > stepBack\n    gem avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=gem win=True\n    Timeout limit=60 win=False\n";
+        let game = Game::from_source(source).unwrap();
+        let level = "wwwwww\nwA  gw\nwwwwww\n";
+        let (mut episode, mut state) =
+            Episode::begin(&game, &game.level(level).unwrap(), Seed::from_text("gem"));
+        while !state.is_over() {
+            episode.play(&game, &mut state, Action::Right);
+        }
+        assert_eq!(episode.outcome, engine::Outcome::Won);
+        let played = Played { levels: vec![(level.to_owned(), vec![episode])] };
+        let uses = played.executions(&game);
+        let altered = |line: &str, to: &str| Game::from_source(&source.replace(line, to)).unwrap();
+        // Whoever goes straight for the gem meets no wall.
+        assert!(played.alike(&game, &altered("    avatar wall > stepBack\n", ""), &uses));
+        assert!(!played.alike(&game, &altered("scoreChange=1", ""), &uses));
+        assert!(!played.alike(&game, &altered("gem avatar > killSprite", "gem avatar > stepBack"), &uses));
+    }
 }
