@@ -24,4 +24,4 @@ pub use log::{Event, Journal};
 pub use player::{Agent, Choice, Contestant, Halt, Validity};
 pub use run::{Entrant, Evaluation, Settings};
 pub use subject::{Subject, SubjectFacts, SubjectLevel, Unreadable};
-pub use turn::{Before, Turn};
+pub use turn::{Before, Observed, Turn};

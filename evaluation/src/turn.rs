@@ -1,5 +1,6 @@
 //! What a player is shown at one decision.
 
+use crate::run::Task;
 use crate::subject::Subject;
 use engine::{Action, Observation};
 
@@ -32,4 +33,33 @@ pub struct Before<'a> {
     pub action: Action,
     /// By how much the score has changed.
     pub reward: f64,
+}
+
+/// The start of an episode as a player sees it, for looking at prompts without playing.
+#[derive(Clone, Debug)]
+pub struct Observed {
+    observation: Observation,
+    actions: &'static [Action],
+}
+
+impl Observed {
+    /// What a player is shown first.
+    pub fn first(task: &Task<'_>) -> Observed {
+        let game = &task.subject.game;
+        let state = game.start(&task.level.level, task.chance());
+        Observed { observation: game.observe(&state), actions: game.actions(&state) }
+    }
+
+    /// The turn.
+    pub fn turn<'a>(&'a self, task: &Task<'a>) -> Turn<'a> {
+        Turn {
+            subject: task.subject,
+            level: task.level.number,
+            number: 0,
+            limit: task.max_steps,
+            observation: &self.observation,
+            before: None,
+            actions: self.actions,
+        }
+    }
 }

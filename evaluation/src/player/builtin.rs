@@ -4,7 +4,7 @@ use crate::log::Journal;
 use crate::player::{Agent, Choice, Halt, Validity};
 use crate::turn::Turn;
 use agents::{Budget, PlannerSpec};
-use engine::{Action, Episode};
+use engine::{Action, Digest, Episode};
 
 /// Who plays an episode.
 pub enum Contestant {
@@ -29,6 +29,12 @@ impl Replay {
     /// The actions of this episode.
     pub fn of(episode: &Episode) -> Replay {
         Replay { actions: episode.actions.clone() }
+    }
+
+    /// Tells replays apart.
+    pub fn digest(&self) -> Digest {
+        let words: Vec<String> = self.actions.iter().map(Action::to_string).collect();
+        Digest::of(words.join(" ").as_bytes())
     }
 }
 

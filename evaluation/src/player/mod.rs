@@ -1,8 +1,10 @@
 //! Who plays: planners that see the state, and agents that are shown turns.
 
 mod builtin;
+mod model;
 
 pub use builtin::{Contestant, Replay};
+pub use model::ModelPlayer;
 
 use crate::log::{Event, Journal};
 use crate::turn::Turn;

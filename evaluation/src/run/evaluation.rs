@@ -153,17 +153,9 @@ impl Evaluation {
         subjects.iter().map(SubjectEntry::of).collect()
     }
 
-    /// All episodes: run by run, so that an evaluation that is broken off has played every level about equally often.
+    /// All episodes, in the order of [`tasks`].
     pub fn tasks(&self) -> Vec<Task<'_>> {
-        let Settings { seed, runs, max_steps, .. } = &self.settings;
-        let (seed, max_steps) = (Seed::from_text(seed), *max_steps);
-        let on = |run: u64| {
-            let subjects = self.subjects.iter();
-            subjects.flat_map(move |subject| {
-                subject.levels.iter().map(move |level| Task { subject, level, run, seed, max_steps })
-            })
-        };
-        (0..*runs).flat_map(on).collect()
+        tasks(&self.settings, &self.subjects)
     }
 
     /// The events of an episode so far; empty if it was not begun.
@@ -235,6 +227,22 @@ impl Evaluation {
             halted: halted.map(|halt| halt.to_string()),
         })
     }
+}
+
+/// All episodes of an evaluation: run by run, so that one that is broken off has played every level about equally often.
+pub fn tasks<'a>(settings: &Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> {
+    let (seed, max_steps) = (Seed::from_text(&settings.seed), settings.max_steps);
+    let on = |run: u64| {
+        let levels = |subject: &'a Subject| subject.levels.iter().map(move |level| (subject, level));
+        subjects.iter().flat_map(levels).map(move |(subject, level)| Task {
+            subject,
+            level,
+            run,
+            seed,
+            max_steps,
+        })
+    };
+    (0..settings.runs).flat_map(on).collect()
 }
 
 /// Keeps others from writing into the folder; the system lets go of it when the program ends, however it ends.

@@ -6,5 +6,5 @@ mod evaluation;
 mod settings;
 
 pub use episode::{Left, Task, play};
-pub use evaluation::{Evaluation, Progress, Tally};
+pub use evaluation::{Evaluation, Progress, Tally, tasks};
 pub use settings::{Entrant, FORMAT, LevelEntry, SETTINGS_FILE, Settings, SubjectEntry};

@@ -1,5 +1,7 @@
 //! `arcade evaluate`: how well does a player do on these games?
 
+mod human;
+mod model;
 mod subjects;
 
 use crate::console::Console;
@@ -8,11 +10,14 @@ use crate::verbs::release::in_pool;
 use agents::{Budget, PlannerSpec};
 use engine::{Outcome, SEMANTICS};
 use evaluation::player::{Contestant, Replay};
-use evaluation::run::{FORMAT, Left, Progress, Tally, Task};
-use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings};
+use evaluation::prompt::PromptSettings;
+use evaluation::run::{self, FORMAT, Left, Progress, Tally, Task};
+use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject};
+use human::Human;
 use indicatif::ProgressBar;
+use model::{ModelArgs, Prompters};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Has a player play a snapshot or games, and records every episode.
@@ -28,9 +33,10 @@ pub(crate) struct Args {
     /// A snapshot's folder; or games, folders of games, corpus games by name, `corpus` for all of them
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
-    /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (docs/planners.md), `replay:FILE`
-    #[arg(long, value_name = "NAME")]
-    player: String,
+    /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (docs/planners.md), `replay:FILE`,
+    /// `human`
+    #[arg(long, value_name = "NAME", required_unless_present = "model", conflicts_with = "model")]
+    player: Option<String>,
     /// Only these of the games
     #[arg(long, value_name = "GAME", value_delimiter = ',')]
     games: Vec<String>,
@@ -58,84 +64,164 @@ pub(crate) struct Args {
     /// Load games as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
-    /// Episodes at a time; all cores if not given. Changes no result
+    /// Episodes at a time of players that are no models; all cores if not given. Changes no result
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+    /// Only say what it would take
+    #[arg(long)]
+    dry_run: bool,
+    #[command(flatten)]
+    model: ModelArgs,
 }
 
 /// Who plays, as it was asked for.
 enum Asked {
     Planner(PlannerSpec),
     Replay(Replay),
+    Human(PromptSettings),
+    Model(Box<model::Asked>),
+}
+
+/// Who plays, ready for it.
+enum Ready {
+    Planner(PlannerSpec, Budget),
+    Replay(Replay),
+    Human(Prompters),
+    Model(Box<model::Ready>),
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.runs == 0 || args.max_steps == 0 {
         return Err(Failure::malformed("--runs and --max-steps take a number, at least 1"));
     }
-    let asked = asked(&args.player)?;
+    let asked = asked(args)?;
     let choice =
         subjects::Choice { games: &args.games, levels: &args.levels, as_reference: args.as_reference };
     let subjects = subjects::read(&args.subjects, &choice)?;
-    let entrant = entrant(&asked, args);
-    let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("results").join(file_name(&entrant.name)));
     let settings = Settings {
         format: FORMAT,
         semantics: SEMANTICS,
         suite: env!("CARGO_PKG_VERSION").to_owned(),
         snapshot: subjects.snapshot,
-        entrant,
+        entrant: asked.entrant(args, &subjects.games)?,
         seed: args.seed.clone(),
         runs: args.runs,
         max_steps: args.max_steps,
         games: Evaluation::entries(&subjects.games),
     };
+    if args.dry_run {
+        return forecast(&asked, &settings, &subjects.games, console);
+    }
+    let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
     let evaluation = if args.resume && folder.exists() {
         Evaluation::resume(&folder, &settings)
     } else {
         Evaluation::create(&folder, settings, subjects.games)
     };
     let evaluation = evaluation.map_err(failure)?;
+    let ready = asked.ready(args, &evaluation)?;
     let bar = Bar::new(console, evaluation.tasks().len() as u64);
-    let contestant = |_: &Task<'_>| Ok::<_, Halt>(asked.contestant(args.budget));
-    let tally = in_pool(args.jobs, || evaluation.run(contestant, &bar))?.map_err(failure)?;
+    let contestant = |task: &Task<'_>| Ok::<_, Halt>(ready.contestant(task));
+    let tally = in_pool(ready.threads(args), || evaluation.run(contestant, &bar))?.map_err(failure)?;
     bar.bar.finish_and_clear();
-    told(console, &folder, &evaluation.settings.entrant.name, &tally)
+    told(console, &folder, &evaluation.settings.entrant, &tally, &ready)
+}
+
+/// Says what it would take.
+fn forecast(asked: &Asked, settings: &Settings, subjects: &[Subject], console: &Console) -> Answer {
+    let tasks = run::tasks(settings, subjects);
+    match asked {
+        Asked::Model(model) => {
+            let forecast = model.forecast(&tasks)?;
+            console.document(&forecast)?;
+            console.say(forecast);
+        }
+        Asked::Planner(_) | Asked::Replay(_) | Asked::Human(_) => {
+            let episodes = tasks.len();
+            console.document(&json!({ "episodes": episodes, "max_steps": settings.max_steps }))?;
+            console
+                .say(format_args!("{episodes} episodes of at most {} steps, at no cost", settings.max_steps));
+        }
+    }
+    Ok(true)
 }
 
 impl Asked {
-    fn contestant(&self, budget: u64) -> Contestant {
+    /// Who plays, as results call it.
+    fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
+        let (name, details) = match self {
+            Asked::Model(model) => return model.entrant(subjects),
+            Asked::Planner(spec) => {
+                let budget = spec.budget().unwrap_or(Budget(args.budget));
+                let looks_ahead = !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil");
+                let name = match looks_ahead {
+                    true => format!("{}:{}", spec.name(), budget.0),
+                    false => spec.name().to_owned(),
+                };
+                (name, json!({ "planner": spec.name(), "budget": budget }))
+            }
+            Asked::Replay(replay) => ("replay".to_owned(), json!({ "replay": replay.digest() })),
+            Asked::Human(prompts) => ("human".to_owned(), json!({ "prompt": prompts })),
+        };
+        Ok(Entrant { name, mode: None, aids: Vec::new(), details })
+    }
+
+    fn ready(self, args: &Args, evaluation: &Evaluation) -> Result<Ready, Failure> {
+        Ok(match self {
+            Asked::Planner(spec) => Ready::Planner(spec, Budget(args.budget)),
+            Asked::Replay(replay) => Ready::Replay(replay),
+            Asked::Human(prompts) => Ready::Human(model::prompters(&evaluation.subjects, &prompts)?),
+            Asked::Model(model) => Ready::Model(Box::new(model.connect(evaluation)?)),
+        })
+    }
+}
+
+impl Ready {
+    fn contestant(&self, task: &Task<'_>) -> Contestant {
         match self {
-            Asked::Planner(spec) => Contestant::Planner { spec: spec.clone(), budget: Budget(budget) },
-            Asked::Replay(replay) => Contestant::Agent(Box::new(replay.clone())),
+            Ready::Planner(spec, budget) => Contestant::Planner { spec: spec.clone(), budget: *budget },
+            Ready::Replay(replay) => Contestant::Agent(Box::new(replay.clone())),
+            Ready::Human(prompters) => {
+                Contestant::Agent(Box::new(Human::new(prompters[&task.subject.id].clone())))
+            }
+            Ready::Model(model) => model.contestant(task),
+        }
+    }
+
+    /// Episodes at a time. Those of models wait most of the time.
+    fn threads(&self, args: &Args) -> Option<usize> {
+        match self {
+            Ready::Model(_) => Some(args.model.concurrency.get()),
+            Ready::Human(_) => Some(1),
+            Ready::Planner(..) | Ready::Replay(_) => args.jobs,
         }
     }
 }
 
-fn asked(player: &str) -> Result<Asked, Failure> {
+fn asked(args: &Args) -> Result<Asked, Failure> {
+    if let Some(id) = &args.model.model {
+        return Ok(Asked::Model(Box::new(model::Asked::new(id, &args.model)?)));
+    }
+    let player = args.player.as_deref().unwrap_or_default();
     if let Some(file) = player.strip_prefix("replay:") {
-        let episode = crate::episodes::read(std::path::Path::new(file))?;
+        let episode = crate::episodes::read(Path::new(file))?;
         return Ok(Asked::Replay(Replay::of(&episode)));
+    }
+    if player == "human" {
+        return Ok(Asked::Human(args.model.prompt.settings()?));
     }
     let name = if player == "nil" { "do-nothing" } else { player };
     name.parse().map(Asked::Planner).map_err(Failure::malformed)
 }
 
-/// Who plays, as results call it.
-fn entrant(asked: &Asked, args: &Args) -> Entrant {
-    let (name, details) = match asked {
-        Asked::Planner(spec) => {
-            let budget = spec.budget().unwrap_or(Budget(args.budget));
-            let looks_ahead = !matches!(spec.name(), "do-nothing" | "random" | "random-with-nil");
-            let name = match looks_ahead {
-                true => format!("{}:{}", spec.name(), budget.0),
-                false => spec.name().to_owned(),
-            };
-            (name, json!({ "planner": spec.name(), "budget": budget }))
-        }
-        Asked::Replay(_) => (args.player.clone(), json!({ "replay": args.player })),
-    };
-    Entrant { name, mode: None, aids: Vec::new(), details }
+/// `results/` and who plays.
+fn default_folder(entrant: &Entrant) -> PathBuf {
+    let parts: Vec<&str> = [Some(entrant.name.as_str()), entrant.mode.as_deref()]
+        .into_iter()
+        .flatten()
+        .chain(entrant.aids.iter().map(String::as_str))
+        .collect();
+    PathBuf::from("results").join(file_name(&parts.join("_")))
 }
 
 fn file_name(name: &str) -> String {
@@ -143,19 +229,32 @@ fn file_name(name: &str) -> String {
 }
 
 /// What came of it.
-fn told(console: &Console, folder: &std::path::Path, player: &str, tally: &Tally) -> Answer {
-    console.document(&json!({ "results": folder, "player": player, "tally": tally }))?;
+fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, ready: &Ready) -> Answer {
+    let spent = match ready {
+        Ready::Model(model) => Some(model.caps.spent()),
+        Ready::Planner(..) | Ready::Replay(_) | Ready::Human(_) => None,
+    };
+    let spending = spent.map(
+        |spent| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": spent.cost.dollars() }),
+    );
+    console.document(&json!({ "results": folder, "entrant": entrant, "tally": tally, "spent": spending }))?;
     let Tally { episodes, ended, won, open, halted, infrastructure } = tally;
-    console.say(format_args!("{player}: {ended} of {episodes} episodes played, {won} won"));
-    console.say(format_args!("results in {}", folder.display()));
-    if let Some(why) = halted {
-        console.say(format_args!("{open} episodes are open: {why}; --resume goes on with them"));
+    console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won", entrant.name));
+    if let Some(spent) = spent {
+        let (requests, tokens) = (spent.requests, spent.tokens);
+        console.say(format_args!("{requests} requests, {tokens} tokens, {:.4} USD", spent.cost.dollars()));
     }
-    match (halted, infrastructure) {
-        (Some(why), true) => {
-            Err(Failure::surroundings(anyhow::anyhow!("{why}"), "not all episodes were played"))
+    console.say(format_args!("results in {}", folder.display()));
+    match halted {
+        Some(why) if *infrastructure => Err(Failure::surroundings(
+            anyhow::anyhow!("{why}"),
+            format_args!("{open} episodes are open, --resume goes on with them"),
+        )),
+        Some(why) => {
+            console.say(format_args!("{open} episodes are open: {why}; --resume goes on with them"));
+            Ok(false)
         }
-        _ => Ok(*open == 0),
+        None => Ok(*open == 0),
     }
 }
 

@@ -1,0 +1,58 @@
+//! A person as a player: sees what a language model is shown, and types actions.
+
+use evaluation::prompt::{Past, Prompter};
+use evaluation::{Agent, Choice, Halt, Journal, Turn, Validity};
+use std::io::{BufRead, Write};
+use std::sync::Arc;
+
+/// Reads actions, a line each, from standard input. What is shown goes to standard error, so that answers of the verb can be
+/// piped on.
+pub(crate) struct Human {
+    prompter: Arc<Prompter>,
+    past: Vec<Past>,
+}
+
+impl Human {
+    pub(crate) fn new(prompter: Arc<Prompter>) -> Human {
+        Human { prompter, past: Vec::new() }
+    }
+}
+
+impl Agent for Human {
+    fn act(&mut self, turn: &Turn<'_>, _: &mut Journal) -> Result<Choice, Halt> {
+        let shown = self.prompter.prompt(turn, &self.past, &[]).shown;
+        if turn.number == 0 {
+            show(self.prompter.static_part());
+        }
+        show(&format!("\n{shown}"));
+        let mut line = String::new();
+        loop {
+            line.clear();
+            let read = std::io::stdin().lock().read_line(&mut line);
+            if !read.is_ok_and(|bytes| bytes > 0) {
+                return Err(Halt::Interrupted);
+            }
+            let typed = line.trim().to_lowercase();
+            let Some(&action) = turn.actions.iter().find(|action| action.to_string() == typed) else {
+                let words: Vec<String> = turn.actions.iter().map(ToString::to_string).collect();
+                show(&format!("`{typed}` is none of {}", words.join(", ")));
+                continue;
+            };
+            self.past.push(Past::new(shown, &[], action));
+            return Ok(Choice { action, validity: Validity::Valid });
+        }
+    }
+
+    fn recall(&mut self, turn: &Turn<'_>, _: &Journal, choice: &Choice) -> Result<(), Halt> {
+        if turn.number == 0 {
+            show(self.prompter.static_part());
+        }
+        let shown = self.prompter.prompt(turn, &self.past, &[]).shown;
+        self.past.push(Past::new(shown, &[], choice.action));
+        Ok(())
+    }
+}
+
+fn show(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}

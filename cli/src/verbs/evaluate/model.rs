@@ -1,0 +1,441 @@
+//! The flags of language models, and what they ask for.
+
+use crate::failure::Failure;
+use crate::input::read_text;
+use crate::verbs::evaluate::failure;
+use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
+use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};
+use evaluation::run::Task;
+use evaluation::{Entrant, Evaluation, Observed, Subject};
+use serde::Serialize;
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Advice is text for a prompt.
+const MAX_STRATEGY: usize = 1 << 16;
+/// Tokens that dry runs take an answer to have, where nothing is said.
+const ANSWER_TOKENS: u64 = 100;
+
+/// Which model, how it is asked, and what that may cost.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Language models")]
+pub(crate) struct ModelArgs {
+    /// A language model: `openai:ID`, `anthropic:ID`, `gemini:ID`; any name with --base-url (docs/models.md)
+    #[arg(long, value_name = "ID")]
+    pub(crate) model: Option<String>,
+    /// Where an OpenAI-compatible server answers: vLLM, llama.cpp, Ollama, `arcade serve-player`
+    #[arg(long, value_name = "URL", requires = "model")]
+    base_url: Option<String>,
+    /// The environment variable that holds the key, if not the provider's usual one
+    #[arg(long, value_name = "VARIABLE", requires = "model")]
+    key_variable: Option<String>,
+    /// Sampling temperature; not sent if not given
+    #[arg(long, value_name = "T", requires = "model")]
+    temperature: Option<f64>,
+    /// Nucleus sampling; not sent if not given
+    #[arg(long, value_name = "P", requires = "model")]
+    top_p: Option<f64>,
+    /// Tokens of an answer at most, reasoning included
+    #[arg(long, value_name = "N", requires = "model")]
+    max_output_tokens: Option<u32>,
+    /// The provider's sampling seed
+    #[arg(long, value_name = "N", requires = "model")]
+    sampling_seed: Option<u64>,
+    /// `low`, `medium`, `high`, or what the provider knows
+    #[arg(long, value_name = "EFFORT", requires = "model")]
+    reasoning_effort: Option<String>,
+    /// How often it is asked again after an answer without a usable action
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    reasks: u32,
+    /// US dollars that may be spent, by the table of prices
+    #[arg(long, value_name = "USD", requires = "model")]
+    max_cost: Option<f64>,
+    /// Tokens that may be spent, of prompts and answers
+    #[arg(long, value_name = "N", requires = "model")]
+    max_tokens: Option<u64>,
+    /// Requests that may be answered
+    #[arg(long, value_name = "N", requires = "model")]
+    max_requests: Option<u64>,
+    /// Prices that come before the embedded ones, TOML
+    #[arg(long, value_name = "FILE", requires = "model")]
+    prices: Option<PathBuf>,
+    /// Folder of a cache of answers, kept between evaluations
+    #[arg(long, value_name = "DIR", requires = "model")]
+    cache: Option<PathBuf>,
+    /// Requests, and with them episodes, at a time
+    #[arg(long, value_name = "N", default_value = "4")]
+    pub(crate) concurrency: NonZeroUsize,
+    /// Requests that may begin in a minute
+    #[arg(long, value_name = "N", requires = "model")]
+    requests_per_minute: Option<NonZeroU64>,
+    /// Tokens of a minute's requests and answers
+    #[arg(long, value_name = "N", requires = "model")]
+    tokens_per_minute: Option<NonZeroU64>,
+    /// Tries of a request in all
+    #[arg(long, value_name = "N", default_value = "8")]
+    tries: NonZeroU32,
+    /// Seconds that a try may take
+    #[arg(long, value_name = "S", default_value_t = 600)]
+    timeout: u64,
+    #[command(flatten)]
+    pub(crate) prompt: PromptArgs,
+}
+
+/// What is shown of the game, and how.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Prompts (docs/prompts.md)")]
+pub(crate) struct PromptArgs {
+    /// Whether earlier turns are shown
+    #[arg(long, value_enum, default_value = "zero-shot")]
+    mode: ModeName,
+    /// Whose composition prompts have
+    #[arg(long, value_enum, default_value = "standard")]
+    prompt_style: StyleName,
+    /// How the rules are told
+    #[arg(long, value_enum, default_value = "described")]
+    rules: RulesName,
+    /// Aids beyond the default
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "AID")]
+    with: Vec<Aid>,
+    /// Aids to leave out
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "AID")]
+    without: Vec<Aid>,
+    /// Sprites go by names that tell nothing
+    #[arg(long)]
+    masked_names: bool,
+    /// Each state of the avatar has its own character, and none is told to be the player's
+    #[arg(long)]
+    identity_tracking: bool,
+    /// The characters of the board are drawn, by this number
+    #[arg(long, value_name = "N")]
+    shuffle_symbols: Option<u64>,
+    /// Advice that is added word by word
+    #[arg(long, value_name = "FILE")]
+    strategy: Option<PathBuf>,
+    /// Tokens of a conversation at most: older turns are left out beyond it
+    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    history_tokens: u64,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum ModeName {
+    ZeroShot,
+    Contextual,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum StyleName {
+    Standard,
+    Reference,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum RulesName {
+    Described,
+    Vgdl,
+    None,
+}
+
+/// A part of a prompt that can be had or left out.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
+enum Aid {
+    /// What the characters of the board stand for
+    Legend,
+    /// What the keys do
+    Meanings,
+    /// Where the avatar is and where it faces
+    Position,
+    /// What came of the action before
+    Feedback,
+    /// The board, a character a cell
+    Grid,
+    /// What lies around the avatar, and the nearest things
+    Grounding,
+    /// All things by place
+    Coordinates,
+    /// The board once more, turned by a quarter
+    Rotated,
+    /// A line of JSON
+    Json,
+    /// A picture
+    Image,
+}
+
+impl PromptArgs {
+    /// The settings of prompts that are asked for.
+    pub(crate) fn settings(&self) -> Result<PromptSettings, Failure> {
+        let strategy = self.strategy.as_deref().map(|path| read_text(path, MAX_STRATEGY)).transpose()?;
+        let mut settings = PromptSettings {
+            style: match self.prompt_style {
+                StyleName::Standard => PromptStyle::Standard,
+                StyleName::Reference => PromptStyle::Reference,
+            },
+            mode: match self.mode {
+                ModeName::ZeroShot => Mode::ZeroShot,
+                ModeName::Contextual => Mode::Contextual,
+            },
+            rules: match self.rules {
+                RulesName::Described => Rules::Described,
+                RulesName::Vgdl => Rules::Vgdl,
+                RulesName::None => Rules::None,
+            },
+            masked_names: self.masked_names,
+            identity_tracking: self.identity_tracking,
+            shuffled_symbols: self.shuffle_symbols,
+            strategy,
+            history_tokens: self.history_tokens,
+            ..PromptSettings::default()
+        };
+        if let Some(both) = self.with.iter().find(|aid| self.without.contains(aid)) {
+            let name = both.name();
+            return Err(Failure::malformed(format!("`{name}` is named both --with and --without")));
+        }
+        for (aids, on) in [(&self.with, true), (&self.without, false)] {
+            for aid in aids {
+                match aid {
+                    Aid::Legend => settings.legend = on,
+                    Aid::Meanings => settings.action_meanings = on,
+                    Aid::Position => settings.position = on,
+                    Aid::Feedback => settings.feedback = Some(on),
+                    Aid::Grid => settings.encodings.grid = on,
+                    Aid::Grounding => settings.encodings.grounding = on,
+                    Aid::Coordinates => settings.encodings.coordinates = on,
+                    Aid::Rotated => settings.encodings.rotated = on,
+                    Aid::Json => settings.encodings.json = on,
+                    Aid::Image => settings.encodings.image = on,
+                }
+            }
+        }
+        Ok(settings)
+    }
+
+    /// What is beyond or short of the default, a word each, for tables.
+    fn aids(&self) -> Vec<String> {
+        let mut aids: Vec<String> = self.with.iter().map(|aid| format!("+{}", aid.name())).collect();
+        aids.extend(self.without.iter().map(|aid| format!("-{}", aid.name())));
+        let switches = [
+            (matches!(self.prompt_style, StyleName::Reference), "style=reference"),
+            (matches!(self.rules, RulesName::Vgdl), "rules=vgdl"),
+            (matches!(self.rules, RulesName::None), "rules=none"),
+            (self.masked_names, "masked-names"),
+            (self.identity_tracking, "identity-tracking"),
+            (self.shuffle_symbols.is_some(), "shuffled-symbols"),
+            (self.strategy.is_some(), "+strategy"),
+        ];
+        aids.extend(switches.into_iter().filter(|(on, _)| *on).map(|(_, name)| name.to_owned()));
+        aids.sort();
+        aids.dedup();
+        aids
+    }
+}
+
+impl Aid {
+    fn name(self) -> String {
+        let value = clap::ValueEnum::to_possible_value(&self).expect("no aid is hidden");
+        value.get_name().to_owned()
+    }
+}
+
+impl ModelArgs {
+    fn options(&self, model: &str) -> Result<ModelOptions, Failure> {
+        let cost = match self.max_cost {
+            Some(dollars) => Some(Usd::from_dollars(dollars).ok_or_else(|| {
+                Failure::malformed(format!("--max-cost takes an amount of US dollars, not {dollars}"))
+            })?),
+            None => None,
+        };
+        let seconds = self.timeout.max(1);
+        Ok(ModelOptions {
+            base_url: self.base_url.clone(),
+            key_variable: self.key_variable.clone(),
+            decoding: Decoding {
+                temperature: self.temperature,
+                top_p: self.top_p,
+                max_output_tokens: self.max_output_tokens,
+                seed: self.sampling_seed,
+                reasoning_effort: self.reasoning_effort.clone(),
+            },
+            limits: Limits { cost, tokens: self.max_tokens, requests: self.max_requests },
+            prices: self.prices.clone(),
+            cache: self.cache.clone(),
+            concurrency: self.concurrency,
+            requests_per_minute: self.requests_per_minute,
+            tokens_per_minute: self.tokens_per_minute,
+            tries: self.tries,
+            timeout: Duration::from_secs(seconds),
+            ..ModelOptions::new(model)
+        })
+    }
+}
+
+/// Who writes the prompts of each game, by its id.
+pub(crate) type Prompters = BTreeMap<String, Arc<Prompter>>;
+
+/// Those of these games.
+pub(crate) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Result<Prompters, Failure> {
+    let prompter = |subject: &Subject| {
+        let prompter = Prompter::new(subject, settings.clone()).map_err(failure)?;
+        Ok((subject.id.clone(), Arc::new(prompter)))
+    };
+    subjects.iter().map(prompter).collect()
+}
+
+/// A model that was asked for, not yet connected.
+pub(crate) struct Asked {
+    options: ModelOptions,
+    settings: ModelSettings,
+    prompts: PromptSettings,
+    aids: Vec<String>,
+    reasks: u32,
+}
+
+/// A model that is ready to play.
+pub(crate) struct Ready {
+    model: Arc<dyn client::Model>,
+    prompters: Prompters,
+    decoding: Decoding,
+    reasks: u32,
+    /// What is spent.
+    pub(crate) caps: Arc<client::Caps>,
+}
+
+/// What an evaluation will take, at most.
+#[derive(Serialize)]
+pub(crate) struct Forecast {
+    episodes: u64,
+    requests: u64,
+    input_tokens: u64,
+    cacheable_tokens: u64,
+    output_tokens: u64,
+    /// US dollars; none if the price is not known.
+    cost: Option<f64>,
+    cost_if_cached: Option<f64>,
+    /// What of it goes beyond a cap.
+    forbidden: Option<String>,
+}
+
+impl Asked {
+    pub(crate) fn new(model: &str, args: &ModelArgs) -> Result<Asked, Failure> {
+        let options = args.options(model)?;
+        let settings = client::settings(&options).map_err(failure)?;
+        client::price(&options).map_err(failure)?;
+        let (prompts, aids, reasks) = (args.prompt.settings()?, args.prompt.aids(), args.reasks);
+        Ok(Asked { options, settings, prompts, aids, reasks })
+    }
+
+    /// Who plays, as results call it.
+    pub(crate) fn entrant(&self, subjects: &[Subject]) -> Result<Entrant, Failure> {
+        let digest =
+            subjects.first().map(|subject| self.prompter(subject).map(|own| own.digest())).transpose()?;
+        let mode = match self.prompts.mode {
+            Mode::ZeroShot => "zero-shot",
+            Mode::Contextual => "contextual",
+        };
+        Ok(Entrant {
+            name: self.settings.model.clone(),
+            mode: Some(mode.to_owned()),
+            aids: self.aids.clone(),
+            details: json!({
+                "model": self.settings,
+                "prompt": self.prompts,
+                "prompt_digest": digest,
+                "reasks": self.reasks,
+            }),
+        })
+    }
+
+    fn prompter(&self, subject: &Subject) -> Result<Prompter, Failure> {
+        Prompter::new(subject, self.prompts.clone()).map_err(failure)
+    }
+
+    /// Connects; what earlier runs of the evaluation have spent is charged.
+    pub(crate) fn connect(&self, evaluation: &Evaluation) -> Result<Ready, Failure> {
+        let connection = client::connect(&self.options).map_err(failure)?;
+        for task in evaluation.tasks() {
+            connection.caps.charge_past(&evaluation.events(&task).map_err(failure)?);
+        }
+        Ok(Ready {
+            model: Arc::from(connection.model),
+            prompters: prompters(&evaluation.subjects, &self.prompts)?,
+            decoding: connection.settings.decoding,
+            reasks: self.reasks,
+            caps: connection.caps,
+        })
+    }
+
+    /// What these episodes take if each of them takes all its steps and no answer is asked for again.
+    pub(crate) fn forecast(&self, tasks: &[Task<'_>]) -> Result<Forecast, Failure> {
+        let price = client::price(&self.options).map_err(failure)?;
+        let answer = self
+            .options
+            .decoding
+            .max_output_tokens
+            .map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(u64::from(most)));
+        let mut batches = Vec::new();
+        for task in tasks {
+            let prompter = self.prompter(task.subject)?;
+            let first = Observed::first(task);
+            let prompt = prompter.prompt(&first.turn(task), &[], &[]);
+            let (fixed, turn) = (prompt.tokens.fixed(), prompt.tokens.total - prompt.tokens.fixed());
+            let room = self.prompts.history_tokens.saturating_sub(fixed + turn);
+            let history = |step: u64| match self.prompts.mode {
+                Mode::ZeroShot => 0,
+                Mode::Contextual => room.min(step * (turn + answer)),
+            };
+            let past: u64 = (0..task.max_steps).map(history).sum();
+            batches.push(Batch {
+                requests: task.max_steps,
+                stable_tokens: fixed,
+                changing_tokens: turn + past / task.max_steps,
+                output_tokens: answer,
+            });
+        }
+        let estimate = Estimate::of(&batches, price.as_ref());
+        let caps = client::Caps::new(self.options.limits, price);
+        Ok(Forecast {
+            episodes: tasks.len() as u64,
+            requests: estimate.requests,
+            input_tokens: estimate.input_tokens,
+            cacheable_tokens: estimate.cacheable_tokens,
+            output_tokens: estimate.output_tokens,
+            cost: estimate.cost.map(Usd::dollars),
+            cost_if_cached: estimate.cost_if_cached.map(Usd::dollars),
+            forbidden: caps.forbid_estimate(&estimate),
+        })
+    }
+}
+
+impl Ready {
+    pub(crate) fn contestant(&self, task: &Task<'_>) -> evaluation::Contestant {
+        let prompter = self.prompters[&task.subject.id].clone();
+        let samples = task.chance().child("answers", 0);
+        let player = evaluation::player::ModelPlayer::new(
+            self.model.clone(),
+            prompter,
+            self.decoding.clone(),
+            self.reasks,
+            samples,
+        );
+        evaluation::Contestant::Agent(Box::new(player))
+    }
+}
+
+impl std::fmt::Display for Forecast {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let million = |tokens: u64| tokens as f64 / 1e6;
+        writeln!(f, "at most, if every episode takes all its steps and no answer is asked for again:")?;
+        writeln!(f, "{} episodes, {} requests", self.episodes, self.requests)?;
+        let (input, cached) = (million(self.input_tokens), million(self.cacheable_tokens));
+        writeln!(f, "{input:.2} M tokens of prompts, of which a provider's cache may hold {cached:.2} M")?;
+        writeln!(f, "{:.2} M tokens of answers", million(self.output_tokens))?;
+        match (self.cost, self.cost_if_cached) {
+            (Some(cost), Some(cached)) => write!(f, "{cost:.2} USD, {cached:.2} with the cache")?,
+            _ => write!(f, "cost: not known; --prices FILE gives prices")?,
+        }
+        self.forbidden.iter().try_for_each(|cap| write!(f, "\nthat exceeds {cap}"))
+    }
+}

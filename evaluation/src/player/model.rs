@@ -1,0 +1,230 @@
+//! A language model as a player: what it is shown, what it answers, what is made of that.
+
+use crate::answer::Reading;
+use crate::client::{ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model, Role};
+use crate::error::EvaluationError;
+use crate::log::{Event, Journal, Reply, ReplyClass};
+use crate::player::{Agent, Choice, Halt, Validity};
+use crate::prompt::{Attempt, Past, Prompt, Prompter};
+use crate::turn::Turn;
+use engine::{Action, Digest, Seed};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Why an answer that was cut off is asked for again.
+const CUT_OFF: &str = "it was cut off before it came to an action";
+/// Why a refusal is asked about again.
+const DECLINED: &str = "it declines to play";
+
+/// Has a language model play an episode.
+pub struct ModelPlayer {
+    model: Arc<dyn Model>,
+    prompter: Arc<Prompter>,
+    decoding: Decoding,
+    /// How often it is asked again after an answer without a usable action.
+    reasks: u32,
+    /// Where the draws of the answers come from.
+    samples: Seed,
+    past: Vec<Past>,
+    /// The texts in the log, by their numbers.
+    texts: BTreeMap<Text, u32>,
+    /// Events of the log whose texts are among them.
+    read: usize,
+}
+
+/// Where answers come from.
+enum Log<'a> {
+    /// The log, and where it has none the model.
+    Open(&'a mut Journal),
+    /// The log only: the turn is over.
+    Past(&'a Journal),
+}
+
+/// What makes a message the same as another one.
+type Text = (u8, Digest, Option<Digest>);
+
+impl ModelPlayer {
+    /// A player for one episode of the prompter's game. `reasks`: how often it is asked again, with what was wrong, after an
+    /// answer without an action that can be chosen. `samples`: of the episode, the same whenever it is taken up again.
+    pub fn new(
+        model: Arc<dyn Model>,
+        prompter: Arc<Prompter>,
+        decoding: Decoding,
+        reasks: u32,
+        samples: Seed,
+    ) -> ModelPlayer {
+        let (past, texts) = (Vec::new(), BTreeMap::new());
+        ModelPlayer { model, prompter, decoding, reasks, samples, past, texts, read: 0 }
+    }
+
+    /// Goes through the attempts of a turn. Answers that the log has are not asked for again.
+    fn turn(&mut self, turn: &Turn<'_>, mut log: Log<'_>) -> Result<Choice, Halt> {
+        let prompter = self.prompter.clone();
+        let mut attempts = Vec::new();
+        let mut attempt = 0;
+        let (shown, choice) = loop {
+            let prompt = prompter.prompt(turn, &self.past, &attempts);
+            let recorded = match &log {
+                Log::Open(journal) => recorded(journal, attempt),
+                Log::Past(journal) => recorded(journal, attempt),
+            };
+            let reply = match (recorded, &mut log) {
+                (Some(reply), _) => reply,
+                (None, Log::Open(journal)) => self.ask(turn, journal, attempt, &prompt)?,
+                (None, Log::Past(_)) => {
+                    return Err(Halt::Log(format!("the log has no answer for step {}", turn.number)));
+                }
+            };
+            let (class, action, why) = judged(&prompter, turn, &reply.text, reply.finish);
+            let again = action.is_none() && attempt < self.reasks;
+            let complaint = again.then(|| prompter.complaint(&why));
+            attempts.push(Attempt { answer: reply.text, complaint });
+            if !again {
+                let validity = action.map_or_else(|| blame(class), |_| Validity::Valid);
+                break (prompt.shown, Choice { action: action.unwrap_or(Action::Nil), validity });
+            }
+            attempt += 1;
+        };
+        self.past.push(Past::new(shown, &attempts, choice.action));
+        Ok(choice)
+    }
+
+    /// Asks, with everything in the log before it is sent and as soon as it is answered.
+    fn ask(
+        &mut self,
+        turn: &Turn<'_>,
+        journal: &mut Journal,
+        attempt: u32,
+        prompt: &Prompt,
+    ) -> Result<Reply, Halt> {
+        let step = turn.number;
+        let messages = prompt.messages.iter().map(|message| self.number(message, journal));
+        let messages = messages.collect::<Result<Vec<u32>, Halt>>()?;
+        let asked =
+            |event: &Event| matches!(event, Event::Request { attempt: asked, .. } if *asked == attempt);
+        if !journal.pending().iter().any(asked) {
+            let tokens = prompt.tokens.total;
+            push(journal, Event::Request { step, attempt, messages, tokens })?;
+        }
+        let request = ChatRequest {
+            messages: prompt.messages.clone(),
+            decoding: self.decoding.clone(),
+            sample: self.samples.child("step", step).child("attempt", u64::from(attempt)),
+        };
+        let answer = self.model.chat(&request).map_err(|error| match error.kind {
+            ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
+            ChatErrorKind::Budget => Halt::Budget(error.message),
+            ChatErrorKind::Rejected => Halt::Rejected(error.message),
+        })?;
+        let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
+        let (class, action, _) = judged(&self.prompter, turn, &text, finish);
+        let stage = match self.prompter.read(&text, turn) {
+            Reading::Tolerant { stage, .. } if action.is_some() => Some(stage.name().to_owned()),
+            _ => None,
+        };
+        let latency_ms = (latency_ms * 1000.0).round() / 1000.0;
+        let reply = Reply {
+            step,
+            attempt,
+            class,
+            text,
+            reasoning,
+            action,
+            stage,
+            finish,
+            usage,
+            served_by,
+            failures,
+            cached,
+            latency_ms,
+        };
+        push(journal, Event::Reply(reply.clone()))?;
+        Ok(reply)
+    }
+
+    /// The number of a message in the log, where it is written the first time that it is said.
+    fn number(&mut self, message: &ChatMessage, journal: &mut Journal) -> Result<u32, Halt> {
+        for event in &journal.events()[self.read..] {
+            if let Event::Message { id, role, text, image } = event {
+                self.texts.insert((rank(*role), Digest::of(text.as_bytes()), *image), *id);
+            }
+        }
+        self.read = journal.events().len();
+        let image = message.image.as_deref().map(Digest::of);
+        let text = (rank(message.role), Digest::of(message.text.as_bytes()), image);
+        if let Some(&id) = self.texts.get(&text) {
+            return Ok(id);
+        }
+        let id = self.texts.len() as u32;
+        let (role, words) = (message.role, message.text.clone());
+        push(journal, Event::Message { id, role, text: words, image })?;
+        self.texts.insert(text, id);
+        Ok(id)
+    }
+}
+
+impl Agent for ModelPlayer {
+    fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
+        self.turn(turn, Log::Open(journal))
+    }
+
+    fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt> {
+        let again = self.turn(turn, Log::Past(journal))?;
+        let step = turn.number;
+        match again == *choice {
+            true => Ok(()),
+            false => {
+                Err(Halt::Log(format!("the answers of step {step} are now read otherwise than recorded")))
+            }
+        }
+    }
+}
+
+/// What an answer is worth, the action in it, and else why there is none, as a clause about it.
+fn judged(
+    prompter: &Prompter,
+    turn: &Turn<'_>,
+    text: &str,
+    finish: Finish,
+) -> (ReplyClass, Option<Action>, String) {
+    if finish == Finish::Refusal {
+        return (ReplyClass::Refused, None, DECLINED.to_owned());
+    }
+    match (prompter.read(text, turn), finish) {
+        (Reading::Strict(action), _) => (ReplyClass::Strict, Some(action), String::new()),
+        // What was thought of before the end is no decision.
+        (_, Finish::Length) => (ReplyClass::Truncated, None, CUT_OFF.to_owned()),
+        (Reading::Tolerant { action, .. }, _) => (ReplyClass::Tolerant, Some(action), String::new()),
+        (Reading::Invalid { why }, _) => (ReplyClass::Invalid, None, why),
+    }
+}
+
+/// How a turn went whose last answer has no action.
+fn blame(class: ReplyClass) -> Validity {
+    match class {
+        ReplyClass::Refused => Validity::Refused,
+        ReplyClass::Truncated => Validity::Truncated,
+        ReplyClass::Strict | ReplyClass::Tolerant | ReplyClass::Invalid => Validity::Invalid,
+    }
+}
+
+/// The answer to this attempt that the log has.
+fn recorded(journal: &Journal, attempt: u32) -> Option<Reply> {
+    let reply = |event: &Event| match event {
+        Event::Reply(reply) if reply.attempt == attempt => Some(reply.clone()),
+        _ => None,
+    };
+    journal.pending().iter().find_map(reply)
+}
+
+fn rank(role: Role) -> u8 {
+    match role {
+        Role::System => 0,
+        Role::User => 1,
+        Role::Assistant => 2,
+    }
+}
+
+fn push(journal: &mut Journal, event: Event) -> Result<(), Halt> {
+    journal.push(event).map_err(|error: EvaluationError| Halt::Log(error.to_string()))
+}
