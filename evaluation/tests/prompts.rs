@@ -497,7 +497,7 @@ fn pictures_are_shown_of_the_newest_turn() {
     let past = [Past::new(first.shown.clone(), &[], Action::Nil)];
     let second = prompter.prompt(&walk.turn(), &past, &[]);
     let pictures: Vec<bool> = second.messages.iter().map(|message| message.image.is_some()).collect();
-    assert_eq!(pictures, [false, false, true]);
-    let bytes = second.messages[2].image.as_ref().unwrap();
+    assert_eq!(pictures, [false, false, false, true]);
+    let bytes = second.messages[3].image.as_ref().unwrap();
     assert!(bytes.starts_with(b"\x89PNG") && first.messages[1].image.as_ref() != Some(bytes));
 }

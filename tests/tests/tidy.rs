@@ -44,6 +44,8 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("minijinja", &["cli", "evaluation"]),
     ("anyhow", &["cli", "xtask"]),
     ("ureq", &["evaluation"]),
+    ("tiktoken", &["evaluation"]),
+    ("regex", &["evaluation"]),
 ];
 
 /// The longest a Rust file may be, in lines.

@@ -5,15 +5,15 @@
 mod coordinates;
 mod grid;
 mod grounding;
-mod image;
 mod json;
+mod picture;
 mod rotated;
 mod scene;
 
 pub use coordinates::coordinates;
 pub use grid::{grid, stacks};
 pub use grounding::grounding;
-pub use image::image;
 pub use json::json;
+pub use picture::{Picture, picture};
 pub use rotated::rotated;
 pub(crate) use scene::direction_name;

@@ -25,21 +25,35 @@ pub struct Past {
     pub(super) shown: String,
     pub(super) attempts: Vec<Attempt>,
     pub(super) played: Action,
+    /// Tokens of what was shown.
+    shown_tokens: u64,
+    /// Tokens of the whole turn.
     pub(super) tokens: u64,
 }
 
 impl Past {
     /// What was shown ([`Prompt::shown`](super::Prompt::shown)), what was answered, and what was played in the end.
-    /// Of answers only what is remembered of them is kept: their end, reasoning left out.
+    /// Of answers only what is remembered of them is kept: their end, reasoning left out. A turn without an answer has an
+    /// empty one, and to the last one nothing is said: providers want the two sides of a conversation to take turns.
     pub fn new(shown: String, attempts: &[Attempt], played: Action) -> Past {
-        let kept = |attempt: &Attempt| Attempt {
-            answer: remembered(&attempt.answer),
-            complaint: attempt.complaint.clone(),
-        };
-        let attempts: Vec<Attempt> = attempts.iter().map(kept).collect();
-        let tokens = cost(&shown) + spoken(&attempts);
-        Past { shown, attempts, played, tokens }
+        let mut attempts = kept(attempts);
+        match attempts.last_mut() {
+            Some(last) => last.complaint = None,
+            None => attempts.push(Attempt { answer: NO_ANSWER.to_owned(), complaint: None }),
+        }
+        let shown_tokens = cost(&shown);
+        let tokens = shown_tokens + spoken(&attempts);
+        Past { shown, attempts, played, shown_tokens, tokens }
     }
+}
+
+/// What conversations show of answers.
+pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
+    let kept = |attempt: &Attempt| Attempt {
+        answer: remembered(&attempt.answer),
+        complaint: attempt.complaint.clone(),
+    };
+    attempts.iter().map(kept).collect()
 }
 
 /// Tokens of a message.
@@ -54,7 +68,7 @@ pub(super) fn spoken(attempts: &[Attempt]) -> u64 {
 }
 
 /// What a conversation shows of an earlier answer.
-pub(super) fn remembered(answer: &str) -> String {
+fn remembered(answer: &str) -> String {
     let said = answer::without_reasoning(answer).trim();
     if said.is_empty() {
         return NO_ANSWER.to_owned();
@@ -69,7 +83,7 @@ pub(super) fn remembered(answer: &str) -> String {
 /// their caches. Cost: O(turns).
 pub(super) fn first_kept(past: &[Past], fixed: u64, now: u64, budget: u64) -> usize {
     let (mut start, mut kept) = (0, 0);
-    let current = past.iter().map(|turn| cost(&turn.shown)).chain([now]);
+    let current = past.iter().map(|turn| turn.shown_tokens).chain([now]);
     for (number, shown) in current.enumerate() {
         if fixed + kept + shown > budget {
             while start < number && fixed + kept + shown > budget - budget / 4 {

@@ -190,10 +190,12 @@ impl Prompter {
     /// turn only. Never an error: what does not fit the budget is left out by whole turns, the newest one never.
     pub fn prompt(&self, turn: &Turn<'_>, past: &[Past], attempts: &[Attempt]) -> Prompt {
         let shown = self.write_turn(turn, past);
-        let (image, picture_tokens) = self.picture(turn);
+        let picture = self.picture(turn);
+        let picture_tokens =
+            picture.as_ref().map(|picture| tokens::of_picture(picture.width, picture.height));
         let mut turn_tokens = by_section(&shown);
         turn_tokens.extend(picture_tokens.map(|tokens| PartTokens { part: "Picture".to_owned(), tokens }));
-        let attempts: Vec<Attempt> = Past::new(String::new(), attempts, Action::Nil).attempts;
+        let attempts = history::kept(attempts);
         let past = if self.settings.mode == Mode::ZeroShot { &[] } else { past };
         let fixed = history::cost(&self.static_part);
         let again = history::spoken(&attempts);
@@ -210,7 +212,7 @@ impl Prompter {
             speak(&mut messages, &turn.attempts);
         }
         let text = if single { format!("{}\n\n{shown}", self.static_part) } else { shown.clone() };
-        messages.push(ChatMessage { role: Role::User, text, image });
+        messages.push(ChatMessage { role: Role::User, text, image: picture.map(|picture| picture.png) });
         speak(&mut messages, &attempts);
         let before: u64 = past[left_out..].iter().map(|turn| turn.tokens).sum();
         let tokens = PromptTokens {
@@ -305,17 +307,18 @@ impl Prompter {
         text.trim_end().to_owned()
     }
 
-    fn picture(&self, turn: &Turn<'_>) -> (Option<Vec<u8>>, Option<u64>) {
+    fn picture(&self, turn: &Turn<'_>) -> Option<encoding::Picture> {
         if !self.settings.encodings.image {
-            return (None, None);
+            return None;
         }
-        let seen = self.mask.as_ref().map(|mask| mask.observation(turn.observation));
-        let seen = seen.as_ref().unwrap_or(turn.observation);
-        let (columns, rows) = (seen.columns as u32, seen.rows as u32);
-        let cell = Style::cell_for(columns, rows).min(self.settings.encodings.image_cell);
-        let bytes = encoding::image(seen, &self.legend, cell, true)
-            .expect("boards have fewer cells than pictures pixels");
-        (Some(bytes), Some(tokens::of_picture(columns * cell, rows * cell)))
+        let masked = self.mask.as_ref().map(|mask| mask.observation(turn.observation));
+        let seen = masked.as_ref().unwrap_or(turn.observation);
+        let cell = Style::cell_for(seen.columns as u32, seen.rows as u32);
+        let cell = cell.min(self.settings.encodings.image_cell);
+        Some(
+            encoding::picture(seen, &self.legend, cell)
+                .expect("boards have fewer cells than pictures pixels"),
+        )
     }
 
     fn render(&self, template: &str, data: Value) -> String {
