@@ -59,12 +59,12 @@ impl Key {
         words.replace(&self.secret, HIDDEN)
     }
 
-    /// The body of a reply without the key.
-    pub(super) fn hide_in_body(&self, body: String) -> String {
-        if self.secret.len() >= TELLING && body.contains(&self.secret) {
-            return self.hide_in_words(&body);
+    /// An answer without the key.
+    pub(super) fn hide_in_answer(&self, text: String) -> String {
+        if self.secret.len() >= TELLING && text.contains(&self.secret) {
+            return self.hide_in_words(&text);
         }
-        body
+        text
     }
 }
 
@@ -98,8 +98,8 @@ mod tests {
         assert!(!format!("{:?}", key.header("Bearer ")).contains("zebra"));
         assert_eq!(key.header("Bearer ").to_str().unwrap(), "Bearer sk-zebra-0123456789");
         assert_eq!(key.hide_in_words("no such key: sk-zebra-0123456789."), "no such key: [key].");
-        assert_eq!(key.hide_in_body("{\"sk-zebra-0123456789\"}".to_owned()), "{\"[key]\"}");
+        assert_eq!(key.hide_in_answer("{\"sk-zebra-0123456789\"}".to_owned()), "{\"[key]\"}");
         let short = read("up").unwrap().unwrap();
-        assert_eq!(short.hide_in_body("Action: up".to_owned()), "Action: up", "a word, not the key");
+        assert_eq!(short.hide_in_answer("Action: up".to_owned()), "Action: up", "a word, not the key");
     }
 }

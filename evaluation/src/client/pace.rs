@@ -77,11 +77,12 @@ impl Pace {
         }
     }
 
-    /// A request has taken so many tokens more than it was let through with.
-    pub(super) fn add_tokens(&self, tokens: u64) {
+    /// A request that was let through with `expected` tokens has taken so many.
+    pub(super) fn correct(&self, expected: u64, taken: u64) {
         if let Some(limit) = self.tokens_per_minute {
             let mut schedule = self.schedule();
-            schedule.tokens = schedule.tokens.saturating_add(span(tokens, limit));
+            let more = schedule.tokens.saturating_add(span(taken.saturating_sub(expected), limit));
+            schedule.tokens = more.saturating_sub(span(expected.saturating_sub(taken), limit));
         }
     }
 
@@ -153,9 +154,12 @@ mod tests {
         pace.wait(500);
         pace.wait(500);
         assert_eq!(clock.elapsed(), Duration::from_secs(5));
-        pace.add_tokens(100);
-        pace.wait(0);
+        pace.correct(500, 600);
+        pace.wait(500);
         assert_eq!(clock.elapsed(), Duration::from_secs(11));
+        pace.correct(500, 100);
+        pace.wait(0);
+        assert_eq!(clock.elapsed(), Duration::from_secs(12));
     }
 
     #[test]

@@ -77,9 +77,10 @@ impl Remote {
                 Ok(answer) => {
                     let reply = self.reply(answer, failures, latency_ms);
                     reservation.settle(&reply.usage, &reply.text, reply.reasoning.as_deref());
-                    let used = [reply.usage.input_tokens, reply.usage.output_tokens];
-                    let used = used.into_iter().flatten().fold(0, u64::saturating_add);
-                    self.pace.add_tokens(used.saturating_sub(prompt));
+                    let taken = [reply.usage.input_tokens, reply.usage.output_tokens];
+                    if let [Some(input), Some(output)] = taken {
+                        self.pace.correct(prompt, input.saturating_add(output));
+                    }
                     if let Some((cache, key)) = entry {
                         cache.put(key, &reply);
                     }
@@ -118,14 +119,29 @@ impl Remote {
             Fault::Passing { status, message, wait: None }
         })?;
         if let Some(key) = &self.key {
-            reply.body = key.hide_in_body(reply.body);
+            let answers = (200..300).contains(&reply.status);
+            reply.body =
+                if answers { key.hide_in_answer(reply.body) } else { key.hide_in_words(&reply.body) };
         }
-        judge(self.spec.provider, &reply, self.clock.date()).map_err(|fault| match fault {
-            Fault::Passing { status, message, wait } => {
-                Fault::Passing { status, message: hide(message), wait }
+        match judge(self.spec.provider, &reply, self.clock.date()) {
+            Ok(answer) => Ok(self.without_key(answer)),
+            Err(Fault::Passing { status, message, wait }) => {
+                Err(Fault::Passing { status, message: hide(message), wait })
             }
-            Fault::Final { status, message } => Fault::Final { status, message: hide(message) },
-        })
+            Err(Fault::Final { status, message }) => Err(Fault::Final { status, message: hide(message) }),
+        }
+    }
+
+    /// Once more after reading: in JSON there are many ways to write the same.
+    fn without_key(&self, answer: Answer) -> Answer {
+        let Some(key) = &self.key else { return answer };
+        let hide = |text| key.hide_in_answer(text);
+        Answer {
+            text: hide(answer.text),
+            reasoning: answer.reasoning.map(hide),
+            served_by: answer.served_by.map(hide),
+            ..answer
+        }
     }
 
     fn reply(&self, answer: Answer, failures: Vec<Failure>, latency_ms: f64) -> ChatReply {
