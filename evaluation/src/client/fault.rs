@@ -133,6 +133,7 @@ pub(super) fn shorten(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn reply(status: u16, body: &str) -> HttpReply {
         HttpReply { status, retry_after: None, location: None, body: body.to_owned() }
@@ -221,6 +222,40 @@ mod tests {
         ] {
             let Err(Fault::Passing { status, message, .. }) = judged(200, body) else { panic!("{body}") };
             assert!(status == Some(200) && message.contains(words), "{message}");
+        }
+    }
+
+    proptest! {
+        /// Whatever a server says: a fault has few words, on one line, and nothing for a terminal to obey.
+        #[test]
+        fn any_words(status in 200u16..600, body in "\\PC*|[^a]*|\\{\"error\":\"[^\"]*\"\\}|\\{\"message\":.*") {
+            for provider in [Provider::OpenAi, Provider::Anthropic, Provider::Gemini] {
+                let message = match judge(provider, &reply(status, &body), SystemTime::UNIX_EPOCH) {
+                    Ok(answer) => answer.text,
+                    Err(Fault::Passing { message, .. } | Fault::Final { message, .. }) => message,
+                };
+                prop_assert!(message.chars().count() <= WORDS + 1 && !message.contains(char::is_control));
+            }
+        }
+    }
+
+    /// Whatever place a reply is cut off at, half of it is no answer.
+    #[test]
+    fn half_a_reply_is_none() {
+        for (provider, body) in [
+            (Provider::Compatible, r#"{"choices":[{"message":{"content":"é up"},"finish_reason":"stop"}]}"#),
+            (Provider::Anthropic, r#"{"content":[{"type":"text","text":"é up"}],"stop_reason":"end_turn"}"#),
+            (
+                Provider::Gemini,
+                r#"{"candidates":[{"content":{"parts":[{"text":"é up"}]},"finishReason":"STOP"}]}"#,
+            ),
+        ] {
+            let whole = judge(provider, &reply(200, body), SystemTime::UNIX_EPOCH).unwrap();
+            assert_eq!((whole.text.as_str(), whole.finish), ("é up", Finish::Stop));
+            for (end, _) in body.char_indices() {
+                let half = judge(provider, &reply(200, &body[..end]), SystemTime::UNIX_EPOCH);
+                assert!(matches!(half, Err(Fault::Passing { status: Some(200), .. })), "{}", &body[..end]);
+            }
         }
     }
 }

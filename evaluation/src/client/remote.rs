@@ -72,17 +72,18 @@ impl Remote {
             self.pace.wait(prompt);
             let begin = self.clock.elapsed();
             let outcome = self.try_once(url, body);
-            let latency_ms = (self.clock.elapsed() - begin).as_secs_f64() * 1e3;
+            let latency = self.clock.elapsed().saturating_sub(begin);
             let (status, message, asked) = match outcome {
                 Ok(answer) => {
-                    let reply = self.reply(answer, failures, latency_ms);
-                    reservation.settle(&reply.usage, &reply.text, reply.reasoning.as_deref());
-                    let taken = [reply.usage.input_tokens, reply.usage.output_tokens];
-                    if let [Some(input), Some(output)] = taken {
-                        self.pace.correct(prompt, input.saturating_add(output));
-                    }
+                    let reply = reply(answer, failures, latency);
+                    // First of all: a run that is killed from here on finds the answer there.
                     if let Some((cache, key)) = entry {
                         cache.put(key, &reply);
+                    }
+                    reservation.settle(&reply.usage, &reply.text, reply.reasoning.as_deref());
+                    if let (Some(input), Some(output)) = (reply.usage.input_tokens, reply.usage.output_tokens)
+                    {
+                        self.pace.correct(prompt, input.saturating_add(output));
                     }
                     return Ok(reply);
                 }
@@ -144,19 +145,6 @@ impl Remote {
         }
     }
 
-    fn reply(&self, answer: Answer, failures: Vec<Failure>, latency_ms: f64) -> ChatReply {
-        ChatReply {
-            text: answer.text,
-            reasoning: answer.reasoning,
-            finish: answer.finish,
-            usage: answer.usage,
-            served_by: answer.served_by,
-            failures,
-            latency_ms,
-            cached: false,
-        }
-    }
-
     fn rejected(&self, status: u16, words: &str, failures: Vec<Failure>) -> ChatError {
         let (host, model) = (&self.spec.server.host, &self.spec.model);
         let next = match (status, &self.key) {
@@ -188,14 +176,26 @@ impl Remote {
     }
 }
 
-/// How long to wait after a failed try: what the server asks for and a little more, or else exponentially longer with
-/// every try, between half of it and all, so that threads that failed together do not try together again.
-fn wait(number: u32, asked: Option<Duration>, jitter: &mut Sampler) -> Duration {
-    if let Some(time) = asked {
-        return time + FIRST_WAIT.mul_f64(jitter.unit());
+fn reply(answer: Answer, failures: Vec<Failure>, latency: Duration) -> ChatReply {
+    ChatReply {
+        text: answer.text,
+        reasoning: answer.reasoning,
+        finish: answer.finish,
+        usage: answer.usage,
+        served_by: answer.served_by,
+        failures,
+        latency_ms: latency.as_micros() as f64 / 1000.0,
+        cached: false,
     }
+}
+
+/// How long to wait after a failed try: exponentially longer with every try, between half of it and all, so that threads
+/// that failed together do not try together again; and what the server asks for and a little more, if that is longer.
+fn wait(number: u32, asked: Option<Duration>, jitter: &mut Sampler) -> Duration {
     let doubled = FIRST_WAIT.saturating_mul(1u32.checked_shl(number - 1).unwrap_or(u32::MAX));
-    doubled.min(LONGEST_WAIT).mul_f64(0.5 + 0.5 * jitter.unit())
+    let own = doubled.min(LONGEST_WAIT).mul_f64(0.5 + 0.5 * jitter.unit());
+    let asked = asked.map_or(Duration::ZERO, |time| time + FIRST_WAIT.mul_f64(jitter.unit()));
+    own.max(asked)
 }
 
 #[cfg(test)]
@@ -212,5 +212,9 @@ mod tests {
         }
         let time = wait(3, Some(Duration::from_secs(20)), &mut jitter).as_secs_f64();
         assert!((20.0..21.0).contains(&time), "{time}");
+        assert!(
+            wait(6, Some(Duration::ZERO), &mut jitter) >= Duration::from_secs(16),
+            "it asks for too little"
+        );
     }
 }
