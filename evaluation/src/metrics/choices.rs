@@ -1,0 +1,124 @@
+//! How the choices of an episode came about, and what they cost.
+
+use crate::log::{Event, ReplyClass};
+use crate::player::Validity;
+use serde::Serialize;
+
+/// How many steps came about in which way. Their sum is the number of steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Choices {
+    /// By an answer in the format that was asked for, or by a player that gives no answers.
+    pub valid: u64,
+    /// By an answer that was read with tolerance.
+    pub tolerant: u64,
+    /// Nothing was done, because no answer could be read.
+    pub invalid: u64,
+    /// Nothing was done, because the player would not answer.
+    pub refused: u64,
+    /// Nothing was done, because the answer was cut off.
+    pub truncated: u64,
+}
+
+impl Choices {
+    /// The choices of a log.
+    pub fn of(log: &[Event]) -> Choices {
+        let mut choices = Choices::default();
+        let mut class = None;
+        for event in log {
+            match event {
+                Event::Reply(reply) => class = Some(reply.class),
+                Event::Step { validity, .. } => {
+                    let count = match (validity, class.take()) {
+                        (Validity::Valid, Some(ReplyClass::Tolerant)) => &mut choices.tolerant,
+                        (Validity::Valid, _) => &mut choices.valid,
+                        (Validity::Invalid, _) => &mut choices.invalid,
+                        (Validity::Refused, _) => &mut choices.refused,
+                        (Validity::Truncated, _) => &mut choices.truncated,
+                    };
+                    *count += 1;
+                }
+                _ => {}
+            }
+        }
+        choices
+    }
+
+    /// Steps.
+    pub fn total(&self) -> u64 {
+        self.valid + self.tolerant + self.invalid + self.refused + self.truncated
+    }
+
+    /// Adds those of another episode.
+    pub fn add(&mut self, other: &Choices) {
+        self.valid += other.valid;
+        self.tolerant += other.tolerant;
+        self.invalid += other.invalid;
+        self.refused += other.refused;
+        self.truncated += other.truncated;
+    }
+}
+
+/// What the answers of an episode cost. Tokens are as the provider counts them; a sum is missing if one of its answers does not
+/// tell, or there are none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Spending {
+    /// Requests sent, answered or not.
+    pub requests: u64,
+    /// Answers.
+    pub replies: u64,
+    /// Answers that came from the cache: their tokens are counted, though nobody was paid.
+    pub cached_replies: u64,
+    /// Tries that failed before an answer came.
+    pub failures: u64,
+    /// Tokens of the prompts.
+    pub input_tokens: Option<u64>,
+    /// Of these, read from the provider's cache.
+    pub cached_input_tokens: Option<u64>,
+    /// Tokens of the answers, reasoning included.
+    pub output_tokens: Option<u64>,
+    /// Of these, reasoning.
+    pub reasoning_tokens: Option<u64>,
+}
+
+impl Spending {
+    /// What the answers of a log cost.
+    pub fn of(log: &[Event]) -> Spending {
+        let replies: Vec<_> = log
+            .iter()
+            .filter_map(|event| match event {
+                Event::Reply(reply) => Some(reply),
+                _ => None,
+            })
+            .collect();
+        let sum = |of: fn(&crate::client::Usage) -> Option<u64>| {
+            let sum: Option<u64> = replies.iter().map(|reply| of(&reply.usage)).sum();
+            sum.filter(|_| !replies.is_empty())
+        };
+        Spending {
+            requests: log.iter().filter(|event| matches!(event, Event::Request { .. })).count() as u64,
+            replies: replies.len() as u64,
+            cached_replies: replies.iter().filter(|reply| reply.cached).count() as u64,
+            failures: replies.iter().map(|reply| reply.failures.len() as u64).sum(),
+            input_tokens: sum(|usage| usage.input_tokens),
+            cached_input_tokens: sum(|usage| usage.cached_input_tokens),
+            output_tokens: sum(|usage| usage.output_tokens),
+            reasoning_tokens: sum(|usage| usage.reasoning_tokens),
+        }
+    }
+
+    /// Adds what another episode cost. An episode without answers adds nothing.
+    pub fn add(&mut self, other: &Spending) {
+        if other.replies > 0 {
+            let first = self.replies == 0;
+            let sum = |a: Option<u64>, b: Option<u64>| if first { b } else { Some(a? + b?) };
+            self.input_tokens = sum(self.input_tokens, other.input_tokens);
+            self.cached_input_tokens = sum(self.cached_input_tokens, other.cached_input_tokens);
+            self.output_tokens = sum(self.output_tokens, other.output_tokens);
+            self.reasoning_tokens = sum(self.reasoning_tokens, other.reasoning_tokens);
+        }
+        self.requests += other.requests;
+        self.replies += other.replies;
+        self.cached_replies += other.cached_replies;
+        self.failures += other.failures;
+    }
+}

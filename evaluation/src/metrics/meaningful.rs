@@ -1,0 +1,129 @@
+//! Which steps of an episode were meaningful (`spec/06` §2.1).
+//!
+//! The paper calls a step meaningful if it earned a reward or the grid changed by the action, moves that cancel each other within
+//! four steps apart. "By the action" is decided by a counterfactual: what would be seen had nothing been done, from the same state
+//! under the same chance. What moves by itself then looks the same in both, and only the player's doing differs.
+
+/// Moves that cancel each other lie within this many steps.
+pub const WINDOW: usize = 4;
+
+/// What an action did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// All is as if nothing had been done, and there was no reward.
+    Nothing,
+    /// Only the avatar is elsewhere than if nothing had been done, and there was no reward.
+    Moved,
+    /// There was a reward, or anything else is otherwise: a sprite appeared, vanished, changed or moved, the avatar became
+    /// something else, or the game is over.
+    Acted,
+}
+
+/// Whether each step is meaningful. `places` are where the avatar is before the first step and after each: one more than effects;
+/// `None` while there is none.
+///
+/// A step that acted is. A step that moved is, unless it is part of a loop: if the avatar returns to where it was before a step no
+/// more than [`WINDOW`] steps back, and all steps since did nothing but move it, these moves cancel each other. A closed loop is
+/// forgotten: of the walk A B A B C the first two moves cancel each other, the last two lead from A to C. Cost: O(steps).
+///
+/// # Panics
+/// If there is not one place more than effects.
+///
+/// ```
+/// use evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
+/// // Back and forth, into a wall, and on to where a box stands.
+/// let places = [0, 1, 0, 0, 1, 2].map(Some);
+/// let flags = meaningful(&[Moved, Moved, Nothing, Moved, Acted], &places);
+/// assert_eq!(flags, [false, false, false, true, true]);
+/// ```
+pub fn meaningful<P: Copy + PartialEq>(effects: &[Effect], places: &[Option<P>]) -> Vec<bool> {
+    assert_eq!(places.len(), effects.len() + 1, "a place before the first step and one after each");
+    let mut flags: Vec<bool> = effects.iter().map(|effect| *effect != Effect::Nothing).collect();
+    // The walk without its loops, since the last step that acted: each move with the place that it left.
+    let mut walk: Vec<(usize, P)> = Vec::new();
+    for (step, effect) in effects.iter().enumerate() {
+        let (Some(from), Some(to), true) = (places[step], places[step + 1], *effect != Effect::Acted) else {
+            walk.clear();
+            continue;
+        };
+        if from == to {
+            continue;
+        }
+        walk.push((step, from));
+        if let Some(start) = walk.iter().position(|&(left, place)| place == to && step - left < WINDOW) {
+            walk.drain(start..).for_each(|(cancelled, _)| flags[cancelled] = false);
+        }
+    }
+    flags
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Effect::{Acted, Moved, Nothing};
+    use super::*;
+
+    /// Places as letters, `-` for none; effects as `m`, `a` and `.`; flags as `1` and `0`.
+    #[track_caller]
+    fn check(places: &str, effects: &str, expect: &str) {
+        let places: Vec<Option<char>> =
+            places.chars().map(|place| Some(place).filter(|&p| p != '-')).collect();
+        let effects: Vec<Effect> = effects
+            .chars()
+            .map(|effect| match effect {
+                'm' => Moved,
+                'a' => Acted,
+                _ => Nothing,
+            })
+            .collect();
+        let found: String =
+            meaningful(&effects, &places).iter().map(|&flag| if flag { '1' } else { '0' }).collect();
+        assert_eq!(found, expect);
+    }
+
+    #[test]
+    fn walks() {
+        check("a", "", "");
+        check("abcd", "mmm", "111");
+        check("aabb", ".m.", "010");
+    }
+
+    #[test]
+    fn moves_that_cancel_each_other() {
+        check("aba", "mm", "00");
+        // One pair, then on.
+        check("ababc", "mmmm", "0011");
+        // Two pairs, one after the other and one within the other.
+        check("ababa", "mmmm", "0000");
+        check("abcba", "mmmm", "0000");
+        // A loop of four around a block.
+        check("abcda", "mmmm", "0000");
+        // A wall or a pause between counts as a step of the window.
+        check("abba", "m.m", "000");
+        check("abbba", "m..m", "0000");
+        check("abbbba", "m...m", "10001");
+        // A loop of six is a way.
+        check("abcdefa", "mmmmmm", "111111");
+    }
+
+    /// Going for something and coming back has changed something.
+    #[test]
+    fn what_acts_is_never_cancelled() {
+        check("aba", "am", "11");
+        check("aba", "ma", "11");
+        check("abba", "mam", "111");
+        check("ababa", "ammm", "1001");
+    }
+
+    /// Sliding is not the player's doing, but it is part of the way.
+    #[test]
+    fn moved_by_something_else() {
+        check("aba", "m.", "00");
+        check("abc", "..", "00");
+    }
+
+    #[test]
+    fn without_an_avatar() {
+        check("ab-ba", "m..m", "1001");
+        check("---", ".a", "01");
+    }
+}

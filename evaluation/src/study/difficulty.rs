@@ -1,0 +1,127 @@
+//! How hard games and levels are for those who played them (`spec/06` §2.6).
+
+use crate::study::Study;
+use crate::study::scores::{Scores, mean};
+use crate::study::table::{Table, TableCell};
+use serde::Serialize;
+use std::fmt;
+
+/// How hard a level or a game is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DifficultyLabel {
+    /// A score of at least 0.8.
+    VeryEasy,
+    /// At least 0.6.
+    Easy,
+    /// At least 0.4.
+    Medium,
+    /// At least 0.2.
+    Hard,
+    /// Less.
+    VeryHard,
+    /// Nobody has won: whatever the score.
+    Unbeaten,
+}
+
+impl DifficultyLabel {
+    /// The label of a score of somebody's wins.
+    fn of(ease: f64) -> DifficultyLabel {
+        match ease {
+            ease if ease >= 0.8 => DifficultyLabel::VeryEasy,
+            ease if ease >= 0.6 => DifficultyLabel::Easy,
+            ease if ease >= 0.4 => DifficultyLabel::Medium,
+            ease if ease >= 0.2 => DifficultyLabel::Hard,
+            _ => DifficultyLabel::VeryHard,
+        }
+    }
+}
+
+impl fmt::Display for DifficultyLabel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            DifficultyLabel::VeryEasy => "very easy",
+            DifficultyLabel::Easy => "easy",
+            DifficultyLabel::Medium => "medium",
+            DifficultyLabel::Hard => "hard",
+            DifficultyLabel::VeryHard => "very hard",
+            DifficultyLabel::Unbeaten => "unbeaten",
+        })
+    }
+}
+
+/// The difficulty of a level, or of a game over all its levels.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DifficultyRow {
+    /// Index into the games of the study.
+    pub game: usize,
+    /// The level's number; none for the game.
+    pub level: Option<usize>,
+    /// Mean win rate of the players.
+    pub win_rate: Option<f64>,
+    /// Mean normalised reward of the players.
+    pub normalised_reward: Option<f64>,
+    /// Mean step efficiency of the players that won.
+    pub efficiency: Option<f64>,
+    /// `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`: the higher, the easier. Missing if one of them is.
+    pub ease: Option<f64>,
+    /// What that is called; missing if the score is and somebody has won.
+    pub label: Option<DifficultyLabel>,
+}
+
+impl DifficultyRow {
+    fn of(study: &Study, game: usize, level: Option<usize>) -> DifficultyRow {
+        let player = |player: usize| {
+            let episodes = study.of_player(player).filter(move |episode| {
+                episode.game == game && level.is_none_or(|level| level == episode.metrics.level)
+            });
+            Some(Scores::of(episodes)).filter(|scores| scores.episodes > 0)
+        };
+        let players: Vec<Scores> = (0..study.players.len()).filter_map(player).collect();
+        let mean_of = |of: fn(&Scores) -> Option<f64>| mean(players.iter().filter_map(of));
+        let win_rate = mean_of(|scores| scores.win_rate.map(|rate| rate.value));
+        let normalised_reward = mean_of(|scores| scores.normalised_reward);
+        let efficiency = mean_of(|scores| scores.efficiency);
+        let ease = match (win_rate, normalised_reward, efficiency) {
+            (Some(win), Some(reward), Some(efficiency)) => Some(0.6 * win + 0.2 * reward + 0.2 * efficiency),
+            _ => None,
+        };
+        let unbeaten = win_rate == Some(0.0);
+        let label = if unbeaten { Some(DifficultyLabel::Unbeaten) } else { ease.map(DifficultyLabel::of) };
+        DifficultyRow { game, level, win_rate, normalised_reward, efficiency, ease, label }
+    }
+}
+
+/// All games, each followed by its levels.
+pub(crate) fn difficulties(study: &Study) -> Vec<DifficultyRow> {
+    let of_game = |(game, facts): (usize, &super::StudyGame)| {
+        let levels = facts.levels.iter().map(|level| Some(level.number)).collect::<Vec<Option<usize>>>();
+        [None]
+            .into_iter()
+            .chain(levels)
+            .map(move |level| DifficultyRow::of(study, game, level))
+            .collect::<Vec<_>>()
+    };
+    study.games.iter().enumerate().flat_map(of_game).collect()
+}
+
+pub(crate) fn table(study: &Study) -> Table {
+    let mut table = Table::new(
+        "difficulty",
+        "Difficulty",
+        "Ease: 0.6 win rate + 0.2 normalised reward + 0.2 step efficiency, means over the players of this study; high is easy. Missing \
+         where a part is, such as the reward of a game that gives everybody the same. Unbeaten: nobody has won.",
+        &["game or level", "win rate", "normalised reward", "efficiency", "ease", "difficulty"],
+    );
+    for row in &study.difficulties {
+        table.push(vec![
+            TableCell::text(study.place(row.game, row.level)),
+            TableCell::number(row.win_rate, 2),
+            TableCell::number(row.normalised_reward, 3),
+            TableCell::number(row.efficiency, 3),
+            TableCell::number(row.ease, 3),
+            row.label.map_or(TableCell::Missing, |label| TableCell::text(label.to_string())),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,153 @@
+//! Who wins how often, and at what price.
+
+use crate::metrics::{Choices, Spending};
+use crate::study::scores::{Estimate, Scores, StudyEpisode, mean};
+use crate::study::table::{Table, TableCell};
+use crate::study::{LEVEL, RESAMPLES, Study, seed};
+use serde::Serialize;
+use statistics::clustered_mean;
+use std::collections::BTreeMap;
+
+/// What a player did on all that it played.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LeaderRow {
+    /// Index into the players of the study.
+    pub player: usize,
+    /// Its numbers; their interval of the win rate takes episodes for independent.
+    pub scores: Scores,
+    /// The win rate with an interval that takes games for independent, not episodes: by drawing whole games again. Missing with
+    /// fewer than two games.
+    pub by_game: Option<Estimate>,
+    /// How its choices came about.
+    pub choices: Choices,
+    /// What they cost.
+    pub spending: Spending,
+    /// Mean of input and output tokens a step.
+    pub tokens_per_step: Option<f64>,
+    /// Why episodes were broken off, and how many.
+    pub broken_off: BTreeMap<String, u64>,
+}
+
+/// A row for each player: by win rate, then overall score, then in the order of the study.
+pub(crate) fn leaderboard(study: &Study) -> Vec<LeaderRow> {
+    let mut rows: Vec<LeaderRow> = (0..study.players.len()).map(|player| row(study, player)).collect();
+    rows.sort_by(|a, b| {
+        let key = |row: &LeaderRow| (row.scores.win_rate.map_or(-1.0, |rate| rate.value), row.scores.overall);
+        let (a, b) = (key(a), key(b));
+        b.0.total_cmp(&a.0).then(b.1.unwrap_or(-1.0).total_cmp(&a.1.unwrap_or(-1.0)))
+    });
+    rows
+}
+
+fn row(study: &Study, player: usize) -> LeaderRow {
+    let episodes: Vec<&StudyEpisode> = study.of_player(player).collect();
+    let scores = Scores::of(episodes.iter().copied());
+    let (mut choices, mut spending, mut broken_off) = Default::default();
+    for episode in &episodes {
+        Choices::add(&mut choices, &episode.metrics.choices);
+        Spending::add(&mut spending, &episode.metrics.spending);
+        if let Some(reason) = episode.metrics.status.broken_off() {
+            *BTreeMap::entry(&mut broken_off, reason.to_owned()).or_insert(0) += 1;
+        }
+    }
+    let tokens = spending.input_tokens.zip(spending.output_tokens).map(|(input, output)| input + output);
+    let tokens_per_step =
+        tokens.filter(|_| choices.total() > 0).map(|sum| sum as f64 / choices.total() as f64);
+    let mut games: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for episode in episodes.iter().filter(|episode| episode.metrics.counts()) {
+        games.entry(episode.game).or_default().push(f64::from(u8::from(episode.metrics.won())));
+    }
+    let games: Vec<Vec<f64>> = games.into_values().collect();
+    let interval = clustered_mean(&games, RESAMPLES, LEVEL, seed("leaderboard", player));
+    let by_game = mean(games.iter().flatten().copied())
+        .zip(interval)
+        .filter(|_| games.len() > 1)
+        .map(|(value, interval)| Estimate::new(value, interval));
+    LeaderRow { player, scores, by_game, choices, spending, tokens_per_step, broken_off }
+}
+
+/// The leaderboard, and the table of how choices came about.
+pub(crate) fn tables(study: &Study) -> Vec<Table> {
+    let mut leaders = Table::new(
+        "leaderboard",
+        "Leaderboard",
+        "Win rate: wins by ended episodes, with Wilson's 95 % interval, and with one that draws whole games again (it speaks of \
+         games like these; wide with few games). The overall score is the mean of meaningful step ratio, spared steps, normalised \
+         reward and win rate; it rewards quick losses too. Optimality: proved fewest ticks by steps, over wins. Broken off: episodes \
+         that network, caps or interruptions ended; they count nowhere else.",
+        &[
+            "player",
+            "episodes",
+            "wins",
+            "win rate",
+            "win rate, games drawn",
+            "overall",
+            "meaningful",
+            "spared steps",
+            "normalised reward",
+            "steps",
+            "efficiency",
+            "optimality",
+            "time-outs",
+            "broken off",
+        ],
+    );
+    let mut answers = Table::new(
+        "answers",
+        "Answers",
+        "Steps by how they came about. Tolerant: read from an answer that is not in the format asked for. Invalid, refused and \
+         truncated answers do nothing, and are the player's doing. Tokens as the provider counts them, with answers from the cache.",
+        &[
+            "player",
+            "steps",
+            "valid",
+            "tolerant",
+            "invalid",
+            "refused",
+            "truncated",
+            "requests",
+            "failed tries",
+            "from cache",
+            "input tokens",
+            "output tokens",
+            "reasoning tokens",
+            "tokens a step",
+        ],
+    );
+    for LeaderRow { player, scores, by_game, choices, spending, tokens_per_step, .. } in &study.leaderboard {
+        let label = TableCell::text(study.players[*player].label());
+        leaders.push(vec![
+            label.clone(),
+            TableCell::Count(scores.episodes),
+            TableCell::Count(scores.wins),
+            Estimate::cell(scores.win_rate, 2),
+            Estimate::cell(*by_game, 2),
+            TableCell::number(scores.overall, 3),
+            TableCell::number(scores.meaningful, 3),
+            TableCell::number(scores.spared, 3),
+            TableCell::number(scores.normalised_reward, 3),
+            TableCell::number(scores.steps, 1),
+            TableCell::number(scores.efficiency, 3),
+            TableCell::number(scores.optimality, 3),
+            TableCell::Count(scores.timeouts),
+            TableCell::Count(scores.excluded),
+        ]);
+        answers.push(vec![
+            label,
+            TableCell::Count(choices.total()),
+            TableCell::Count(choices.valid),
+            TableCell::Count(choices.tolerant),
+            TableCell::Count(choices.invalid),
+            TableCell::Count(choices.refused),
+            TableCell::Count(choices.truncated),
+            TableCell::Count(spending.requests),
+            TableCell::Count(spending.failures),
+            TableCell::Count(spending.cached_replies),
+            TableCell::count(spending.input_tokens),
+            TableCell::count(spending.output_tokens),
+            TableCell::count(spending.reasoning_tokens),
+            TableCell::number(*tokens_per_step, 0),
+        ]);
+    }
+    vec![leaders, answers]
+}

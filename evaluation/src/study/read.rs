@@ -1,0 +1,161 @@
+//! A study from results folders.
+
+use crate::error::EvaluationError;
+use crate::log::Event;
+use crate::metrics::EpisodeMetrics;
+use crate::run::Evaluation;
+use crate::study::{Player, Study, StudyGame};
+use crate::subject::Subject;
+use engine::Digest;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+impl Study {
+    /// The study of these results folders: every episode is played again from its log. Folders of the same player (name, mode and
+    /// aids) are put together. Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current
+    /// rayon pool.
+    ///
+    /// # Errors
+    /// A folder or log cannot be read, an episode leads elsewhere than recorded, two folders hold the same episode of the same
+    /// player, or different games or levels under the same name.
+    pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
+        let mut results: Vec<(Player, Vec<EpisodeMetrics>)> = Vec::new();
+        let mut names = Names::default();
+        let mut notes = Vec::new();
+        for folder in folders {
+            let evaluation = Evaluation::open(folder)?;
+            let player = Player::from(&evaluation.settings.entrant);
+            evaluation.subjects.iter().try_for_each(|subject| names.add(subject, folder))?;
+            let tasks = evaluation.tasks();
+            let measured = tasks.par_iter().map(|task| {
+                let log = evaluation.events(task)?;
+                let metrics = (!log.is_empty()).then(|| EpisodeMetrics::of(task.subject, &log));
+                metrics.transpose().map_err(|error| within(folder, error))
+            });
+            let measured = measured.collect::<Result<Vec<Option<EpisodeMetrics>>, EvaluationError>>()?;
+            let open = measured.iter().filter(|metrics| metrics.is_none()).count();
+            if open > 0 {
+                notes.push(format!(
+                    "{open} of {} episodes of {} were not begun.",
+                    tasks.len(),
+                    player.label()
+                ));
+            }
+            names.claim(&player, measured.iter().flatten(), folder)?;
+            results.push((player, measured.into_iter().flatten().collect()));
+        }
+        let mut study = Study::new(results, names.games());
+        study.notes.extend(notes);
+        study.notes.extend(names.unpaired());
+        Ok(study)
+    }
+
+    /// The study of episodes in memory: each player with its logs and what they were played on.
+    ///
+    /// # Errors
+    /// An episode leads elsewhere than recorded.
+    pub fn of_logs(results: Vec<(Player, Vec<(&Subject, Vec<Event>)>)>) -> Result<Study, EvaluationError> {
+        let mut games: Vec<StudyGame> = Vec::new();
+        let mut measured = Vec::new();
+        for (player, logs) in results {
+            let mut episodes = Vec::new();
+            for (subject, log) in &logs {
+                if games.iter().all(|game| game.id != subject.id) {
+                    games.push(StudyGame::from(*subject));
+                }
+                episodes.push(EpisodeMetrics::of(subject, log)?);
+            }
+            measured.push((player, episodes));
+        }
+        Ok(Study::new(measured, games))
+    }
+}
+
+/// What names stand for in the folders so far.
+#[derive(Default)]
+struct Names {
+    games: Vec<(StudyGame, Digest, BTreeMap<usize, Digest>)>,
+    episodes: BTreeMap<(Player, String, usize, u64), PathBuf>,
+}
+
+impl Names {
+    /// Takes up the game of a folder.
+    fn add(&mut self, subject: &Subject, folder: &Path) -> Result<(), EvaluationError> {
+        let levels = subject.levels.iter().map(|level| (level.number, level.level.digest()));
+        let Some((game, digest, known)) = self.games.iter_mut().find(|(game, ..)| game.id == subject.id)
+        else {
+            self.games.push((StudyGame::from(subject), subject.game.digest(), levels.collect()));
+            return Ok(());
+        };
+        if *digest != subject.game.digest() {
+            return Err(EvaluationError::Malformed(format!(
+                "{}: its game `{}` is another one than in the folders before; report on them apart",
+                folder.display(),
+                subject.id
+            )));
+        }
+        for (number, digest) in levels {
+            if *known.entry(number).or_insert(digest) != digest {
+                return Err(EvaluationError::Malformed(format!(
+                    "{}: its level {number} of `{}` is another one than in the folders before; report on them apart",
+                    folder.display(),
+                    subject.id
+                )));
+            }
+        }
+        for level in StudyGame::from(subject).levels {
+            if game.levels.iter().all(|known| known.number != level.number) {
+                game.levels.push(level);
+            }
+        }
+        game.levels.sort_by_key(|level| level.number);
+        Ok(())
+    }
+
+    /// Makes sure that nobody else has brought these episodes.
+    fn claim<'a>(
+        &mut self,
+        player: &Player,
+        episodes: impl Iterator<Item = &'a EpisodeMetrics>,
+        folder: &Path,
+    ) -> Result<(), EvaluationError> {
+        for EpisodeMetrics { game, level, run, .. } in episodes {
+            let key = (player.clone(), game.clone(), *level, *run);
+            if let Some(other) = self.episodes.insert(key, folder.to_owned()) {
+                return Err(EvaluationError::Malformed(format!(
+                    "{}: {} has played run {run} of {game} level {level} in {} too; give one of the two another name",
+                    folder.display(),
+                    player.label(),
+                    other.display()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn games(&self) -> Vec<StudyGame> {
+        self.games.iter().map(|(game, ..)| game.clone()).collect()
+    }
+
+    /// A note, if not every player has played every episode.
+    fn unpaired(&self) -> Option<String> {
+        let mut counts: BTreeMap<(&str, usize, u64), usize> = BTreeMap::new();
+        let mut players: Vec<&Player> = Vec::new();
+        for (player, game, level, run) in self.episodes.keys() {
+            *counts.entry((game, *level, *run)).or_default() += 1;
+            if players.last() != Some(&player) {
+                players.push(player);
+            }
+        }
+        let all = players.len();
+        counts.values().any(|&count| count < all).then(|| {
+            "Not every player has played every level the same number of times: means over all levels compare only where they have."
+                .to_owned()
+        })
+    }
+}
+
+fn within(folder: &Path, error: EvaluationError) -> EvaluationError {
+    EvaluationError::Malformed(format!("{}: {error}", folder.display()))
+}

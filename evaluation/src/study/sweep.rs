@@ -1,0 +1,116 @@
+//! A player game by game, and what it comes to: the sweep of the paper (`spec/06` §4 and §5.2).
+
+use crate::study::Study;
+use crate::study::scores::{Estimate, Scores, StudyEpisode, levels_of};
+use crate::study::table::{Table, TableCell};
+use serde::Serialize;
+
+/// A player's games.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Sweep {
+    /// Index into the players of the study.
+    pub player: usize,
+    /// A row for each game that it played, in the order of the study.
+    pub games: Vec<SweepRow>,
+    /// Its numbers over all.
+    pub total: Scores,
+    /// Levels that it played.
+    pub levels: u64,
+    /// Of these, levels that it never won.
+    pub zero_win_levels: u64,
+}
+
+/// A player on a game.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SweepRow {
+    /// Index into the games of the study.
+    pub game: usize,
+    /// Its numbers over all levels.
+    pub scores: Scores,
+    /// Levels that it played.
+    pub levels: u64,
+    /// Of these, levels that it never won.
+    pub zero_win_levels: u64,
+}
+
+impl Sweep {
+    pub(crate) fn of(study: &Study, player: usize) -> Sweep {
+        let ended = |game: Option<usize>| {
+            let episodes =
+                study.of_player(player).filter(move |episode| game.is_none_or(|game| game == episode.game));
+            episodes.filter(|episode| episode.metrics.counts())
+        };
+        let levels = |game: Option<usize>| {
+            let played = levels_of(ended(game));
+            let won = levels_of(ended(game).filter(|episode: &&StudyEpisode| episode.metrics.won()));
+            (played.len() as u64, (played.len() - won.len()) as u64)
+        };
+        let row = |game: usize| {
+            let all = || study.of_player(player).filter(move |episode| episode.game == game);
+            let (levels, zero_win_levels) = levels(Some(game));
+            all().next().is_some().then(|| SweepRow {
+                game,
+                scores: Scores::of(all()),
+                levels,
+                zero_win_levels,
+            })
+        };
+        let (played, zero_win_levels) = levels(None);
+        Sweep {
+            player,
+            games: (0..study.games.len()).filter_map(row).collect(),
+            total: Scores::of(study.of_player(player)),
+            levels: played,
+            zero_win_levels,
+        }
+    }
+}
+
+const COLUMNS: [&str; 10] = [
+    "player",
+    "game",
+    "episodes",
+    "win rate",
+    "meaningful",
+    "efficiency",
+    "normalised reward",
+    "overall",
+    "levels",
+    "never won",
+];
+
+fn row(player: &str, game: &str, scores: &Scores, levels: u64, zero_win_levels: u64) -> Vec<TableCell> {
+    vec![
+        TableCell::text(player),
+        TableCell::text(game),
+        TableCell::Count(scores.episodes),
+        Estimate::cell(scores.win_rate, 2),
+        TableCell::number(scores.meaningful, 3),
+        TableCell::number(scores.efficiency, 3),
+        TableCell::number(scores.normalised_reward, 3),
+        TableCell::number(scores.overall, 3),
+        TableCell::Count(levels),
+        TableCell::Count(zero_win_levels),
+    ]
+}
+
+/// The table of all games, and its summary.
+pub(crate) fn tables(study: &Study) -> Vec<Table> {
+    let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / most steps of anybody's episode on the \
+                level, over the levels that were won.";
+    let mut games = Table::new("games", "Game by game", note, &COLUMNS);
+    let mut summary = Table::new("summary", "All games together", note, &COLUMNS);
+    for sweep in &study.sweeps {
+        let player = study.players[sweep.player].label();
+        for found in &sweep.games {
+            let game = &study.games[found.game].id;
+            games.push(row(&player, game, &found.scores, found.levels, found.zero_win_levels));
+        }
+        let count = match sweep.games.len() {
+            1 => "1 game".to_owned(),
+            count => format!("{count} games"),
+        };
+        summary.push(row(&player, &count, &sweep.total, sweep.levels, sweep.zero_win_levels));
+    }
+    vec![games, summary]
+}

@@ -1,0 +1,289 @@
+//! A table of a report, and how it is written as Markdown, CSV and LaTeX.
+
+use serde::Serialize;
+use std::fmt::Write;
+
+/// A table: every row has as many cells as there are columns.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Table {
+    /// What its file is called, without extension; letters, digits and hyphens.
+    pub id: String,
+    /// What it is called.
+    pub title: String,
+    /// What a reader has to know of it: units, what is missing and why.
+    pub note: String,
+    /// What its columns are called.
+    pub columns: Vec<String>,
+    /// Its rows.
+    pub rows: Vec<Vec<TableCell>>,
+}
+
+/// A cell of a [`Table`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TableCell {
+    /// Nothing is known.
+    Missing,
+    /// Words.
+    Text(String),
+    /// A number of things.
+    Count(u64),
+    /// A number, of which so many decimals are printed.
+    Number {
+        /// The number.
+        value: f64,
+        /// Decimals.
+        digits: usize,
+    },
+    /// A number with the interval that it lies in.
+    Interval {
+        /// The number.
+        value: f64,
+        /// The lower end.
+        low: f64,
+        /// The upper end.
+        high: f64,
+        /// Decimals.
+        digits: usize,
+    },
+    /// A p-value or its like: two significant digits.
+    Probability(f64),
+}
+
+impl TableCell {
+    /// Words.
+    pub fn text(text: impl Into<String>) -> TableCell {
+        TableCell::Text(text.into())
+    }
+
+    /// A number with its decimals, if it is known.
+    pub fn number(value: impl Into<Option<f64>>, digits: usize) -> TableCell {
+        value.into().map_or(TableCell::Missing, |value| TableCell::Number { value, digits })
+    }
+
+    /// A count, if it is known.
+    pub fn count(count: impl Into<Option<u64>>) -> TableCell {
+        count.into().map_or(TableCell::Missing, TableCell::Count)
+    }
+
+    /// A probability, if it is known.
+    pub fn probability(p: impl Into<Option<f64>>) -> TableCell {
+        p.into().map_or(TableCell::Missing, TableCell::Probability)
+    }
+
+    /// As people read it.
+    fn plain(&self) -> String {
+        match self {
+            TableCell::Missing => "–".to_owned(),
+            TableCell::Text(text) => text.clone(),
+            TableCell::Count(count) => count.to_string(),
+            TableCell::Number { value, digits } => rounded(*value, *digits),
+            TableCell::Interval { value, low, high, digits } => {
+                let [value, low, high] = [value, low, high].map(|number| rounded(*number, *digits));
+                format!("{value} [{low}, {high}]")
+            }
+            TableCell::Probability(p) if *p != 0.0 && *p < 0.0001 => format!("{p:.1e}"),
+            TableCell::Probability(p) if *p < 0.01 => rounded(*p, 4),
+            TableCell::Probability(p) => rounded(*p, 3),
+        }
+    }
+
+    fn is_words(&self) -> bool {
+        matches!(self, TableCell::Text(_))
+    }
+}
+
+/// With so many decimals, and no sign before 0.
+fn rounded(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|c| matches!(c, '0' | '.')) => rest.to_owned(),
+        _ => text,
+    }
+}
+
+impl Table {
+    /// A table without rows.
+    pub fn new(id: &str, title: &str, note: &str, columns: &[&str]) -> Table {
+        let columns = columns.iter().map(|&column| column.to_owned()).collect();
+        Table { id: id.to_owned(), title: title.to_owned(), note: note.to_owned(), columns, rows: Vec::new() }
+    }
+
+    /// Adds a row.
+    ///
+    /// # Panics
+    /// If it has not as many cells as there are columns.
+    pub fn push(&mut self, row: Vec<TableCell>) {
+        assert_eq!(row.len(), self.columns.len(), "a row of {} has other columns", self.id);
+        self.rows.push(row);
+    }
+
+    /// Whether a column holds words, and is set to the left.
+    fn is_words(&self, column: usize) -> bool {
+        self.rows.iter().any(|row| row[column].is_words())
+    }
+
+    /// As Markdown, with its title as a heading and the note below.
+    ///
+    /// ```
+    /// use evaluation::study::{Table, TableCell};
+    /// let mut table = Table::new("wins", "Wins", "", &["player", "win rate"]);
+    /// table.push(vec![TableCell::text("mcts|100"), TableCell::number(0.5, 2)]);
+    /// assert_eq!(table.to_markdown(), "## Wins\n\n| player | win rate |\n|:--|--:|\n| mcts\\|100 | 0.50 |\n");
+    /// ```
+    pub fn to_markdown(&self) -> String {
+        let escape = |text: &str| text.replace('\\', "\\\\").replace('|', "\\|").replace(['\n', '\r'], " ");
+        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+        let mut text = format!("## {}\n\n", escape(&self.title));
+        text += &line(self.columns.iter().map(|column| escape(column)).collect());
+        let rule = (0..self.columns.len()).map(|column| if self.is_words(column) { ":--|" } else { "--:|" });
+        text += &format!("|{}\n", rule.collect::<String>());
+        for row in &self.rows {
+            text += &line(row.iter().map(|cell| escape(&cell.plain())).collect());
+        }
+        if !self.note.is_empty() {
+            text += &format!("\n{}\n", self.note);
+        }
+        text
+    }
+
+    /// As CSV: numbers in full, nothing where nothing is known, three columns for an interval.
+    ///
+    /// ```
+    /// use evaluation::study::{Table, TableCell};
+    /// let mut table = Table::new("wins", "Wins", "", &["player", "win rate"]);
+    /// let rate = TableCell::Interval { value: 0.25, low: 0.125, high: 0.5, digits: 2 };
+    /// table.push(vec![TableCell::text("a, b"), rate]);
+    /// table.push(vec![TableCell::text("c"), TableCell::Missing]);
+    /// assert_eq!(
+    ///     table.to_csv(),
+    ///     "player,win rate,win rate low,win rate high\n\"a, b\",0.25,0.125,0.5\nc,,,\n"
+    /// );
+    /// ```
+    pub fn to_csv(&self) -> String {
+        let is_interval =
+            |column: usize| self.rows.iter().any(|row| matches!(row[column], TableCell::Interval { .. }));
+        let wide: Vec<bool> = (0..self.columns.len()).map(is_interval).collect();
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let header = self.columns.iter().zip(&wide).flat_map(|(column, wide)| {
+            let ends = wide.then(|| [format!("{column} low"), format!("{column} high")]);
+            [column.clone()].into_iter().chain(ends.into_iter().flatten())
+        });
+        writer.write_record(header).expect("memory can be written");
+        for row in &self.rows {
+            let fields = row.iter().zip(&wide).flat_map(|(cell, wide)| {
+                let fields = match cell {
+                    TableCell::Missing => [String::new(), String::new(), String::new()],
+                    TableCell::Text(text) => [text.clone(), String::new(), String::new()],
+                    TableCell::Count(count) => [count.to_string(), String::new(), String::new()],
+                    TableCell::Number { value, .. } | TableCell::Probability(value) => {
+                        [value.to_string(), String::new(), String::new()]
+                    }
+                    TableCell::Interval { value, low, high, .. } => [value, low, high].map(f64::to_string),
+                };
+                fields.into_iter().take(if *wide { 3 } else { 1 })
+            });
+            writer.write_record(fields).expect("memory can be written, and every row has the same fields");
+        }
+        let bytes = writer.into_inner().expect("memory can be written");
+        String::from_utf8(bytes).expect("what was written is text")
+    }
+
+    /// As a LaTeX `table` that needs no package.
+    pub fn to_latex(&self) -> String {
+        let columns: String =
+            (0..self.columns.len()).map(|column| if self.is_words(column) { 'l' } else { 'r' }).collect();
+        let line = |cells: Vec<String>| format!("    {} \\\\\n", cells.join(" & "));
+        let mut text = String::from("\\begin{table}\n  \\centering\n");
+        let _ = writeln!(text, "  \\caption{{{}}}\n  \\label{{tab:{}}}", latex(&self.title), self.id);
+        let _ = writeln!(text, "  \\begin{{tabular}}{{{columns}}}\n    \\hline");
+        text += &line(self.columns.iter().map(|column| latex(column)).collect());
+        text += "    \\hline\n";
+        for row in &self.rows {
+            text += &line(row.iter().map(|cell| latex(&cell.plain())).collect());
+        }
+        text += "    \\hline\n  \\end{tabular}\n";
+        if !self.note.is_empty() {
+            let _ = writeln!(text, "\n  {{\\footnotesize {}}}", latex(&self.note));
+        }
+        text + "\\end{table}\n"
+    }
+}
+
+/// Text with what LaTeX would take for commands escaped.
+fn latex(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '\\' => out += "\\textbackslash{}",
+            '~' => out += "\\textasciitilde{}",
+            '^' => out += "\\textasciicircum{}",
+            '&' | '%' | '$' | '#' | '_' | '{' | '}' => {
+                out.push('\\');
+                out.push(character);
+            }
+            // A row that begins with a bracket would be read as an option of the line above.
+            '[' => out += "{[}",
+            ']' => out += "{]}",
+            '<' => out += "\\textless{}",
+            '>' => out += "\\textgreater{}",
+            '|' => out += "\\textbar{}",
+            '–' => out += "--",
+            '−' => out += "$-$",
+            '\n' | '\r' => out.push(' '),
+            _ => out.push(character),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let mut table = Table::new("a-table", "100 % & more", "Of $5.", &["a_b", "n", "p"]);
+        let rate = TableCell::Interval { value: 0.08, low: 0.0222, high: 0.2497, digits: 2 };
+        table.push(vec![TableCell::text("x^2\\|"), rate, TableCell::Probability(0.00105512)]);
+        table.push(vec![TableCell::Missing, TableCell::Count(3), TableCell::Probability(4.11e-13)]);
+        table
+    }
+
+    #[test]
+    fn markdown() {
+        let expect = "## 100 % & more\n\n| a_b | n | p |\n|:--|--:|--:|\n\
+                      | x^2\\\\\\| | 0.08 [0.02, 0.25] | 0.0011 |\n| – | 3 | 4.1e-13 |\n\nOf $5.\n";
+        assert_eq!(table().to_markdown(), expect);
+    }
+
+    #[test]
+    fn csv_keeps_all_digits() {
+        let expect = "a_b,n,n low,n high,p\nx^2\\|,0.08,0.0222,0.2497,0.00105512\n,3,,,0.000000000000411\n";
+        assert_eq!(table().to_csv(), expect);
+    }
+
+    #[test]
+    fn latex_is_escaped() {
+        let expect = "\\begin{table}\n  \\centering\n  \\caption{100 \\% \\& more}\n  \\label{tab:a-table}\n  \
+                      \\begin{tabular}{lrr}\n    \\hline\n    a\\_b & n & p \\\\\n    \\hline\n    \
+                      x\\textasciicircum{}2\\textbackslash{}\\textbar{} & 0.08 {[}0.02, 0.25{]} & 0.0011 \\\\\n    \
+                      -- & 3 & 4.1e-13 \\\\\n    \\hline\n  \\end{tabular}\n\n  {\\footnotesize Of \\$5.}\n\\end{table}\n";
+        assert_eq!(table().to_latex(), expect);
+    }
+
+    #[test]
+    fn numbers() {
+        let plain = |cell: TableCell| cell.plain();
+        assert_eq!(plain(TableCell::number(-0.0004, 2)), "0.00");
+        assert_eq!(plain(TableCell::number(-0.4, 1)), "-0.4");
+        assert_eq!(plain(TableCell::number(None, 1)), "–");
+        assert_eq!(plain(TableCell::Probability(1.0)), "1.000");
+        assert_eq!(plain(TableCell::Probability(0.0)), "0.0000");
+    }
+
+    #[test]
+    #[should_panic(expected = "other columns")]
+    fn rows_fit() {
+        table().push(vec![]);
+    }
+}

@@ -1,0 +1,66 @@
+//! Results by kind of game.
+
+use crate::study::Study;
+use crate::study::scores::{Estimate, Scores};
+use crate::study::table::{Table, TableCell};
+use serde::Serialize;
+
+/// A player on all games of a kind.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TaxonomyRow {
+    /// The kind: a sentence of the taxonomy.
+    pub kind: String,
+    /// Index into the players of the study.
+    pub player: usize,
+    /// Games of the kind that it played.
+    pub games: u64,
+    /// Its numbers on them.
+    pub scores: Scores,
+}
+
+/// A row for each kind and player, kinds in the order in which the games bring them up. A game is of several kinds.
+pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
+    let mut kinds: Vec<&String> = Vec::new();
+    for kind in study.games.iter().flat_map(|game| &game.taxonomy) {
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    let mut rows = Vec::new();
+    for kind in kinds {
+        for player in 0..study.players.len() {
+            let of_kind = |game: usize| study.games[game].taxonomy.contains(kind);
+            let episodes = || study.of_player(player).filter(|episode| of_kind(episode.game));
+            let mut games: Vec<usize> = episodes().map(|episode| episode.game).collect();
+            games.sort_unstable();
+            games.dedup();
+            if !games.is_empty() {
+                let (kind, scores) = (kind.clone(), Scores::of(episodes()));
+                rows.push(TaxonomyRow { kind, player, games: games.len() as u64, scores });
+            }
+        }
+    }
+    rows
+}
+
+pub(crate) fn table(study: &Study) -> Table {
+    let mut table = Table::new(
+        "taxonomy",
+        "Results by kind of game",
+        "Kinds are derived from the rules; a game is of several.",
+        &["kind", "player", "games", "episodes", "win rate", "meaningful", "normalised reward", "overall"],
+    );
+    for row in &study.taxonomy {
+        table.push(vec![
+            TableCell::text(&row.kind),
+            TableCell::text(study.players[row.player].label()),
+            TableCell::Count(row.games),
+            TableCell::Count(row.scores.episodes),
+            Estimate::cell(row.scores.win_rate, 2),
+            TableCell::number(row.scores.meaningful, 3),
+            TableCell::number(row.scores.normalised_reward, 3),
+            TableCell::number(row.scores.overall, 3),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,62 @@
+//! How long decisions take.
+
+use crate::study::Study;
+use crate::study::table::{Table, TableCell};
+use serde::Serialize;
+use statistics::quantile;
+
+/// The decisions of a player, those of broken-off episodes too.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TimeRow {
+    /// Index into the players of the study.
+    pub player: usize,
+    /// Decisions.
+    pub decisions: u64,
+    /// Half of the decisions took at most this long, ms.
+    pub median_ms: Option<f64>,
+    /// Nine of ten took at most this long, ms.
+    pub p90_ms: Option<f64>,
+    /// Half of the decisions spent at most so many forward-model calls, of players that make any.
+    pub median_calls: Option<f64>,
+    /// Nine of ten spent at most so many.
+    pub p90_calls: Option<f64>,
+}
+
+impl TimeRow {
+    pub(crate) fn of(study: &Study, player: usize) -> TimeRow {
+        let all = |of: fn(&crate::metrics::EpisodeMetrics) -> Vec<f64>| {
+            study.of_player(player).flat_map(|episode| of(&episode.metrics)).collect::<Vec<f64>>()
+        };
+        let times = all(|metrics| metrics.decision_ms.clone());
+        let calls = all(|metrics| metrics.calls.iter().map(|&calls| calls as f64).collect());
+        TimeRow {
+            player,
+            decisions: times.len() as u64,
+            median_ms: quantile(&times, 0.5),
+            p90_ms: quantile(&times, 0.9),
+            median_calls: quantile(&calls, 0.5),
+            p90_calls: quantile(&calls, 0.9),
+        }
+    }
+}
+
+pub(crate) fn table(study: &Study) -> Table {
+    let mut table = Table::new(
+        "times",
+        "Decision times",
+        "From what is shown to the action, with waiting and asking again. Calls of the forward model, of planners. Times hang on the \
+         machine and on what else it did.",
+        &["player", "decisions", "median, ms", "90 %, ms", "median calls", "90 % calls"],
+    );
+    for row in &study.times {
+        table.push(vec![
+            TableCell::text(study.players[row.player].label()),
+            TableCell::Count(row.decisions),
+            TableCell::number(row.median_ms, 1),
+            TableCell::number(row.p90_ms, 1),
+            TableCell::number(row.median_calls, 0),
+            TableCell::number(row.p90_calls, 0),
+        ]);
+    }
+    table
+}
