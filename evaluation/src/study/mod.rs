@@ -32,6 +32,7 @@ pub use failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
 pub use leaderboard::LeaderRow;
 pub use matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
 pub use player::{CONTEXTUAL, Player, ZERO_SHOT};
+pub use read::PlayedLogs;
 pub use scores::{Estimate, Scores, StudyEpisode};
 pub use sweep::{Sweep, SweepRow};
 pub use table::{Table, TableCell};

@@ -11,6 +11,9 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+/// Logs of episodes, each with what it was played on.
+pub type PlayedLogs<'a> = Vec<(&'a Subject, Vec<Event>)>;
+
 impl Study {
     /// The study of these results folders: every episode is played again from its log. Folders of the same player (name, mode and
     /// aids) are put together. Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current
@@ -55,7 +58,7 @@ impl Study {
     ///
     /// # Errors
     /// An episode leads elsewhere than recorded.
-    pub fn of_logs(results: Vec<(Player, Vec<(&Subject, Vec<Event>)>)>) -> Result<Study, EvaluationError> {
+    pub fn of_logs(results: Vec<(Player, PlayedLogs<'_>)>) -> Result<Study, EvaluationError> {
         let mut games: Vec<StudyGame> = Vec::new();
         let mut measured = Vec::new();
         for (player, logs) in results {
