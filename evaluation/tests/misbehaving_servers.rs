@@ -44,6 +44,7 @@ fn passing() -> Vec<(&'static str, Act, Option<u16>, &'static str)> {
     let error = |message: &str| json!({ "error": { "message": message } }).to_string();
     let later = httpdate::fmt_http_date(Dial::begin() + Duration::from_secs(40));
     let half = b"HTTP/1.1 200 OK\r\nContent-Length: 500\r\n\r\n{\"choices\":[{\"mess".to_vec();
+    let chunk = b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n5\r\n{\"cho\r\n".to_vec();
     vec![
         ("429", Act::reply(429, error("slow down")), Some(429), "slow down"),
         ("429 in seconds", Act::reply(429, error("x")).with_header("Retry-After", "40"), Some(429), "x"),
@@ -53,6 +54,7 @@ fn passing() -> Vec<(&'static str, Act, Option<u16>, &'static str)> {
         ("529", Act::reply(529, error("overloaded")), Some(529), "overloaded"),
         ("cut at once", Act::Cut(Vec::new()), None, "failed"),
         ("cut in the body", Act::Cut(half), Some(200), "failed"),
+        ("cut between chunks", Act::Cut(chunk), Some(200), "failed"),
         ("no HTTP", Act::Cut(b"SSH-2.0-x\r\n\r\n".to_vec()), None, "failed"),
         ("empty", Act::reply(200, ""), Some(200), "an empty body"),
         ("HTML", Act::reply(200, "<!doctype html><p>Log in</p>"), Some(200), "HTML"),
@@ -334,6 +336,19 @@ fn failures_are_not_cached() {
     let (connection, _) = connect(&server, |options| options.cache = Some(folder.path().to_owned()));
     assert!(connection.model.chat(&request("Now?")).is_err());
     assert_eq!(connection.model.chat(&request("Now?")).unwrap().text, "up");
+}
+
+#[test]
+fn replies_in_chunks_are_replies() {
+    let body =
+        json!({ "choices": [{ "message": { "content": "up" }, "finish_reason": "stop" }] }).to_string();
+    let (first, second) = body.split_at(20);
+    let head = "HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n";
+    let chunks = format!("{head}{:x}\r\n{first}\r\n{:x}\r\n{second}\r\n0\r\n\r\n", first.len(), second.len());
+    let server = Server::scripted(vec![Act::Cut(chunks.into_bytes())]);
+    let (connection, _) = connect(&server, |_| {});
+    let reply = connection.model.chat(&request("Now?")).unwrap();
+    assert_eq!((reply.text.as_str(), reply.failures.len()), ("up", 0));
 }
 
 #[test]
