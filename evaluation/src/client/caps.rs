@@ -1,9 +1,10 @@
 //! Caps on what an evaluation may spend, shared by all its threads.
 
 use super::chat::Usage;
-use super::estimate::{Estimate, text_tokens};
+use super::estimate::Estimate;
 use super::prices::{Price, Usd};
 use crate::log::Event;
+use crate::tokens;
 use std::sync::{Mutex, MutexGuard};
 
 /// What may be spent; what is `None` is not limited.
@@ -103,7 +104,7 @@ impl Caps {
     }
 
     fn charge(&self, usage: &Usage, prompt: u64, text: &str, reasoning: Option<&str>) -> Spent {
-        let counted = || text_tokens(text) + reasoning.map_or(0, text_tokens);
+        let counted = || tokens::count(text) + reasoning.map_or(0, tokens::count);
         let usage = Usage {
             input_tokens: usage.input_tokens.or(Some(prompt)),
             output_tokens: usage.output_tokens.or_else(|| Some(counted())),

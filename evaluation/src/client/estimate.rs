@@ -1,24 +1,26 @@
 //! What requests will take, before any is sent.
 
-use super::chat::{ChatRequest, Usage};
+use super::chat::{ChatMessage, ChatRequest, Usage};
 use super::prices::{Price, Usd};
+use crate::tokens;
 
-/// Tokens of a text, roughly and rather too many: a token is seldom less than three bytes of English, and grids of
-/// symbols are worse than English.
-pub(super) fn text_tokens(text: &str) -> u64 {
-    (text.len() as u64).div_ceil(3)
-}
-
-/// Tokens by which providers count a picture of the size that we send, roughly.
+/// Tokens of a picture whose size cannot be read.
 const PICTURE: u64 = 1000;
 
-/// Tokens that mark a message as one.
-const MARKS: u64 = 4;
-
-/// Tokens of a request's prompt, roughly and rather too many.
+/// Tokens of a request's prompt, by our own count: models have vocabularies of their own.
 pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
-    let message = |text: &str, picture: bool| text_tokens(text) + MARKS + if picture { PICTURE } else { 0 };
-    request.messages.iter().map(|each| message(&each.text, each.image.is_some())).sum()
+    let picture =
+        |png: &Vec<u8>| size(png).map_or(PICTURE, |(width, height)| tokens::of_picture(width, height));
+    let message = |message: &ChatMessage| {
+        tokens::count(&message.text) + tokens::PER_MESSAGE + message.image.as_ref().map_or(0, picture)
+    };
+    request.messages.iter().map(message).sum()
+}
+
+/// Width and height of a PNG, which are the first words of its first chunk.
+fn size(png: &[u8]) -> Option<(u32, u32)> {
+    let word = |at: usize| Some(u32::from_be_bytes(png.get(at..at + 4)?.try_into().ok()?));
+    Some((word(16)?, word(20)?))
 }
 
 /// Requests whose prompts begin alike, those of an episode say, as the caller expects them.
@@ -86,6 +88,7 @@ impl Estimate {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::client::chat::{Decoding, Role};
 
     #[test]
     fn two_episodes() {
@@ -105,5 +108,19 @@ mod tests {
         let unpriced = Estimate::of(&[episode, shorter], None);
         assert_eq!((unpriced.cost, unpriced.input_tokens), (None, 132_000));
         assert_eq!(Estimate::of(&[], None), Estimate::default());
+    }
+
+    #[test]
+    fn prompts_with_pictures() {
+        let png =
+            [&b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"[..], &280u32.to_be_bytes(), &56u32.to_be_bytes()].concat();
+        let prompt = |image: Option<Vec<u8>>| {
+            let messages = vec![ChatMessage { role: Role::User, text: "left".to_owned(), image }];
+            let sample = engine::Seed::from_text("x");
+            prompt_tokens(&ChatRequest { messages, decoding: Decoding::default(), sample })
+        };
+        assert_eq!(prompt(None), 1 + tokens::PER_MESSAGE);
+        assert_eq!(prompt(Some(png)), prompt(None) + 20);
+        assert_eq!(prompt(Some(Vec::new())), prompt(None) + PICTURE);
     }
 }

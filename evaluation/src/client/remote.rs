@@ -151,7 +151,7 @@ impl Remote {
             (401 | 403, Some(key)) => {
                 format!("; is the key in {} right, and meant for {host}?", key.variable())
             }
-            (401 | 403, None) => "; if it wants a key, name its variable with --api-key-env".to_owned(),
+            (401 | 403, None) => "; if it wants a key, name its variable with --key-variable".to_owned(),
             (404, _) if self.spec.server.own => format!("; is `{model}` the right name?"),
             (404, _) => {
                 format!("; is `{model}` the right name, and does the base URL end as it should (`/v1`)?")
