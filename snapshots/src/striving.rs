@@ -64,11 +64,13 @@ impl<C: Clone> Finalists<C> {
 /// An elite of an archive, with its cell and the bins of that.
 type Elite<'a, C> = (usize, Vec<usize>, &'a Judged<C>);
 
-/// Candidates of an archive that have not been shown, with their cells, as far apart in it as can be: the best one first, then
-/// always the one that is farthest from all that have been picked, the better one of equals.
+/// Candidates of an archive that have not been shown, with their cells, as far apart in it as can be: the best one first, if
+/// no cell is taken, then always the one that is farthest from all cells that are taken or have been picked, the better
+/// one of equals.
 pub(crate) fn spread<C: Clone>(
     archive: &Archive<C>,
     wanted: usize,
+    taken: &[usize],
     shown: &mut BTreeSet<Digest>,
     key: impl Fn(&C) -> Digest,
 ) -> Vec<(usize, C)> {
@@ -77,13 +79,13 @@ pub(crate) fn spread<C: Clone>(
         .filter(|(_, elite)| !shown.contains(&key(&elite.candidate)))
         .map(|(cell, elite)| (cell, archive.bins(cell), elite))
         .collect();
+    let taken: Vec<Vec<usize>> = taken.iter().map(|&cell| archive.bins(cell)).collect();
     let mut picked: Vec<Elite<'_, C>> = Vec::new();
     while picked.len() < wanted && !left.is_empty() {
         let apart = |bins: &[usize]| {
-            let steps = |(_, other, _): &Elite<'_, C>| {
-                bins.iter().zip(other).map(|(a, b)| a.abs_diff(*b)).sum::<usize>()
-            };
-            picked.iter().map(steps).min().unwrap_or(0)
+            let steps =
+                |other: &Vec<usize>| bins.iter().zip(other).map(|(a, b)| a.abs_diff(*b)).sum::<usize>();
+            taken.iter().chain(picked.iter().map(|(_, bins, _)| bins)).map(steps).min().unwrap_or(0)
         };
         let better = |(_, a, one): &Elite<'_, C>, (_, b, two): &Elite<'_, C>| {
             let objectives = one.evaluation.objective.total_cmp(&two.evaluation.objective);

@@ -219,7 +219,7 @@ impl Maker<'_> {
                 set.tally.calls(look.calls);
                 look.evaluation
             });
-            let picked = spread(search.archive(), wanted - set.games.len(), &mut shown, GameGenome::key);
+            let picked = spread(search.archive(), wanted - set.games.len(), &[], &mut shown, GameGenome::key);
             let judge = |(cell, genome): &(usize, GameGenome)| {
                 let mut tally = Tally::default();
                 let seed = self.seed.child("judges", 0).child(&genome.key().to_string(), 0);

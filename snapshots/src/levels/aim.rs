@@ -1,6 +1,6 @@
 //! What makes one level better than another, for an order.
 
-use super::order::LevelOrder;
+use super::order::{LevelOrder, Method};
 use engine::{Analysis, Level};
 use generators::levels::{LevelMeasure, LevelMeasures};
 use validators::{Case, Climb, Difficulty, Ladder, Measures, RuleRef};
@@ -30,11 +30,13 @@ pub(super) struct Told {
 const PLAYS: u64 = 6;
 /// So much of a label's eases, on the side of another label, is not aimed at: another look may find the level beyond.
 const MARGIN: f64 = 0.08;
+/// So much of them an archive does without.
+const KEPT: f64 = 0.03;
 /// A level is long enough if the avatar could cross the board so often in the ticks of the win.
 const CROSSINGS: f64 = 2.5;
 
 /// The measures that an archive may have as axes: those of the win, then [`LevelMeasure::ALL`].
-const OF_PLAY: [&str; 4] = ["solution length", "branching", "mechanics", "pressure"];
+pub(super) const OF_PLAY: [&str; 4] = ["solution length", "branching", "mechanics", "pressure"];
 
 /// The names of all measures, in the order of [`Aim::measures`].
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
@@ -69,7 +71,11 @@ impl<'a> Aim<'a> {
         let (objective, calls) = match (&self.climb, self.order.difficulty) {
             (Some(climb), Some(asked)) => {
                 let ladder = climb.ladder(case);
-                (0.8 * closeness(&ladder, asked) + 0.2 * quality, calls(&ladder))
+                // What is picked from an archive lies far apart in it, and need not be the best: all of it has to bear the label.
+                if self.order.method == Method::Evolutionary {
+                    constraint = constraint.min(closeness(&ladder, asked, KEPT));
+                }
+                (0.8 * closeness(&ladder, asked, MARGIN) + 0.2 * quality, calls(&ladder))
             }
             _ => (quality, 0),
         };
@@ -99,9 +105,9 @@ impl<'a> Aim<'a> {
     }
 }
 
-/// From 1.0, well within the eases of the label, down to 0.0, as far off as can be.
-fn closeness(ladder: &Ladder, asked: Difficulty) -> f64 {
-    let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, MARGIN)) else { return 0.0 };
+/// From 1.0, by a margin within the eases of the label, down to 0.0, as far off as can be.
+fn closeness(ladder: &Ladder, asked: Difficulty, margin: f64) -> f64 {
+    let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return 0.0 };
     let beyond = (low - ease).max(ease - high).max(0.0);
     // What is to be beaten seldom must be beaten by somebody.
     let beaten = if ladder.difficulty == Difficulty::Unbeaten { 0.8 } else { 1.0 };

@@ -1,12 +1,17 @@
 //! Which measures an archive of levels tells apart.
 
-use super::aim::names;
+use super::aim::{OF_PLAY, names};
+use super::look::Look;
 use generators::Axis;
 
+/// Axes of an archive.
+const AXES: usize = 2;
 /// Bins of an axis at least.
 const LEAST_BINS: usize = 8;
 /// Elites that an archive has room for, for each level that is wanted of it.
 const ROOM: usize = 6;
+/// Levels of a sample that have to be won, before measures of wins tell levels apart.
+const LEAST_WON: usize = 4;
 
 /// The axes of an archive, and where among all measures theirs are.
 pub(super) struct Axes {
@@ -15,29 +20,29 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// The length of the solution, and of all other measures the one in which the levels of a sample differ most, as a share of
-    /// what it can be. The ranges are those of the sample, half as wide again on either side.
+    /// The length of the solution, and of all other measures the one in which the levels of a sample that were won differ most,
+    /// as a share of what it can be. Where hardly any was won, the two measures of the board in which all differ most.
+    /// The ranges are those of the sample without its outliers, half as wide again on either side.
     ///
-    /// `sample` holds the measures of levels, each in the order of [`names`].
-    pub(super) fn of(sample: &[Vec<f64>], wanted: usize) -> Axes {
-        let others = 1..names().count();
-        let column = |at: usize| {
-            let mut column: Vec<f64> = sample.iter().map(|measures| measures[at]).collect();
+    /// The looks of the sample tell of all measures, in the order of [`names`].
+    pub(super) fn of<'a>(sample: impl Iterator<Item = &'a Look> + Clone, wanted: usize) -> Axes {
+        let won: Vec<&Look> = sample.clone().filter(|look| look.is_won).collect();
+        let is_enough = won.len() >= LEAST_WON;
+        let sample: Vec<&Look> = if is_enough { won } else { sample.collect() };
+        let range = |at: usize| {
+            let mut column: Vec<f64> = sample.iter().map(|look| look.evaluation.measures[at]).collect();
             column.sort_by(f64::total_cmp);
-            column
+            let decile = |share: usize| column.get((column.len() * share / 10).min(column.len().max(1) - 1));
+            decile(1).zip(decile(9)).map_or((0.0, 1.0), |(low, high)| (*low, *high))
         };
-        let spread = |at: usize| {
-            let column = column(at);
-            let quantile =
-                |share: usize| column.get((column.len() * share / 10).min(column.len().max(1) - 1));
-            quantile(9).zip(quantile(1)).map_or(0.0, |(high, low)| high - low)
-        };
-        let most = others.max_by(|&a, &b| spread(a).total_cmp(&spread(b)).then(b.cmp(&a)));
-        let chosen: Vec<usize> = [0].into_iter().chain(most).collect();
+        let spread = |at: usize| range(at).1 - range(at).0;
+        let fixed = if is_enough { vec![0] } else { Vec::new() };
+        let mut others: Vec<usize> = (if is_enough { 1 } else { OF_PLAY.len() }..names().count()).collect();
+        others.sort_by(|&a, &b| spread(b).total_cmp(&spread(a)).then(a.cmp(&b)));
+        let chosen: Vec<usize> = fixed.into_iter().chain(others).take(AXES).collect();
         let bins = (1..).find(|side| side * side >= ROOM * wanted).unwrap_or(LEAST_BINS).max(LEAST_BINS);
         let axis = |&at: &usize| {
-            let column = column(at);
-            let (low, high) = (column.first().copied().unwrap_or(0.0), column.last().copied().unwrap_or(1.0));
+            let (low, high) = range(at);
             let width = if high > low { high - low } else { 1.0 };
             let range = ((low - width / 2.0).max(0.0), high + width / 2.0);
             Axis::new(names().nth(at).expect("it is one of them"), range, bins)
@@ -54,24 +59,45 @@ impl Axes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use generators::Evaluation;
+
+    /// A look at a level whose board differs in the measures 5 and 6, and whose win, if it has one, in its length.
+    fn look(at: usize, is_won: bool) -> Look {
+        let mut measures = vec![0.5; names().count()];
+        measures[..OF_PLAY.len()].fill(0.0);
+        (measures[5], measures[6]) = (at as f64 / 10.0, at as f64 / 20.0);
+        if is_won {
+            measures[0] = 10.0 + at as f64;
+        }
+        let evaluation = Evaluation { feasibility: 1.0, objective: 0.5, measures };
+        Look { evaluation, obstacle: None, is_won, calls: 0, effort: 1.0 }
+    }
+
+    fn found(axes: &Axes) -> Vec<(&str, (f64, f64), usize)> {
+        axes.axes.iter().map(|axis| (axis.name.as_str(), axis.range, axis.bins)).collect()
+    }
 
     #[test]
     fn the_measure_that_tells_levels_apart_is_chosen() {
-        let count = names().count();
-        let level = |at: usize| {
-            let mut measures = vec![0.5; count];
-            (measures[0], measures[5]) = (10.0 + at as f64, at as f64 / 10.0);
-            measures
-        };
-        let sample: Vec<Vec<f64>> = (0..10).map(level).collect();
-        let axes = Axes::of(&sample, 10);
-        let found: Vec<(&str, (f64, f64), usize)> =
-            axes.axes.iter().map(|axis| (axis.name.as_str(), axis.range, axis.bins)).collect();
+        let sample: Vec<Look> = (0..10).map(|at| look(at, true)).collect();
+        let axes = Axes::of(sample.iter(), 10);
         let names: Vec<&str> = names().collect();
-        assert_eq!(found[0], ("solution length", (5.5, 23.5), 8));
-        assert_eq!(found[1].0, names[5]);
-        assert_eq!(axes.pick(&sample[3]), [13.0, 0.3]);
+        assert_eq!(found(&axes)[0], ("solution length", (7.0, 23.0), 8));
+        assert_eq!(found(&axes)[1].0, names[5]);
+        assert_eq!(axes.pick(&sample[3].evaluation.measures), [13.0, 0.3]);
         // Nothing to go by is no reason to fail.
-        assert_eq!(Axes::of(&[], 1000).axes[0].range, (0.0, 1.5));
+        assert_eq!(Axes::of([].iter(), 1000).axes[0].range, (0.0, 1.5));
+    }
+
+    /// What nobody has won has no length: it would lie in one bin with all others.
+    #[test]
+    fn levels_without_a_win_are_told_apart_by_their_boards() {
+        let names: Vec<&str> = names().collect();
+        let chosen = |won: usize| {
+            let sample: Vec<Look> = (0..30).map(|at| look(at % 10, at < won)).collect();
+            found(&Axes::of(sample.iter(), 10)).iter().map(|axis| axis.0.to_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(chosen(3), [names[5], names[6]]);
+        assert_eq!(chosen(10), ["solution length", names[5]]);
     }
 }

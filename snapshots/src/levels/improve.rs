@@ -3,20 +3,20 @@
 use super::accept::Gate;
 use super::aim::Aim;
 use super::axes::Axes;
-use super::look::{Look, Looker};
+use super::look::{LEAST_EFFORT, Look, Looker};
 use super::make::{Attempt, Cost, LevelSet, Maker, NO_BOARD, TWICE, made};
 use crate::striving::{Finalists, spread, strive};
 use engine::{Digest, Level};
 use generators::Variation;
 use generators::levels::LevelSearch;
-use generators::{Annealing, AnnealingConfig, Evaluation, MapElites, MapElitesConfig, Search};
+use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Search};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// The feasibility of a level that a look took for feasible and the panel did not.
 const REFUSED: f64 = 0.95;
-/// Levels that are made from nothing to see in what those of a game differ.
-const SAMPLE: u64 = 16;
+/// The share of an archive's effort that goes into levels from nothing, before any is bred.
+const CREATION: f64 = 0.2;
 
 impl Maker<'_> {
     /// Anneals a level until the panel lets one in: each round is a search of its own.
@@ -37,8 +37,8 @@ impl Maker<'_> {
             let config = AnnealingConfig { starts: looks / 2, ..AnnealingConfig::of(looks) };
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::new();
-            self.strive(&mut search, looks, &looker, &mut cost, |level, evaluation| {
-                best.note(level, level.digest(), evaluation)
+            self.strive(&mut search, looks, &looker, &mut cost, |level, look| {
+                best.note(level, level.digest(), &look.evaluation)
             });
             for level in best.into_candidates() {
                 if refused.contains(&self.likeness.digest(&level)) {
@@ -61,77 +61,117 @@ impl Maker<'_> {
         let looker = Looker::new(self.analysis, self.order, aim, self.seed.child("look", 0));
         let gate = Gate::new(self.analysis, self.order, self.seed.child("gate", 0));
         let wanted = self.order.count as usize;
-        let looks = self.order.effort.looks as usize * wanted;
+        let effort = f64::from(self.order.effort.looks) * wanted as f64;
         let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };
-        let mut sample = self.sample(variation, &looker, &mut set.cost);
-        let axes =
-            Axes::of(&sample.iter().map(|(_, told)| told.measures.clone()).collect::<Vec<_>>(), wanted);
-        sample.iter_mut().for_each(|(_, told)| told.measures = axes.pick(&told.measures));
-        let config = MapElitesConfig { initial: (looks / 5).max(1), ..MapElitesConfig::default() };
+        let found = self.created(variation, &looker, CREATION * effort, &mut set.cost);
+        let axes = Axes::of(found.iter().map(|(_, look)| look), wanted);
+        let config = MapElitesConfig { initial: 1, ..MapElitesConfig::default() };
         let key = |level: &Level| self.likeness.digest(level);
         let seed = self.seed.child("archive", 0);
         let mut search = MapElites::new(variation, key, axes.axes.clone(), config, seed);
-        search.tell(sample);
-        let mut shown = BTreeSet::new();
+        let place = |look: &mut Look| look.evaluation.measures = axes.pick(&look.evaluation.measures);
+        let told = found.into_iter().map(|(level, mut look)| {
+            place(&mut look);
+            (level, look.evaluation)
+        });
+        search.tell(told.collect());
+        let (mut shown, mut taken) = (BTreeSet::new(), Vec::new());
+        let mut left = (1.0 - CREATION) * effort;
         for _ in 0..self.order.effort.rounds {
-            let told = |_: &Level, told: &mut Evaluation| told.measures = axes.pick(&told.measures);
-            self.strive(&mut search, looks, &looker, &mut set.cost, told);
-            let picked = spread(search.archive(), wanted - set.levels.len(), &mut shown, key);
-            let judged: Vec<_> = picked.par_iter().map(|(_, level)| gate.judge(level)).collect();
-            for ((cell, level), judged) in picked.into_iter().zip(judged) {
-                set.cost.judged(&judged);
-                if judged.obstacle.is_some() {
-                    search.refuse(cell, REFUSED);
-                    continue;
+            let batch = self.order.effort.batch;
+            while left > 0.0 {
+                let told = |_: &Level, look: &mut Look| {
+                    left -= look.effort;
+                    place(look);
+                };
+                if !self.strive(&mut search, batch, &looker, &mut set.cost, told) {
+                    break;
                 }
-                let number = set.levels.len() as u32;
-                self.progress.made(number);
-                set.levels.push(made(number, level, judged));
+            }
+            // Many that a look took for good are not: all of them get their chance before more are bred.
+            while set.levels.len() < wanted {
+                let picked = spread(search.archive(), wanted - set.levels.len(), &taken, &mut shown, key);
+                if picked.is_empty() {
+                    break;
+                }
+                let judged: Vec<_> = picked.par_iter().map(|(_, level)| gate.judge(level)).collect();
+                for ((cell, level), judged) in picked.into_iter().zip(judged) {
+                    set.cost.judged(&judged);
+                    if judged.obstacle.is_some() {
+                        search.refuse(cell, REFUSED);
+                        continue;
+                    }
+                    let number = set.levels.len() as u32;
+                    self.progress.made(number);
+                    taken.push(cell);
+                    set.levels.push(made(number, level, judged));
+                }
             }
             if set.levels.len() == wanted {
                 break;
             }
+            left = effort;
         }
         set
     }
 
-    /// Levels from nothing, to see what levels of the game are like.
-    fn sample(
+    /// Levels from nothing, until an effort is spent: they show in what levels of the game differ, and an archive starts from
+    /// them.
+    fn created(
         &self,
         variation: &LevelSearch<'_>,
         looker: &Looker<'_>,
+        effort: f64,
         cost: &mut Cost,
-    ) -> Vec<(Level, Evaluation)> {
-        let levels = (0..SAMPLE).into_par_iter();
-        let levels = levels.filter_map(|at| variation.create(self.seed.child("sample", at)));
-        let looked = levels.map(|level| (looker.look(&level), level)).collect::<Vec<(Look, Level)>>();
-        looked.iter().for_each(|(look, _)| cost.looked(look));
-        looked.into_iter().map(|(look, level)| (level, look.evaluation)).collect()
+    ) -> Vec<(Level, Look)> {
+        let seed = self.seed.child("created", 0);
+        let batch = self.order.effort.batch.max(1) as u64;
+        let most = (effort / LEAST_EFFORT).ceil() as u64;
+        let mut found: Vec<(Level, Look)> = Vec::new();
+        let (mut at, mut spent) = (0, 0.0);
+        while spent < effort && at < most {
+            let levels =
+                (at..at + batch).into_par_iter().filter_map(|at| variation.create(seed.child("level", at)));
+            let looked: Vec<(Level, Look)> = levels
+                .map(|level| {
+                    let look = looker.look(&level);
+                    self.progress.looked();
+                    (level, look)
+                })
+                .collect();
+            for (_, look) in &looked {
+                cost.looked(look);
+                spent += look.effort;
+            }
+            found.extend(looked);
+            at += batch;
+        }
+        found
     }
 
-    /// Lets a search ask, looks at what it proposes on all threads, and tells it.
+    /// Lets a search ask, looks at what it proposes on all threads, and tells it. Whether it asked for all.
     fn strive<S: Search<Candidate = Level>>(
         &self,
         search: &mut S,
         looks: usize,
         looker: &Looker<'_>,
         cost: &mut Cost,
-        mut note: impl FnMut(&Level, &mut Evaluation),
-    ) {
+        mut note: impl FnMut(&Level, &mut Look),
+    ) -> bool {
         let look = |level: &Level| {
             let look = looker.look(level);
             self.progress.looked();
             look
         };
         let effort = (looks, self.order.effort.batch);
-        let asked_all = strive(search, effort, look, |level, look| {
+        let asked_all = strive(search, effort, look, |level, mut look| {
             cost.looked(&look);
-            let mut evaluation = look.evaluation;
-            note(level, &mut evaluation);
-            evaluation
+            note(level, &mut look);
+            look.evaluation
         });
         if !asked_all {
             cost.reject(NO_BOARD);
         }
+        asked_all
     }
 }

@@ -11,7 +11,9 @@ use validators::{Case, Criteria, Finding, NoEarlyDeath, NotIdle, NotRandom, Vali
 const IDLE_PLAYS: u32 = 2;
 /// Episodes of random play.
 const RANDOM_PLAYS: u32 = 24;
-/// The greatest share of them that may be won: one of them. The panel, with more of them, is stricter.
+/// More of them where one was won: who is the best of many was lucky, too.
+const MORE_RANDOM_PLAYS: u32 = 48;
+/// The greatest share of them that may be won: one of the first. The panel, with other dice, is stricter.
 const RANDOM_WINS: f64 = 0.05;
 /// Games of chance in which the first ticks are lived through.
 const CHANCES: u32 = 4;
@@ -35,8 +37,31 @@ pub(super) struct Look {
     pub(super) evaluation: Evaluation,
     /// The first constraint that is not met.
     pub(super) obstacle: Option<&'static str>,
+    /// Whether a win is known, so that its measures are.
+    pub(super) is_won: bool,
     /// Forward-model calls.
     pub(super) calls: u64,
+    /// How many looks of usual cost it counts for: [`LEAST_EFFORT`] if no win was looked for, else one for every
+    /// [`super::Effort::calls`] that the search for a win took, and at least one.
+    pub(super) effort: f64,
+}
+
+/// The effort of a look that ends with the first, cheap judges.
+pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
+
+/// What a look has cost so far.
+#[derive(Default)]
+struct Spent {
+    /// Forward-model calls.
+    calls: u64,
+    /// Those of the search for a win, once there is one.
+    searched: Option<u64>,
+}
+
+impl Spent {
+    fn effort(&self, usual: u64) -> f64 {
+        self.searched.map_or(LEAST_EFFORT, |calls| (calls as f64 / usual.max(1) as f64).max(1.0))
+    }
 }
 
 /// What a win of all random plays would take from the objective; one of them takes a third of it.
@@ -90,21 +115,23 @@ impl<'a> Looker<'a> {
     pub(super) fn look(&self, level: &Level) -> Look {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
-        let mut calls = 0;
-        let won = self.constrain(level, seed, &mut constraints, &mut calls);
+        let mut spent = Spent::default();
+        let won = self.constrain(level, seed, &mut constraints, &mut spent);
         // A single win by random keys already speaks against a level.
         let told = won.map(|(witness, luck)| {
             let told = self.aim.tell(self.case(level, seed, Some(&witness)));
             Told { objective: told.objective * (1.0 - LUCK * luck), ..told }
         });
         let measures = self.aim.measures(level, told.as_ref().map(|told| &told.measures));
+        let is_won = told.is_some();
         let objective = told.map_or(0.0, |told| {
-            calls += told.calls;
+            spent.calls += told.calls;
             constraints.note(told.constraint);
             told.objective
         });
         let evaluation = Evaluation { feasibility: constraints.feasibility(), objective, measures };
-        Look { evaluation, obstacle: constraints.obstacle(), calls }
+        let effort = spent.effort(self.order.effort.calls);
+        Look { evaluation, obstacle: constraints.obstacle(), is_won, calls: spent.calls, effort }
     }
 
     /// Asks the cheap judges, one after the other; a win, if all are content, and the share of random plays that won.
@@ -113,26 +140,31 @@ impl<'a> Looker<'a> {
         level: &Level,
         seed: Seed,
         constraints: &mut Constraints,
-        calls: &mut u64,
+        spent: &mut Spent,
     ) -> Option<(Episode, f64)> {
         let criteria = &self.order.criteria;
-        let ask = |validator: &dyn Validator, calls: &mut u64| {
-            let case = self.case(level, seed.child(validator.name(), 0), None);
+        let ask = |validator: &dyn Validator, time: u64, spent: &mut Spent| {
+            let case = self.case(level, seed.child(validator.name(), time), None);
             let finding = validator.validate(case);
-            *calls += finding.calls();
+            spent.calls += finding.calls();
             finding
         };
-        let sound = passes(&ask(&WellFormed, calls));
+        let sound = passes(&ask(&WellFormed, 0, spent));
         let can_win = self.analysis.reach(level).can_win();
         if !constraints.note(if can_win { sound } else { sound / 2.0 }) {
             return None;
         }
         // A level that is won without skill is no better for being won with it.
-        let idle = ask(&NotIdle { plays: IDLE_PLAYS }, calls);
-        let random = ask(&NotRandom { plays: RANDOM_PLAYS, most: RANDOM_WINS }, calls);
+        let idle = ask(&NotIdle { plays: IDLE_PLAYS }, 0, spent);
+        let random = ask(&NotRandom { plays: RANDOM_PLAYS, most: RANDOM_WINS }, 0, spent);
+        let mut luck = win_share(&random);
+        if random.verdict.is_pass() && luck > 0.0 {
+            let more = ask(&NotRandom { plays: MORE_RANDOM_PLAYS, most: 1.0 }, 1, spent);
+            let [first, more_plays] = [RANDOM_PLAYS, MORE_RANDOM_PLAYS].map(f64::from);
+            luck = (luck * first + win_share(&more) * more_plays) / (first + more_plays);
+        }
         let met = constraints.note(1.0 - win_share(&idle));
-        let met =
-            constraints.note(if random.verdict.is_pass() { 1.0 } else { 1.0 - win_share(&random) }) && met;
+        let met = constraints.note(if luck <= RANDOM_WINS { 1.0 } else { 1.0 - luck }) && met;
         if !met {
             return None;
         }
@@ -142,16 +174,17 @@ impl<'a> Looker<'a> {
             chances: CHANCES,
             share: criteria.early_deaths,
         };
-        if !constraints.note(passes(&ask(&early, calls))) {
+        if !constraints.note(passes(&ask(&early, 0, spent))) {
             return None;
         }
         let budget = self.budget(&random);
         let solved = self.solve(level, budget, seed.child("winnable", 0), criteria);
-        *calls += solved.calls;
+        spent.calls += solved.calls;
+        spent.searched = Some(solved.calls);
         match solved.solution {
             Solution::Won { episode, .. } => {
                 constraints.note(1.0);
-                Some((*episode, win_share(&random)))
+                Some((*episode, luck))
             }
             Solution::Impossible { .. } => None,
             Solution::Unknown => {
