@@ -99,3 +99,28 @@ pub(crate) fn spread<C: Clone>(
     shown.extend(candidates.iter().map(|(_, candidate)| key(candidate)));
     candidates
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use generators::Axis;
+
+    #[test]
+    fn what_is_picked_lies_far_from_what_is_taken() {
+        let mut archive = Archive::new(vec![Axis::new("place", (0.0, 10.0), 10)], 0);
+        for place in [0u8, 4, 5, 9] {
+            let objective = if place == 5 { 0.9 } else { 0.5 };
+            let measures = vec![f64::from(place)];
+            archive.add(place, Evaluation { feasibility: 1.0, objective, measures });
+        }
+        let key = |place: &u8| Digest::of(&[*place]);
+        let mut picked = |wanted: usize, taken: &[usize], shown: &mut BTreeSet<Digest>| {
+            let picked = spread(&archive, wanted, taken, shown, key);
+            picked.into_iter().map(|(_, place)| place).collect::<Vec<u8>>()
+        };
+        let mut shown = BTreeSet::new();
+        assert_eq!(picked(2, &[], &mut shown), [5, 0], "the best one first");
+        assert_eq!(picked(1, &[5, 0], &mut shown), [9], "what has been shown is not shown again");
+        assert_eq!(picked(9, &[9], &mut BTreeSet::new()), [0, 5, 4]);
+    }
+}

@@ -243,3 +243,43 @@ fn passes(finding: &Finding) -> f64 {
 fn win_share(finding: &Finding) -> f64 {
     finding.measured.as_ref().map_or(0.0, |rate| rate.wins as f64 / rate.plays.max(1) as f64)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels::Method;
+    use generators::levels::LevelConfig;
+
+    /// The goal is beside the avatar, or at the end of a way between pits.
+    const NEAR: &str = "wwwww\nwAg w\nwwwww\n";
+    const FAR: &str = "wwwwwwwwwwww\nwppppppppppw\nwA        gw\nwppppppppppw\nwwwwwwwwwwww\n";
+
+    fn look(level: &str) -> Look {
+        let game = Game::from_source(
+            "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    pit > Immovable\n    avatar > \
+             MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    \
+             avatar pit > killSprite\n    goal avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=goal \
+             win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n",
+        )
+        .unwrap();
+        let analysis = Analysis::of(&game);
+        let order = LevelOrder::new(Method::Evolutionary, 1, LevelConfig::default());
+        let looker = Looker::new(&analysis, &order, Aim::new(&analysis, &order), Seed::from_text("look"));
+        looker.look(&game.level(level).unwrap())
+    }
+
+    #[test]
+    fn what_random_keys_win_costs_little_and_counts_little() {
+        let near = look(NEAR);
+        assert_eq!((near.obstacle, near.is_won, near.effort), (Some("not-random"), false, LEAST_EFFORT));
+        let far = look(FAR);
+        assert_eq!((far.obstacle, far.is_won, far.effort), (None, true, 1.0));
+        assert!(far.evaluation.is_feasible() && far.calls > near.calls);
+    }
+
+    #[test]
+    fn a_long_search_for_a_win_counts_for_several_looks() {
+        let effort = |searched| Spent { calls: 500_000, searched }.effort(100_000);
+        assert_eq!([None, Some(20_000), Some(250_000)].map(effort), [LEAST_EFFORT, 1.0, 2.5]);
+    }
+}

@@ -33,6 +33,11 @@ impl Method {
     }
 }
 
+/// Floor plans for each level of a search that makes them better itself.
+const PLANS_OF_ARCHIVE: usize = 40;
+/// Shares of the longest way to a solution, where it is measured what a level is like.
+const ANY_WAY: (f64, f64) = (0.05, 1.0);
+
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
@@ -124,16 +129,19 @@ impl LevelOrder {
         LevelConfig { difficulty, ..self.config.clone() }
     }
 
-    /// What is told to the makers of puzzles: as many things to push as the configuration counts; and an archive sees to it
-    /// itself that its levels get better, one by one.
+    /// What is told to the makers of puzzles: as many things to push as the configuration counts. An archive sees to it itself
+    /// that its levels get better, one by one. Where a difficulty is asked, the farthest position is seldom the one:
+    /// few of the players that measure it win puzzles that long.
     pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
         let pushed =
             |stype: &SpriteType| analysis.pushables().iter().any(|pushable| pushable.stype == *stype);
         let counts = self.config.counts.iter().filter(|(stype, _)| pushed(stype));
         let things = counts.map(|(_, count)| *count).reduce(|one, two| one + two);
-        match self.method {
-            Method::Evolutionary => PuzzleConfig { things, floor_plans: 40 },
-            Method::Constructive | Method::Search => PuzzleConfig { things, ..PuzzleConfig::default() },
+        let is_annealed = self.method != Method::Evolutionary && self.difficulty.is_none();
+        PuzzleConfig {
+            things,
+            floor_plans: if is_annealed { PuzzleConfig::default().floor_plans } else { PLANS_OF_ARCHIVE },
+            way: self.difficulty.map(|_| ANY_WAY),
         }
     }
 

@@ -170,6 +170,25 @@ fn solutions_win_and_levels_vary() {
     }
 }
 
+/// The same floor plans, from nearer to a solution.
+#[test]
+fn a_level_starts_where_it_is_asked_to_on_the_way() {
+    let game = sink();
+    let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
+    let ticks = |way: (f64, f64), index: u64| {
+        let puzzle = PuzzleConfig { things: Some(3), floor_plans: 40, way: Some(way) };
+        let variation = PuzzleVariation::new(&game, config.clone(), puzzle).unwrap();
+        let solved = variation.create_solved(Seed::from_text("way").child("level", index)).unwrap();
+        solved.solution.unwrap().len()
+    };
+    for index in 0..4 {
+        let [short, half, whole] = [(0.0, 0.2), (0.5, 0.5), (1.0, 1.0)].map(|way| ticks(way, index));
+        assert!(short < half && half < whole, "{short}, {half}, {whole}");
+    }
+    let backwards = PuzzleConfig { way: Some((0.5, 0.2)), ..PuzzleConfig::default() };
+    assert!(PuzzleVariation::new(&game, config, backwards).is_err());
+}
+
 /// Fewest ticks, proved, with the pushes among them.
 fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
     let game = analysis.game();

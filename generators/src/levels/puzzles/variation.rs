@@ -26,17 +26,20 @@ const ATTEMPTS: u64 = 4;
 const CHANGES: usize = 6;
 
 /// What is asked of puzzles.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PuzzleConfig {
     /// Things to push; none: as many as [`LevelConfig::counts`] says, or two to four, as difficulty and room allow.
     pub things: Option<usize>,
     /// Floor plans looked at for a level, at most.
     pub floor_plans: usize,
+    /// The share of the longest way to a solution that a level is away from it, drawn from this range; none: as
+    /// [`LevelConfig::difficulty`] says.
+    pub way: Option<(f64, f64)>,
 }
 
 impl Default for PuzzleConfig {
     fn default() -> PuzzleConfig {
-        PuzzleConfig { things: None, floor_plans: 600 }
+        PuzzleConfig { things: None, floor_plans: 600, way: None }
     }
 }
 
@@ -79,6 +82,9 @@ impl<'a> PuzzleVariation<'a> {
         }
         if puzzle.things == Some(0) || puzzle.floor_plans == 0 {
             return unsuitable("a puzzle needs something to push, and a floor plan");
+        }
+        if puzzle.way.is_some_and(|(from, to)| !(0.0..=to).contains(&from) || to > 1.0) {
+            return unsuitable("the share of a way lies between 0 and 1");
         }
         let variation = PuzzleVariation { levels, rules, config, puzzle };
         let trial = |index: u64| variation.made(Seed::from_text("trial").child("puzzle", index), BATCH);
@@ -128,7 +134,12 @@ impl<'a> PuzzleVariation<'a> {
         let starts = || met.iter().filter(|(position, _)| pushing.is_start(position));
         let most = starts().map(|(_, pushes)| pushes).max()?;
         // Easy levels start on the way.
-        let wanted = (most as f64 * (0.3 + 1.4 * self.config.difficulty).min(1.0)) as usize;
+        let share = match self.puzzle.way {
+            Some((from, to)) => from + (to - from) * seed.child("way", 0).sampler().unit(),
+            None => (0.3 + 1.4 * self.config.difficulty).min(1.0),
+        };
+        let least = (most as f64 * share) as usize;
+        let wanted = starts().map(|(_, pushes)| pushes).filter(|&pushes| pushes >= least).min()?;
         let far = starts().filter(|(_, pushes)| *pushes == wanted);
         let steps = pushing.by_steps(MOST_STEPS);
         let stands = far.flat_map(|(position, _)| {
