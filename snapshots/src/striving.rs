@@ -66,11 +66,12 @@ type Elite<'a, C> = (usize, Vec<usize>, &'a Judged<C>);
 
 /// Candidates of an archive that have not been shown, with their cells, as far apart in it as can be: the best one first, if
 /// no cell is taken, then always the one that is farthest from all cells that are taken or have been picked, the better
-/// one of equals.
+/// one of equals. What is near one of those, as candidates go, is left for another time.
 pub(crate) fn spread<C: Clone>(
     archive: &Archive<C>,
     wanted: usize,
-    taken: &[usize],
+    taken: &[(usize, C)],
+    is_near: impl Fn(&C, &C) -> bool,
     shown: &mut BTreeSet<Digest>,
     key: impl Fn(&C) -> Digest,
 ) -> Vec<(usize, C)> {
@@ -79,7 +80,8 @@ pub(crate) fn spread<C: Clone>(
         .filter(|(_, elite)| !shown.contains(&key(&elite.candidate)))
         .map(|(cell, elite)| (cell, archive.bins(cell), elite))
         .collect();
-    let taken: Vec<Vec<usize>> = taken.iter().map(|&cell| archive.bins(cell)).collect();
+    left.retain(|(.., elite)| !taken.iter().any(|(_, taken)| is_near(taken, &elite.candidate)));
+    let taken: Vec<Vec<usize>> = taken.iter().map(|&(cell, _)| archive.bins(cell)).collect();
     let mut picked: Vec<Elite<'_, C>> = Vec::new();
     while picked.len() < wanted && !left.is_empty() {
         let apart = |bins: &[usize]| {
@@ -92,7 +94,9 @@ pub(crate) fn spread<C: Clone>(
             apart(a).cmp(&apart(b)).then(objectives)
         };
         let at = (0..left.len()).max_by(|&a, &b| better(&left[a], &left[b]).then(b.cmp(&a)));
-        picked.push(left.swap_remove(at.expect("some are left")));
+        let next = left.swap_remove(at.expect("some are left"));
+        left.retain(|(.., elite)| !is_near(&next.2.candidate, &elite.candidate));
+        picked.push(next);
     }
     let candidates: Vec<(usize, C)> =
         picked.into_iter().map(|(cell, _, elite)| (cell, elite.candidate.clone())).collect();
@@ -114,13 +118,19 @@ mod tests {
             archive.add(place, Evaluation { feasibility: 1.0, objective, measures });
         }
         let key = |place: &u8| Digest::of(&[*place]);
-        let mut picked = |wanted: usize, taken: &[usize], shown: &mut BTreeSet<Digest>| {
-            let picked = spread(&archive, wanted, taken, shown, key);
+        let picked = |wanted: usize, taken: &[(usize, u8)], near: u8, shown: &mut BTreeSet<Digest>| {
+            let is_near = |one: &u8, other: &u8| one.abs_diff(*other) < near;
+            let picked = spread(&archive, wanted, taken, is_near, shown, key);
             picked.into_iter().map(|(_, place)| place).collect::<Vec<u8>>()
         };
         let mut shown = BTreeSet::new();
-        assert_eq!(picked(2, &[], &mut shown), [5, 0], "the best one first");
-        assert_eq!(picked(1, &[5, 0], &mut shown), [9], "what has been shown is not shown again");
-        assert_eq!(picked(9, &[9], &mut BTreeSet::new()), [0, 5, 4]);
+        assert_eq!(picked(2, &[], 0, &mut shown), [5, 0], "the best one first");
+        assert_eq!(
+            picked(1, &[(5, 5), (0, 0)], 0, &mut shown),
+            [9],
+            "what has been shown is not shown again"
+        );
+        assert_eq!(picked(9, &[(9, 9)], 1, &mut BTreeSet::new()), [0, 5, 4]);
+        assert_eq!(picked(9, &[(9, 9)], 2, &mut BTreeSet::new()), [0, 5], "what is near is left");
     }
 }

@@ -219,7 +219,8 @@ impl Maker<'_> {
                 set.tally.calls(look.calls);
                 look.evaluation
             });
-            let picked = spread(search.archive(), wanted - set.games.len(), &[], &mut shown, GameGenome::key);
+            let missing = wanted - set.games.len();
+            let picked = spread(search.archive(), missing, &[], |_, _| false, &mut shown, GameGenome::key);
             let judge = |(cell, genome): &(usize, GameGenome)| {
                 let mut tally = Tally::default();
                 let seed = self.seed.child("judges", 0).child(&genome.key().to_string(), 0);

@@ -30,8 +30,11 @@ pub(super) struct Told {
 const PLAYS: u64 = 6;
 /// So much of a label's eases, on the side of another label, is not aimed at: another look may find the level beyond.
 const MARGIN: f64 = 0.08;
-/// So much of them an archive does without.
+/// So much of them an archive does without; what just misses the rest counts for nine tenths.
 const KEPT: f64 = 0.03;
+const CLOSE: f64 = 0.9;
+/// The share of all plays of a ladder that are won where another ladder will hardly find nobody who wins.
+const SURELY_BEATEN: f64 = 0.05;
 /// A level is long enough if the avatar could cross the board so often in the ticks of the win.
 const CROSSINGS: f64 = 2.5;
 
@@ -73,7 +76,8 @@ impl<'a> Aim<'a> {
                 let ladder = climb.ladder(case);
                 // What is picked from an archive lies far apart in it, and need not be the best: all of it has to bear the label.
                 if self.order.method == Method::Evolutionary {
-                    constraint = constraint.min(closeness(&ladder, asked, KEPT));
+                    let missed = CLOSE * closeness(&ladder, asked, KEPT);
+                    constraint = constraint.min(if bears(&ladder, asked, KEPT) { 1.0 } else { missed });
                 }
                 (0.8 * closeness(&ladder, asked, MARGIN) + 0.2 * quality, calls(&ladder))
             }
@@ -109,15 +113,28 @@ impl<'a> Aim<'a> {
 fn closeness(ladder: &Ladder, asked: Difficulty, margin: f64) -> f64 {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return 0.0 };
     let beyond = (low - ease).max(ease - high).max(0.0);
-    // What is to be beaten seldom must be beaten by somebody.
-    let beaten = if ladder.difficulty == Difficulty::Unbeaten { 0.8 } else { 1.0 };
-    (1.0 - beyond).max(0.0) * beaten
+    // What is to be beaten seldom must be beaten by somebody, and not just by luck.
+    let beaten = (wins(ladder) / SURELY_BEATEN).min(1.0);
+    (1.0 - beyond).max(0.0) * (0.8 + 0.2 * beaten)
 }
 
 /// The eases of a label that are farther than a margin from any other label.
-pub(super) fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
+fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
     let [low, high] = label.eases()?;
     Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])
+}
+
+/// Whether a ladder found a label, by a margin.
+pub(super) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
+    let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
+    ladder.difficulty == asked && (low..=high).contains(&ease)
+}
+
+/// The share of all plays of a ladder that were won.
+pub(super) fn wins(ladder: &Ladder) -> f64 {
+    let plays: u64 = ladder.rungs.iter().map(|fared| fared.rate.plays).sum();
+    let wins: u64 = ladder.rungs.iter().map(|fared| fared.rate.wins).sum();
+    wins as f64 / plays.max(1) as f64
 }
 
 fn calls(ladder: &Ladder) -> u64 {

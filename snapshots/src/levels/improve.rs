@@ -5,6 +5,7 @@ use super::aim::Aim;
 use super::axes::Axes;
 use super::look::{LEAST_EFFORT, Look, Looker};
 use super::make::{Attempt, Cost, LevelSet, Maker, NO_BOARD, TWICE, made};
+use super::report::NEAR;
 use crate::striving::{Finalists, spread, strive};
 use engine::{Digest, Level};
 use generators::Variation;
@@ -15,8 +16,13 @@ use std::collections::BTreeSet;
 
 /// The feasibility of a level that a look took for feasible and the panel did not.
 const REFUSED: f64 = 0.95;
-/// The share of an archive's effort that goes into levels from nothing, before any is bred.
-const CREATION: f64 = 0.2;
+/// The share of an archive's effort that goes into levels from nothing, before any is bred: levels differ more than edits can
+/// change them.
+const CREATION: f64 = 0.4;
+/// The share of levels from nothing later on.
+const FRESH: f64 = 0.1;
+/// Rounds in which nearly the same level is not taken twice; after that it is better than none.
+const CHOOSY: u32 = 2;
 
 impl Maker<'_> {
     /// Anneals a level until the panel lets one in: each round is a search of its own.
@@ -65,7 +71,7 @@ impl Maker<'_> {
         let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };
         let found = self.created(variation, &looker, CREATION * effort, &mut set.cost);
         let axes = Axes::of(found.iter().map(|(_, look)| look), wanted);
-        let config = MapElitesConfig { initial: 1, ..MapElitesConfig::default() };
+        let config = MapElitesConfig { initial: 1, fresh: FRESH, ..MapElitesConfig::default() };
         let key = |level: &Level| self.likeness.digest(level);
         let seed = self.seed.child("archive", 0);
         let mut search = MapElites::new(variation, key, axes.axes.clone(), config, seed);
@@ -77,7 +83,7 @@ impl Maker<'_> {
         search.tell(told.collect());
         let (mut shown, mut taken) = (BTreeSet::new(), Vec::new());
         let mut left = (1.0 - CREATION) * effort;
-        for _ in 0..self.order.effort.rounds {
+        for round in 0..self.order.effort.rounds {
             let batch = self.order.effort.batch;
             while left > 0.0 {
                 let told = |_: &Level, look: &mut Look| {
@@ -90,7 +96,10 @@ impl Maker<'_> {
             }
             // Many that a look took for good are not: all of them get their chance before more are bred.
             while set.levels.len() < wanted {
-                let picked = spread(search.archive(), wanted - set.levels.len(), &taken, &mut shown, key);
+                let is_near =
+                    |one: &Level, other: &Level| round < CHOOSY && self.likeness.distance(one, other) <= NEAR;
+                let missing = wanted - set.levels.len();
+                let picked = spread(search.archive(), missing, &taken, is_near, &mut shown, key);
                 if picked.is_empty() {
                     break;
                 }
@@ -103,7 +112,7 @@ impl Maker<'_> {
                     }
                     let number = set.levels.len() as u32;
                     self.progress.made(number);
-                    taken.push(cell);
+                    taken.push((cell, level.clone()));
                     set.levels.push(made(number, level, judged));
                 }
             }

@@ -32,8 +32,8 @@ pub struct PuzzleConfig {
     pub things: Option<usize>,
     /// Floor plans looked at for a level, at most.
     pub floor_plans: usize,
-    /// The share of the longest way to a solution that a level is away from it, drawn from this range; none: as
-    /// [`LevelConfig::difficulty`] says.
+    /// The share of the longest way to a solution that a level is away from it, drawn from this range, rather from its lower
+    /// end; none: as [`LevelConfig::difficulty`] says.
     pub way: Option<(f64, f64)>,
 }
 
@@ -135,7 +135,10 @@ impl<'a> PuzzleVariation<'a> {
         let most = starts().map(|(_, pushes)| pushes).max()?;
         // Easy levels start on the way.
         let share = match self.puzzle.way {
-            Some((from, to)) => from + (to - from) * seed.child("way", 0).sampler().unit(),
+            Some((from, to)) => {
+                let drawn = seed.child("way", 0).sampler().unit();
+                from + (to - from) * drawn * drawn
+            }
             None => (0.3 + 1.4 * self.config.difficulty).min(1.0),
         };
         let least = (most as f64 * share) as usize;
