@@ -57,7 +57,6 @@ impl Draft {
         let hero = draft.child(avatar, Role::Hero);
         draft.child(wall, Role::Wall);
         assert!((floor, wall, avatar, hero) == (FLOOR, WALL, AVATAR, HERO), "the constants say so");
-        draft.sprites[FLOOR.0].params.push(("hidden", Value::Word("True")));
         draft
     }
 

@@ -15,7 +15,9 @@ pub(crate) fn spaced(name: &str) -> String {
 /// More than one of them.
 pub(crate) fn plural(noun: &str) -> String {
     let ends = |endings: &[&str]| endings.iter().any(|ending| noun.ends_with(ending));
-    if ends(&["ay", "ey", "oy", "uy"]) {
+    if ends(&["fish"]) {
+        noun.to_owned()
+    } else if ends(&["ay", "ey", "oy", "uy"]) {
         format!("{noun}s")
     } else if let Some(stem) = noun.strip_suffix('y') {
         format!("{stem}ies")
@@ -71,6 +73,7 @@ mod tests {
         assert_eq!(plural("sea glass"), "sea glasses");
         assert_eq!(plural("cherry"), "cherries");
         assert_eq!(plural("key"), "keys");
+        assert_eq!(plural("silverfish"), "silverfish");
         assert_eq!(plural("floating leaf"), "floating leaves");
         assert_eq!(one("urn"), "an urn");
         assert_eq!(headline("the salt orchard"), "The Salt Orchard");

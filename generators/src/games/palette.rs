@@ -1,6 +1,7 @@
 //! Level characters and colours: told apart within a game, and alike from game to game.
 
 use super::role::Role;
+use super::theme::Theme;
 
 /// Characters for types whose letters are all taken.
 const SPARE: &str = "123456789*+=%&@?!^~$";
@@ -43,18 +44,23 @@ const COLORS: [&str; 20] = [
     "DARKGRAY",
 ];
 
-/// A colour for a type: what suits its role, if it is free, else the first that is.
-pub(crate) fn color(role: Role, taken: &[&'static str]) -> &'static str {
+/// A colour for a type: for the ground that of the fiction; else what suits its role, if it is free, else the first that is.
+pub(crate) fn color(role: Role, theme: &Theme, taken: &[&'static str]) -> &'static str {
+    match role {
+        Role::Floor => return theme.floor,
+        Role::Wall => return theme.walls,
+        _ => {}
+    }
     let suits = suiting(role);
     let free = |color: &&&'static str| !taken.contains(*color);
-    suits.iter().find(free).or_else(|| COLORS.iter().find(free)).unwrap_or(&suits[0])
+    suits.iter().find(free).or_else(|| COLORS.iter().find(free)).or(suits.first()).unwrap_or(&COLORS[0])
 }
 
 fn suiting(role: Role) -> &'static [&'static str] {
     use Role as R;
     match role {
-        R::Floor => &["BLACK"],
-        R::Wall => &["GRAY", "DARKGRAY"],
+        // Of the fiction.
+        R::Floor | R::Wall => &[],
         R::Hero => &["GREEN", "LIGHTGREEN"],
         R::Exit | R::Haven | R::PortalOut => &["LIGHTBLUE", "BLUE"],
         R::Key | R::Relic | R::Trophy | R::Coin => &["GOLD", "YELLOW"],

@@ -14,6 +14,10 @@ pub(crate) struct Theme {
     pub(crate) adjectives: &'static str,
     /// Nouns for titles, separated by blanks.
     pub(crate) nouns: &'static str,
+    /// The colour of the floor, a light one: what lies and moves on it has others.
+    pub(crate) floor: &'static str,
+    /// The colour of walls.
+    pub(crate) walls: &'static str,
     /// What things are called.
     pub(crate) words: Words,
 }

@@ -102,6 +102,6 @@ fn overrun(draft: &mut Draft, sampler: &mut Sampler) {
         draft.say(pest),
         draft.say(plot)
     );
-    let clause = format!("{} come out of it and overrun others", draft.many(pest));
+    let clause = format!("{} come out of every {} and overrun others", draft.many(pest), draft.say(overrun));
     draft.tell(clause);
 }

@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in the bakery before dawn",
     adjectives: "Floury Rising Crusty Warm Sugared Daybreak",
     nouns: "Bakery Pantry Oven Patisserie Kneading Larder",
+    floor: "LIGHTYELLOW",
+    walls: "BROWN",
     words: Words {
         hero: "baker pastryCook kneader",
         floor: "tiles flourBoard",

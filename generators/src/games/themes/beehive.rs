@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in and around the hive",
     adjectives: "Golden Humming Waxen Drowsy Amber Clover",
     nouns: "Hive Meadow Honeycomb Swarm Garden Apiary",
+    floor: "GOLD",
+    walls: "BROWN",
     words: Words {
         hero: "keeper forager nurse",
         floor: "comb wax",

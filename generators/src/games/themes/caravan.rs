@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "at the desert caravanserai",
     adjectives: "Shifting Crimson Thirsty Sunlit Buried Wandering",
     nouns: "Caravanserai Oasis Dune Bazaar Mirage Well",
+    floor: "LIGHTYELLOW",
+    walls: "LIGHTORANGE",
     words: Words {
         hero: "trader nomad guide",
         floor: "sand dust",

@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in the mushroom cellar",
     adjectives: "Damp Pale Whispering Mouldering Spotted Deep",
     nouns: "Cellar Grotto Mycelium Undercroft Burrow Vault",
+    floor: "LIGHTORANGE",
+    walls: "DARKGRAY",
     words: Words {
         hero: "picker cellarer gnome",
         floor: "loam flagstone",

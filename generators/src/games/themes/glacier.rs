@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "on the glacier",
     adjectives: "Blue Frozen Northern Creaking White Thawing",
     nouns: "Glacier Crevasse Icefall Moraine Summit Refuge",
+    floor: "WHITE",
+    walls: "LIGHTBLUE",
     words: Words {
         hero: "climber guide glaciologist",
         floor: "snow firn",

@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in the harbour at night",
     adjectives: "Foggy Midnight Tarred Rusty Lamplit Quiet",
     nouns: "Harbour Quay Wharf Breakwater Anchorage Lighthouse",
+    floor: "LIGHTORANGE",
+    walls: "DARKBLUE",
     words: Words {
         hero: "stevedore pilot smuggler",
         floor: "planks cobbles",

@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in the clockwork library",
     adjectives: "Ticking Unwound Silent Brass Dusty Midnight",
     nouns: "Library Archive Gallery Index Stacks Catalogue",
+    floor: "LIGHTORANGE",
+    walls: "BROWN",
     words: Words {
         hero: "librarian archivist scribe",
         floor: "parquet carpet",

@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in the observatory",
     adjectives: "Silver Waning Eclipsed Farsighted Cold Tilted",
     nouns: "Observatory Meridian Dome Zenith Almagest Planetarium",
+    floor: "LIGHTGRAY",
+    walls: "DARKBLUE",
     words: Words {
         hero: "astronomer lensmaker apprentice",
         floor: "marble slate",

@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in the railway yard",
     adjectives: "Iron Northbound Sooty Derelict Whistling Nightly",
     nouns: "Junction Siding Roundhouse Terminus Switchyard Depot",
+    floor: "LIGHTGRAY",
+    walls: "BROWN",
     words: Words {
         hero: "shunter stoker porter",
         floor: "ballast gravel",

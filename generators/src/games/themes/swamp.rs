@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in the swamp",
     adjectives: "Misty Sunken Croaking Mossy Crooked Lanternlit",
     nouns: "Swamp Marsh Bayou Mire Fen Quagmire",
+    floor: "LIGHTGREEN",
+    walls: "BROWN",
     words: Words {
         hero: "ferryman witch frogling",
         floor: "mud bog",

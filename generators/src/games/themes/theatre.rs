@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "backstage in the old theatre",
     adjectives: "Velvet Gilded Haunted Final Painted Empty",
     nouns: "Theatre Playhouse Curtain Stage Prompter Encore",
+    floor: "PINK",
+    walls: "DARKGRAY",
     words: Words {
         hero: "stagehand understudy actor",
         floor: "boards carpet",

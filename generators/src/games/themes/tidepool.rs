@@ -8,6 +8,8 @@ pub(crate) const THEME: Theme = Theme {
     place: "in the tidepool",
     adjectives: "Salt Brackish Moonlit Sunken Ebbing Barnacled",
     nouns: "Orchard Shoal Tidepool Lagoon Reef Cove",
+    floor: "LIGHTBLUE",
+    walls: "BROWN",
     words: Words {
         hero: "diver shrimper beachcomber",
         floor: "sand shallows",
