@@ -17,6 +17,9 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 /// Held by whoever writes into a results folder.
 const LOCK_FILE: &str = ".lock";
 
+/// The settings while they are written.
+const PARTIAL_FILE: &str = "evaluation.json.partial";
+
 /// Episodes in a row that the surroundings may break off before the rest is left for later.
 const FAILURES_IN_A_ROW: u64 = 8;
 
@@ -56,7 +59,7 @@ pub struct Tally {
 }
 
 impl Evaluation {
-    /// A new results folder; it must be absent or empty.
+    /// A new results folder; it must be absent or empty, but for what an interrupted beginning has left there.
     ///
     /// # Errors
     /// It is neither, or cannot be written.
@@ -66,8 +69,7 @@ impl Evaluation {
         subjects: Vec<Subject>,
     ) -> Result<Evaluation, EvaluationError> {
         fs::create_dir_all(folder).map_err(EvaluationError::io("make", folder))?;
-        let mut entries = fs::read_dir(folder).map_err(EvaluationError::io("list", folder))?;
-        if entries.next().is_some() {
+        if !is_free(folder)? {
             return Err(EvaluationError::Malformed(format!(
                 "{}: the folder is not empty; --resume goes on with the evaluation in it, or name another",
                 folder.display()
@@ -89,7 +91,7 @@ impl Evaluation {
         let episodes = folder.join("episodes");
         fs::create_dir_all(&episodes).map_err(EvaluationError::io("make", &episodes))?;
         let text = serde_json::to_string_pretty(&settings).expect("settings are plain data");
-        let (partial, path) = (folder.join("evaluation.json.partial"), folder.join(SETTINGS_FILE));
+        let (partial, path) = (folder.join(PARTIAL_FILE), folder.join(SETTINGS_FILE));
         fs::write(&partial, text + "\n").map_err(EvaluationError::io("write", &partial))?;
         fs::rename(&partial, &path).map_err(EvaluationError::io("write", &path))?;
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: Some(lock) })
@@ -259,9 +261,30 @@ fn lock(folder: &Path) -> Result<File, EvaluationError> {
     }
 }
 
-/// The first field in which two evaluations differ.
+/// Whether a folder holds nothing, or nothing but the beginning of an evaluation that has no settings yet.
+fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
+    let list = |folder: &Path| {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(folder).map_err(EvaluationError::io("list", folder))? {
+            names.push(entry.map_err(EvaluationError::io("list", folder))?.file_name());
+        }
+        Ok::<_, EvaluationError>(names)
+    };
+    let begun = [LOCK_FILE, "games", "episodes", PARTIAL_FILE];
+    let episodes = folder.join("episodes");
+    let is_ours = list(folder)?.iter().all(|name| begun.iter().any(|ours| name == ours));
+    Ok(is_ours && (!episodes.exists() || list(&episodes)?.is_empty()))
+}
+
+/// The first field in which two evaluations differ. Where a model is served has no part in what it answers.
 fn difference(recorded: &Settings, asked: &Settings) -> Option<String> {
-    let fields = |settings: &Settings| serde_json::to_value(settings).expect("settings are plain data");
+    let fields = |settings: &Settings| {
+        let mut fields = serde_json::to_value(settings).expect("settings are plain data");
+        if let Some(server) = fields.pointer_mut("/entrant/details/model/server") {
+            server.take();
+        }
+        fields
+    };
     let (recorded, asked) = (fields(recorded), fields(asked));
     let (recorded, asked) = (recorded.as_object()?, asked.as_object()?);
     let differs = |name: &&String| recorded.get(*name) != asked.get(*name);

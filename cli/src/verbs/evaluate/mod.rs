@@ -11,7 +11,7 @@ use agents::{Budget, PlannerSpec};
 use engine::{Outcome, SEMANTICS};
 use evaluation::player::{Contestant, Replay};
 use evaluation::prompt::PromptSettings;
-use evaluation::run::{self, FORMAT, Left, Progress, Tally, Task};
+use evaluation::run::{self, FORMAT, Left, Progress, SETTINGS_FILE, Tally, Task};
 use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject};
 use human::Human;
 use indicatif::ProgressBar;
@@ -113,7 +113,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return forecast(&asked, &settings, &subjects.games, console);
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
-    let evaluation = if args.resume && folder.exists() {
+    let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
         Evaluation::resume(&folder, &settings)
     } else {
         Evaluation::create(&folder, settings, subjects.games)

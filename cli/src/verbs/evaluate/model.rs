@@ -395,7 +395,6 @@ impl Asked {
             });
         }
         let estimate = Estimate::of(&batches, price.as_ref());
-        let caps = client::Caps::new(self.options.limits, price);
         Ok(Forecast {
             episodes: tasks.len() as u64,
             requests: estimate.requests,
@@ -404,7 +403,7 @@ impl Asked {
             output_tokens: estimate.output_tokens,
             cost: estimate.cost.map(Usd::dollars),
             cost_if_cached: estimate.cost_if_cached.map(Usd::dollars),
-            forbidden: caps.forbid_estimate(&estimate),
+            forbidden: self.options.limits.forbid_estimate(&estimate),
         })
     }
 }

@@ -1,0 +1,268 @@
+//! `arcade evaluate` as users run it: with players that come with the suite, and with a model behind a server that
+//! misbehaves, is killed and resumed.
+
+mod arcade;
+#[path = "../../evaluation/tests/support/server.rs"]
+mod server;
+
+use arcade::{arcade, files, run, text};
+use engine::Digest;
+use evaluation::log::{Event, ReplyClass, read, without_times};
+use evaluation::player::Validity;
+use serde_json::Value;
+use server::{Act, Asked, Server};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
+
+/// A model without a will of its own: the same prompt, the same answer, and now and then none.
+fn answer(_: usize, asked: &Asked) -> Act {
+    let messages = &asked.json()["messages"];
+    let draw = Digest::of(messages.to_string().as_bytes()).to_string().as_bytes()[0] % 5;
+    let words = ["ACTION: left", "ACTION: right", "ACTION: up", "ACTION: nil", "I cannot see a way."];
+    Act::completion(words[usize::from(draw)])
+}
+
+/// The logs of a results folder, without times.
+fn logs(folder: &Path) -> BTreeMap<String, Vec<Event>> {
+    let names = files(&folder.join("episodes")).into_keys();
+    let timeless = |name: &String| {
+        let events = read(&folder.join("episodes").join(name)).unwrap();
+        events.iter().map(without_times).collect()
+    };
+    names.map(|name| (name.clone(), timeless(&name))).collect()
+}
+
+fn json(output: &std::process::Output) -> Value {
+    serde_json::from_slice(&output.stdout).expect("one JSON document")
+}
+
+const STEPS: &str = "12";
+
+/// The arguments of an evaluation of a model on two small levels.
+fn asking<'a>(url: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let mut args = vec!["--json", "evaluate", "hailglass", "--levels", "0,1", "--model", "scripted"];
+    args.extend(["--base-url", url, "--max-steps", STEPS, "--out", "results"]);
+    args.extend(more);
+    args
+}
+
+#[test]
+fn players_that_come_with_the_suite() {
+    let home = tempfile::tempdir().unwrap();
+    let args = ["--json", "evaluate", "hailglass", "--levels", "0", "--max-steps", "20", "--runs", "2"];
+    let with = |player: &str, out: &str| {
+        let more = ["--player", player, "--out", out];
+        json(&run(home.path(), &[&args[..], &more].concat(), 0))
+    };
+    let played = with("mcts:20", "mcts");
+    assert_eq!((&played["entrant"]["name"], &played["tally"]["ended"]), (&"mcts:20".into(), &2.into()));
+    assert_eq!(with("nil", "nil")["entrant"]["name"], "do-nothing");
+    let log = read(&home.path().join("nil/episodes/hailglass-lvl0-run1.jsonl")).unwrap();
+    assert!(matches!(log.last(), Some(Event::End { steps: 20, .. })));
+    let played = with("random", "one");
+    let again = with("random", "two");
+    assert_eq!(played["tally"], again["tally"]);
+    assert_eq!(logs(&home.path().join("one")), logs(&home.path().join("two")));
+}
+
+/// Someone at a terminal sees what a model is shown, and may leave in the middle.
+#[test]
+fn people_play_and_come_back() {
+    use std::io::Write;
+    let home = tempfile::tempdir().unwrap();
+    let args = ["evaluate", "hailglass", "--levels", "0", "--player", "human", "--max-steps", "3"];
+    let sit = |typed: &str, more: &[&str]| {
+        let mut command = arcade(home.path());
+        command.args(args).args(["--out", "me"]).args(more);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        child.stdin.take().unwrap().write_all(typed.as_bytes()).unwrap();
+        child.wait_with_output().unwrap()
+    };
+    let left = sit("left\nfly\n", &[]);
+    assert_eq!(left.status.code(), Some(1));
+    let shown = text(&left.stderr);
+    assert!(
+        shown.contains("You win when no drifter or squall is left.") && shown.contains("`fly` is none of")
+    );
+    let ended = sit("right\nnil\n", &["--resume"]);
+    assert_eq!(ended.status.code(), Some(0), "{}", text(&ended.stderr));
+    let log = read(&home.path().join("me/episodes/hailglass-lvl0-run0.jsonl")).unwrap();
+    let actions: Vec<String> = log
+        .iter()
+        .filter_map(|event| match event {
+            Event::Step { action, .. } => Some(action.to_string()),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(actions, ["left", "right", "nil"]);
+}
+
+#[test]
+fn what_a_model_says_is_recorded_and_counted() {
+    let server = Server::start(answer);
+    for mode in ["zero-shot", "contextual"] {
+        let home = tempfile::tempdir().unwrap();
+        let played = json(&run(home.path(), &asking(&server.base_url(), &["--mode", mode]), 0));
+        assert_eq!(played["entrant"]["mode"], mode);
+        let (mut steps, mut replies, mut invalid) = (0, 0, 0);
+        for event in logs(&home.path().join("results")).into_values().flatten() {
+            match event {
+                Event::Step { validity, .. } => {
+                    steps += 1;
+                    invalid += u64::from(validity == Validity::Invalid);
+                }
+                Event::Reply(reply) => {
+                    replies += 1;
+                    assert_eq!(reply.class == ReplyClass::Invalid, reply.text.starts_with("I cannot"));
+                    assert_eq!(reply.usage.input_tokens, Some(100));
+                }
+                _ => {}
+            }
+        }
+        assert_eq!(played["spent"]["requests"], replies);
+        assert_eq!(played["spent"]["tokens"], replies * 110);
+        assert!(
+            replies > steps && invalid > 0,
+            "{mode}: {replies} replies, {steps} steps, {invalid} invalid"
+        );
+    }
+}
+
+/// Killed at many moments and resumed: the logs are those of a run that nobody disturbed, and no answer that was recorded is
+/// asked for again.
+#[test]
+fn killed_evaluations_lose_nothing() {
+    let slow = |number: usize, asked: &Asked| {
+        std::thread::sleep(Duration::from_millis(3));
+        answer(number, asked)
+    };
+    let home = tempfile::tempdir().unwrap();
+    let (whole, broken) = (home.path().join("whole"), home.path().join("broken"));
+    std::fs::create_dir_all(&whole).unwrap();
+    std::fs::create_dir_all(&broken).unwrap();
+    let undisturbed = Server::start(slow);
+    let more = ["--mode", "contextual", "--concurrency", "2", "--runs", "2"];
+    let spent = json(&run(&whole, &asking(&undisturbed.base_url(), &more), 0))["spent"].clone();
+
+    let server = Server::start(slow);
+    let url = server.base_url();
+    let kills = 20;
+    for kill in 0..kills {
+        let mut command = arcade(&broken);
+        command.args(asking(&url, &more)).arg("--resume").stdout(Stdio::null()).stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        let answered = server.asked().len();
+        // The moment is chosen by what has happened, so that slow machines are killed in the same places.
+        while server.asked().len() < answered + 1 + kill % 7 && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(Duration::from_millis(kill as u64 % 5));
+        let _ = child.kill();
+        child.wait().unwrap();
+    }
+    let done = json(&run(&broken, &asking(&url, &[&more[..], &["--resume"]].concat()), 0));
+    assert_eq!(logs(&broken.join("results")), logs(&whole.join("results")));
+    assert_eq!(done["spent"], spent);
+    // What was under way at a kill was asked for again, and nothing else.
+    let (asked, needed) = (server.asked().len(), undisturbed.asked().len());
+    assert!(asked <= needed + 2 * kills, "{asked} requests for {needed} answers");
+}
+
+/// What servers do is never the model's doing: the episode stays open, no step is lost, and --resume goes on.
+#[test]
+fn failing_servers_leave_episodes_open() {
+    let bad: [fn() -> Act; 5] = [
+        || Act::reply(429, "slow down"),
+        || Act::reply(500, "oops"),
+        || Act::Cut(Vec::new()),
+        || Act::reply(200, ""),
+        || Act::reply(200, "<html>not now</html>"),
+    ];
+    for (kind, act) in bad.into_iter().enumerate() {
+        let home = tempfile::tempdir().unwrap();
+        let failing =
+            Server::start(move |number, asked| if number < 5 { answer(number, asked) } else { act() });
+        let once = ["--tries", "1", "--concurrency", "1"];
+        let output = run(home.path(), &asking(&failing.base_url(), &once), 3);
+        assert!(text(&output.stderr).contains("--resume goes on"), "{kind}: {}", text(&output.stderr));
+        let open = logs(&home.path().join("results"));
+        let halts = open
+            .values()
+            .flatten()
+            .filter(|event| matches!(event, Event::Halt { reason, .. } if reason == "infrastructure"));
+        assert!(halts.count() >= 1, "{kind}");
+        drop(failing);
+        // The server is back, at another port: where it is has no part in the answers of a model on this machine.
+        let server = Server::start(answer);
+        let resumed = asking(&server.base_url(), &[&once[..], &["--resume"]].concat());
+        let played = json(&run(home.path(), &resumed, 0));
+        assert_eq!(played["tally"]["open"], 0);
+        let undisturbed = tempfile::tempdir().unwrap();
+        run(undisturbed.path(), &asking(&server.base_url(), &once), 0);
+        let without_halts = |folder: &Path| {
+            let mut logs = logs(&folder.join("results"));
+            logs.values_mut().for_each(|log| log.retain(|event| !matches!(event, Event::Halt { .. })));
+            logs
+        };
+        assert_eq!(without_halts(home.path()), without_halts(undisturbed.path()), "{kind}");
+    }
+}
+
+#[test]
+fn caps_hold_and_can_be_raised() {
+    let server = Server::start(answer);
+    let home = tempfile::tempdir().unwrap();
+    let url = server.base_url();
+    let capped = json(&run(home.path(), &asking(&url, &["--max-requests", "7"]), 1));
+    assert_eq!(capped["spent"]["requests"], 7);
+    assert_eq!(server.asked().len(), 7);
+    let done = json(&run(home.path(), &asking(&url, &["--max-requests", "1000", "--resume"]), 0));
+    assert_eq!(done["spent"]["requests"], server.asked().len());
+    assert_eq!(done["tally"]["open"], 0);
+}
+
+#[test]
+fn dry_runs_ask_nothing_and_say_what_it_would_take() {
+    let server = Server::start(answer);
+    let home = tempfile::tempdir().unwrap();
+    let forecast = json(&run(home.path(), &asking(&server.base_url(), &["--dry-run"]), 0));
+    assert_eq!((&forecast["episodes"], &forecast["requests"]), (&2.into(), &24.into()));
+    assert!(forecast["input_tokens"].as_u64().unwrap() > 24 * 300);
+    assert!(server.asked().is_empty() && !home.path().join("results").exists());
+}
+
+#[test]
+fn malformed_questions_are_told() {
+    let home = tempfile::tempdir().unwrap();
+    let refusal = |args: &[&str]| {
+        let output = run(home.path(), &[&["evaluate"], args].concat(), 2);
+        text(&output.stderr)
+    };
+    for (args, words) in [
+        (&["hailglas", "--player", "random"][..], "did you mean the corpus game `hailglass`?"),
+        (&["hailglass", "--player", "mtcs"], "did you mean `mcts`?"),
+        (&["hailglass"], "--player"),
+        (&["hailglass", "--player", "random", "--levels", "9"], "no level to play"),
+        (&["hailglass", "--player", "random", "--games", "hailgas"], "did you mean `hailglass`?"),
+        (&["hailglass", "hailglass", "--player", "random"], "two games are called `hailglass`"),
+        (&["hailglass", "--player", "random", "--runs", "0"], "at least 1"),
+        (&["hailglass", "--player", "replay:no.json"], "no.json: there is no such file"),
+        (&["hailglass", "--model", "gpt"], "openai:"),
+        (
+            &["hailglass", "--model", "openai:m", "--with", "grid", "--without", "grid"],
+            "both --with and --without",
+        ),
+        (&["hailglass", "--model", "openai:m", "--player", "random"], "cannot be used with"),
+    ] {
+        let told = refusal(args);
+        assert!(told.contains(words), "{args:?}: {told}");
+    }
+    // Another question than the one that the folder holds.
+    run(home.path(), &["evaluate", "hailglass", "--levels", "0", "--player", "random", "--out", "r"], 0);
+    let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];
+    assert!(refusal(&other).contains("another player, model, prompt or decoding"));
+    assert!(refusal(&["hailglass", "--player", "nil", "--out", "r"]).contains("not empty"));
+}
