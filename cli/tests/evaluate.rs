@@ -19,8 +19,9 @@ use std::time::Duration;
 /// A model without a will of its own: the same prompt, the same answer, and now and then none.
 fn answer(_: usize, asked: &Asked) -> Act {
     let messages = &asked.json()["messages"];
-    let draw = Digest::of(messages.to_string().as_bytes()).to_string().as_bytes()[0] % 5;
-    let words = ["ACTION: left", "ACTION: right", "ACTION: up", "ACTION: nil", "I cannot see a way."];
+    let draw = Digest::of(messages.to_string().as_bytes()).to_string().as_bytes()[0] % 6;
+    let words =
+        ["ACTION: left", "ACTION: right", "ACTION: use", "I cannot say.", "I cannot see.", "I cannot."];
     Act::completion(words[usize::from(draw)])
 }
 
@@ -197,7 +198,9 @@ fn failing_servers_leave_episodes_open() {
         drop(failing);
         // The server is back, at another port: where it is has no part in the answers of a model on this machine.
         let server = Server::start(answer);
-        let resumed = asking(&server.base_url(), &[&once[..], &["--resume"]].concat());
+        let url = server.base_url();
+        let again = [&once[..], &["--resume"]].concat();
+        let resumed = asking(&url, &again);
         let played = json(&run(home.path(), &resumed, 0));
         assert_eq!(played["tally"]["open"], 0);
         let undisturbed = tempfile::tempdir().unwrap();

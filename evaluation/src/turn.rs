@@ -2,7 +2,7 @@
 
 use crate::run::Task;
 use crate::subject::Subject;
-use engine::{Action, Observation};
+use engine::{Action, Game, Observation, State};
 
 /// What a player is shown at one decision: what stands for the whole episode, and the state that the action will be
 /// played on. Never the state itself: with that a player could look into the future.
@@ -35,11 +35,17 @@ pub struct Before<'a> {
     pub reward: f64,
 }
 
+/// The actions that can be chosen: nothing, and what the avatar can do.
+pub(crate) fn offered(game: &Game, state: &State) -> Vec<Action> {
+    let own = game.actions(state).iter().copied().filter(|&action| action != Action::Nil);
+    [Action::Nil].into_iter().chain(own).collect()
+}
+
 /// The start of an episode as a player sees it, for looking at prompts without playing.
 #[derive(Clone, Debug)]
 pub struct Observed {
     observation: Observation,
-    actions: &'static [Action],
+    actions: Vec<Action>,
 }
 
 impl Observed {
@@ -47,7 +53,7 @@ impl Observed {
     pub fn first(task: &Task<'_>) -> Observed {
         let game = &task.subject.game;
         let state = game.start(&task.level.level, task.chance());
-        Observed { observation: game.observe(&state), actions: game.actions(&state) }
+        Observed { observation: game.observe(&state), actions: offered(game, &state) }
     }
 
     /// The turn.
@@ -59,7 +65,7 @@ impl Observed {
             limit: task.max_steps,
             observation: &self.observation,
             before: None,
-            actions: self.actions,
+            actions: &self.actions,
         }
     }
 }

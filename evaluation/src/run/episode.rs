@@ -5,7 +5,7 @@ use crate::log::{Event, Journal, SCHEMA, Status};
 use crate::player::{Choice, Contestant, Halt, Validity};
 use crate::run::clock::Stopwatch;
 use crate::subject::{Subject, SubjectLevel};
-use crate::turn::{Before, Turn};
+use crate::turn::{Before, Turn, offered};
 use agents::{Planner, Player};
 use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
 
@@ -141,8 +141,8 @@ impl<'a> Playing<'a> {
             journal.set_step(from, Some(at));
             let recorded = journal.events()[at].clone();
             let choice = Choice { action, validity };
-            let (actions, before) = (self.game().actions(&self.state), self.before.take());
-            let turn = turn(self.task, self.steps, &self.seen, &before, actions);
+            let (actions, before) = (offered(self.game(), &self.state), self.before.take());
+            let turn = turn(self.task, self.steps, &self.seen, &before, &actions);
             if let Contestant::Agent(agent) = &mut *self.contestant
                 && let Err(halt) = agent.recall(&turn, journal, &choice)
             {
@@ -171,8 +171,8 @@ impl<'a> Playing<'a> {
                 Ok((Choice { action, validity: Validity::Valid }, Some(calls)))
             }
             (Contestant::Agent(agent), _) => {
-                let actions = game.actions(&self.state);
-                let turn = turn(self.task, self.steps, &self.seen, &self.before, actions);
+                let actions = offered(game, &self.state);
+                let turn = turn(self.task, self.steps, &self.seen, &self.before, &actions);
                 agent.act(&turn, journal).map(|choice| (choice, None))
             }
             (Contestant::Planner { .. }, None) => unreachable!("planners are made at the start"),
