@@ -237,9 +237,14 @@ fn marked<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage, us
     })
 }
 
+/// The last place at or before this one that splits no character.
+pub(crate) fn boundary(text: &str, at: usize) -> usize {
+    (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+}
+
 /// From a place to the end of its line, or less.
 fn rest_of_line(text: &str, from: usize) -> &str {
-    let near = &text[from..text.floor_char_boundary(from + LOOKED_AT)];
+    let near = &text[from..boundary(text, from + LOOKED_AT)];
     near.lines().next().unwrap_or_default()
 }
 
@@ -252,7 +257,7 @@ fn only_action(line: &str) -> Option<Action> {
 
 /// An action that somebody says without the word, in the last lines.
 fn words(said: &str) -> Option<Action> {
-    let start = said.ceil_char_boundary(said.len().saturating_sub(LOOKED_AT * LAST_LINES));
+    let start = boundary(said, said.len().saturating_sub(LOOKED_AT * LAST_LINES));
     let tail = &said[start..];
     let lines = tail.match_indices('\n').rev().filter(|(at, _)| {
         let line = tail[at + 1..].lines().next();

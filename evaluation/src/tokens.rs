@@ -1,5 +1,6 @@
 //! How long a text is for a language model.
 
+use crate::answer::boundary;
 use tiktoken_rs::o200k_base_singleton;
 
 /// Tokens that the frame of a message takes beside its words, as providers count them: about this many.
@@ -17,21 +18,12 @@ pub fn count(text: &str) -> u64 {
     let mut rest = text;
     let mut tokens = 0;
     while !rest.is_empty() {
-        let mut end = rest.len().min(PIECE);
-        if end < rest.len() {
-            // Best cut before a line or a word, so that the count is what it would be in one go.
-            let window = &rest.as_bytes()[..end];
-            let blank = window.iter().rposition(|&byte| byte == b'\n').map(|at| at + 1);
-            end = blank
-                .or_else(|| window.iter().rposition(|&byte| byte == b' '))
-                .filter(|&at| at > 0)
-                .unwrap_or(end);
-            while !rest.is_char_boundary(end) {
-                end -= 1;
-            }
-        }
-        tokens += vocabulary.encode_ordinary(&rest[..end]).len() as u64;
-        rest = &rest[end..];
+        let window = &rest[..boundary(rest, PIECE)];
+        // Best cut before a line or a word, so that the count is what it would be in one go.
+        let cut = window.rfind('\n').map(|at| at + 1).or_else(|| window.rfind(' ')).filter(|&at| at > 0);
+        let piece = if window.len() == rest.len() { rest } else { &rest[..cut.unwrap_or(window.len())] };
+        tokens += vocabulary.encode_ordinary(piece).len() as u64;
+        rest = &rest[piece.len()..];
     }
     tokens
 }

@@ -3,102 +3,20 @@
 //! `BLESS=1 cargo test -p infinite-arcade-evaluation --test prompts` writes the files of `golden/` anew; their diff is to be read
 //! like code. A changed word asks for another [`evaluation::prompt::VERSION`].
 
-use engine::{Action, Digest, Game, Observation, Seed, State};
+#[path = "support/walk.rs"]
+mod walk;
+
+use engine::{Action, Digest, Game};
+use evaluation::Subject;
 use evaluation::client::{ChatMessage, Role};
-use evaluation::legend::{Legend, Standing};
 use evaluation::prompt::{
     Attempt, Encodings, Mode, Past, PromptSettings, PromptStyle, Prompter, Rules, sections,
 };
-use evaluation::{Before, Subject, Turn, encoding};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
-use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-/// The games of the corpus, by name.
-fn corpus() -> Vec<Subject> {
-    let mut folders: Vec<PathBuf> =
-        fs::read_dir(root().join("corpora")).unwrap().map(|entry| entry.unwrap().path()).collect();
-    folders.sort();
-    let games: Vec<Subject> =
-        folders.iter().filter(|folder| folder.join("game.vgdl").exists()).map(|f| read(f)).collect();
-    assert!(games.len() >= 20, "{} games", games.len());
-    games
-}
-
-fn game(name: &str) -> Subject {
-    read(&root().join("corpora").join(name))
-}
-
-fn read(folder: &Path) -> Subject {
-    let name = folder.file_name().unwrap().to_string_lossy().into_owned();
-    let source = fs::read_to_string(folder.join("game.vgdl")).unwrap();
-    let levels = (0..).map_while(|at| fs::read_to_string(folder.join(format!("lvl{at}.txt"))).ok());
-    let levels: Vec<_> = levels.map(|text| (text, None)).collect();
-    Subject::read(&name, &source, &levels, &name).unwrap_or_else(|problem| panic!("{name}: {problem:?}"))
-}
-
-/// An episode of random actions, and what is to be seen of it.
-struct Walk<'a> {
-    subject: &'a Subject,
-    level: usize,
-    state: State,
-    sampler: engine::Sampler,
-    number: u64,
-    now: Observation,
-    before: Option<(Observation, Action, f64)>,
-    actions: Vec<Action>,
-}
-
-impl<'a> Walk<'a> {
-    fn new(subject: &'a Subject, level: usize) -> Walk<'a> {
-        let seed = Seed::from_text("prompts").child(&subject.id, level as u64);
-        let state = subject.game.start(&subject.levels[level].level, seed);
-        let now = subject.game.observe(&state);
-        let sampler = seed.child("actions", 0).sampler();
-        let actions = actions(&subject.game, &state);
-        Walk { subject, level, state, sampler, number: 0, now, before: None, actions }
-    }
-
-    fn turn(&self) -> Turn<'_> {
-        let before = self.before.as_ref();
-        Turn {
-            subject: self.subject,
-            level: self.level,
-            number: self.number,
-            limit: 1000,
-            observation: &self.now,
-            before: before.map(|(seen, action, reward)| Before {
-                observation: seen,
-                action: *action,
-                reward: *reward,
-            }),
-            actions: &self.actions,
-        }
-    }
-
-    /// Plays an action; whether the game goes on.
-    fn step(&mut self) -> bool {
-        let action = *self.sampler.choose(&self.actions);
-        let score = self.state.score();
-        self.subject.game.step(&mut self.state, action);
-        let seen = self.subject.game.observe(&self.state);
-        let before = std::mem::replace(&mut self.now, seen);
-        self.before = Some((before, action, self.state.score() - score));
-        self.actions = actions(&self.subject.game, &self.state);
-        self.number += 1;
-        !self.state.is_over()
-    }
-}
-
-fn actions(game: &Game, state: &State) -> Vec<Action> {
-    let others = game.actions(state).iter().copied().filter(|action| *action != Action::Nil);
-    std::iter::once(Action::Nil).chain(others).collect()
-}
+use std::path::Path;
+use walk::{Walk, corpus, game};
 
 fn prompter(subject: &Subject, settings: &PromptSettings) -> Prompter {
     Prompter::new(subject, settings.clone()).unwrap_or_else(|error| panic!("{}: {error}", subject.id))
@@ -237,82 +155,6 @@ fn the_static_part_never_changes() {
     }
 }
 
-/// Names by symbol, for the reader of a board; none for an empty cell.
-fn by_symbol(legend: &Legend) -> BTreeMap<char, &str> {
-    let told = legend.entries().iter().filter(|entry| entry.standing != Standing::Floor);
-    told.map(|entry| (entry.symbol, entry.name.as_str())).collect()
-}
-
-#[test]
-fn legends_have_a_character_for_each_thing() {
-    for subject in corpus() {
-        for (tracking, shuffled) in [(false, None), (true, None), (false, Some(3)), (true, Some(4))] {
-            let options = evaluation::legend::LegendOptions { tracking, shuffled };
-            let legend = Legend::new(&subject.analysis, &options);
-            let told = legend.entries().iter().filter(|entry| entry.standing != Standing::Floor);
-            let (avatars, things): (Vec<_>, Vec<_>) =
-                told.partition(|entry| entry.standing == Standing::Avatar);
-            let expected = things.len() + if tracking { avatars.len() } else { 1 };
-            assert_eq!(by_symbol(&legend).len(), expected, "{}: {:?}", subject.id, legend.lines());
-            assert!(things.iter().all(|entry| entry.symbol.is_ascii_graphic() && entry.symbol != '.'));
-        }
-    }
-}
-
-/// From the grid and the lines on piles alone, all that is no floor comes back, and the avatar is where it is.
-#[test]
-fn boards_read_back_tell_everything() {
-    for subject in corpus() {
-        let legend = Legend::new(&subject.analysis, &Default::default());
-        let names = by_symbol(&legend);
-        for level in 0..subject.levels.len() {
-            let mut walk = Walk::new(&subject, level);
-            for _ in 0..40 {
-                let seen = &walk.now;
-                let mut read: Vec<Vec<&str>> = Vec::new();
-                let grid = encoding::grid(seen, &legend);
-                assert_eq!(grid.lines().count(), seen.rows);
-                for symbol in grid.lines().flat_map(str::chars) {
-                    read.push(if symbol == '.' { Vec::new() } else { vec![names[&symbol]] });
-                }
-                let stacks = encoding::stacks(seen, &legend);
-                for line in &stacks {
-                    let (pile, cells) = line.split_once(": ").unwrap();
-                    let pile: Vec<&str> = pile.split(" over ").collect();
-                    for cell in cells.split(' ') {
-                        let (x, y) = cell.trim_matches(['(', ')']).split_once(',').unwrap();
-                        let (x, y): (usize, usize) = (x.parse().unwrap(), y.parse().unwrap());
-                        read[y * seen.columns + x] = pile.iter().rev().copied().collect();
-                    }
-                }
-                for (cell, (read, all)) in read.iter().zip(&seen.cells).enumerate() {
-                    let avatar = seen.avatar.as_ref().filter(|avatar| {
-                        (avatar.row as usize * seen.columns + avatar.column as usize) == cell
-                    });
-                    let own = |name: &&str| seen.avatar.as_ref().is_some_and(|avatar| avatar.name == **name);
-                    let floor = |name: &&str| {
-                        legend.entry(name).is_some_and(|entry| entry.standing == Standing::Floor)
-                    };
-                    let others = all.iter().map(String::as_str).filter(|name| !own(name) && !floor(name));
-                    // All states of the avatar are one to the reader of a board without piles.
-                    let expected: Vec<&str> =
-                        others.chain(avatar.map(|avatar| avatar.name.as_str())).collect();
-                    let same =
-                        *read == expected || avatar.is_some() && expected.len() == 1 && read.len() == 1;
-                    assert!(
-                        same,
-                        "{} cell {cell}: {read:?} for {expected:?}\n{grid}\n{stacks:?}",
-                        subject.id
-                    );
-                }
-                if !walk.step() {
-                    break;
-                }
-            }
-        }
-    }
-}
-
 #[test]
 fn vgdl_in_prompts_is_the_game() {
     for subject in corpus() {
@@ -418,6 +260,24 @@ fn settings_are_refused_that_do_not_exist() {
     let encodings = Encodings { image_cell: 1, ..Encodings::default() };
     let settings = PromptSettings { encodings, ..PromptSettings::default() };
     assert!(Prompter::new(&game("first-ice"), settings).is_err());
+}
+
+#[test]
+fn aids_name_what_differs() {
+    assert_eq!(PromptSettings::default().aids(), Vec::<String>::new());
+    let settings = PromptSettings {
+        mode: Mode::Contextual,
+        rules: Rules::Vgdl,
+        legend: false,
+        feedback: Some(false),
+        strategy: Some("Hurry.".to_owned()),
+        history_tokens: 500,
+        encodings: Encodings { json: true, grounding: false, ..Encodings::default() },
+        ..PromptSettings::default()
+    };
+    let expected =
+        ["history-tokens=500", "json", "no-feedback", "no-grounding", "no-legend", "rules=vgdl", "strategy"];
+    assert_eq!(settings.aids(), expected);
 }
 
 #[test]

@@ -25,17 +25,24 @@ pub(super) fn symbol(legend: &Legend, names: &[&str]) -> char {
 /// order in which they come on the board. Cost: O(cells × piles).
 pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
-    let mut piles: Vec<(&[&str], Vec<(usize, usize)>)> = Vec::new();
+    let mut piles: Vec<Pile<'_, '_>> = Vec::new();
     for (cell, names) in scene.cells.iter().enumerate().filter(|(_, names)| names.len() > 1) {
         let at = (cell % scene.columns, cell / scene.columns);
-        match piles.iter_mut().find(|(pile, _)| *pile == names.as_slice()) {
-            Some((_, cells)) => cells.push(at),
-            None => piles.push((names, vec![at])),
+        match piles.iter_mut().find(|pile| pile.names == names.as_slice()) {
+            Some(pile) => pile.cells.push(at),
+            None => piles.push(Pile { names, cells: vec![at] }),
         }
     }
-    let line = |(names, cells): &(&[&str], Vec<(usize, usize)>)| {
-        let names: Vec<&str> = names.iter().rev().copied().collect();
-        format!("{}: {}", names.join(" over "), places(cells))
+    let line = |pile: &Pile<'_, '_>| {
+        let names: Vec<&str> = pile.names.iter().rev().copied().collect();
+        format!("{}: {}", names.join(" over "), places(&pile.cells))
     };
     piles.iter().map(line).collect()
+}
+
+/// The same sprites one over the other, in some cells.
+struct Pile<'a, 'b> {
+    /// From the lowest to the uppermost.
+    names: &'b [&'a str],
+    cells: Vec<(usize, usize)>,
 }

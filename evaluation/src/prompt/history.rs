@@ -73,7 +73,7 @@ fn remembered(answer: &str) -> String {
     if said.is_empty() {
         return NO_ANSWER.to_owned();
     }
-    let start = said.ceil_char_boundary(said.len().saturating_sub(REMEMBERED));
+    let start = answer::boundary(said, said.len().saturating_sub(REMEMBERED));
     if start == 0 { said.to_owned() } else { format!("…{}", &said[start..]) }
 }
 

@@ -1,6 +1,7 @@
 //! What of the game is shown, and how: every aid is a switch, so that its worth can be measured.
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// The settings of a prompt. Their defaults are the zero-shot prompt of the suite.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,6 +56,32 @@ impl Default for PromptSettings {
 }
 
 impl PromptSettings {
+    /// What differs from the default, apart from the mode, sorted: `no-legend`, `rules=vgdl`, `json`. Of an advice only that
+    /// there is one.
+    pub fn aids(&self) -> Vec<String> {
+        let flat = |settings: &PromptSettings| {
+            let mut all = serde_json::to_value(settings).expect("plain data");
+            let all = all.as_object_mut().expect("a struct");
+            let encodings = all.remove("encodings");
+            all.extend(encodings.and_then(|encodings| encodings.as_object().cloned()).unwrap_or_default());
+            all.remove("mode");
+            std::mem::take(all)
+        };
+        let (own, usual) = (flat(self), flat(&PromptSettings::default()));
+        let differing = own.into_iter().filter(|(name, value)| usual.get(name) != Some(value));
+        let mut aids: Vec<String> = differing
+            .map(|(name, value)| match (name.replace('_', "-"), value) {
+                (name, Value::Bool(true)) => name,
+                (name, Value::Bool(false)) => format!("no-{name}"),
+                (name, Value::String(_)) if name == "strategy" => name,
+                (name, Value::String(value)) => format!("{name}={value}"),
+                (name, value) => format!("{name}={value}"),
+            })
+            .collect();
+        aids.sort();
+        aids
+    }
+
     /// Whether what came of the action before is told.
     pub fn has_feedback(&self) -> bool {
         self.feedback.unwrap_or(self.mode == Mode::Contextual)
