@@ -72,10 +72,7 @@ pub struct DifficultyRow {
 impl DifficultyRow {
     fn of(study: &Study, game: usize, level: Option<usize>) -> DifficultyRow {
         let player = |player: usize| {
-            let episodes = study.of_player(player).filter(move |episode| {
-                episode.game == game && level.is_none_or(|level| level == episode.metrics.level)
-            });
-            Some(Scores::of(episodes)).filter(|scores| scores.episodes > 0)
+            Some(Scores::of(study.on(player, Some(game), level))).filter(|scores| scores.episodes > 0)
         };
         let players: Vec<Scores> = (0..study.players.len()).filter_map(player).collect();
         let mean_of = |of: fn(&Scores) -> Option<f64>| mean(players.iter().filter_map(of));

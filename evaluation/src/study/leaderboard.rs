@@ -1,7 +1,7 @@
 //! Who wins how often, and at what price.
 
 use crate::metrics::{Choices, Spending};
-use crate::study::scores::{Estimate, Scores, StudyEpisode, mean};
+use crate::study::scores::{Estimate, Scores, mean};
 use crate::study::table::{Table, TableCell};
 use crate::study::{LEVEL, RESAMPLES, Study, seed};
 use serde::Serialize;
@@ -40,10 +40,10 @@ pub(crate) fn leaderboard(study: &Study) -> Vec<LeaderRow> {
 }
 
 fn row(study: &Study, player: usize) -> LeaderRow {
-    let episodes: Vec<&StudyEpisode> = study.of_player(player).collect();
-    let scores = Scores::of(episodes.iter().copied());
+    let episodes = study.on(player, None, None);
+    let scores = Scores::of(episodes);
     let (mut choices, mut spending, mut broken_off) = Default::default();
-    for episode in &episodes {
+    for episode in episodes {
         Choices::add(&mut choices, &episode.metrics.choices);
         Spending::add(&mut spending, &episode.metrics.spending);
         if let Some(reason) = episode.metrics.status.broken_off() {

@@ -178,12 +178,8 @@ impl Matrix {
             }
         }
         let cell = |row: &MatrixRow, column: &MatrixColumn| {
-            let is_of = |episode: &&StudyEpisode| {
-                row.players.contains(&episode.player)
-                    && episode.game == column.game
-                    && column.level.is_none_or(|level| level == episode.metrics.level)
-            };
-            let episodes: Vec<&StudyEpisode> = study.episodes.iter().filter(is_of).collect();
+            let on = |&player: &usize| study.on(player, Some(column.game), column.level);
+            let episodes: Vec<&StudyEpisode> = row.players.iter().flat_map(on).collect();
             (!episodes.is_empty()).then(|| Scores::of(episodes))
         };
         let cells = rows.iter().map(|row| columns.iter().map(|column| cell(row, column)).collect()).collect();
@@ -203,8 +199,12 @@ impl Matrix {
         let title = format!("{} by {grain}, {}", measure.title(), self.scope.id());
         let note = if measure == Measure::WinRate { "With Wilson's 95 % interval." } else { "" };
         let names = self.rows.iter().map(|row| row.label.as_str());
-        let mut table =
-            Table::new(&id, &title, note, &[grain].into_iter().chain(names).collect::<Vec<&str>>());
+        // Beside the steps on a level stands how few can win it.
+        let with_optimum =
+            measure == Measure::Steps && self.columns.iter().any(|column| column.level.is_some());
+        let optimum = with_optimum.then_some("fewest to win (proved)");
+        let columns: Vec<&str> = [grain].into_iter().chain(names).chain(optimum).collect();
+        let mut table = Table::new(&id, &title, note, &columns);
         for (at, column) in self.columns.iter().enumerate() {
             let cell = |row: &Vec<Option<Scores>>| match (&row[at], measure) {
                 (Some(scores), Measure::WinRate) => Estimate::cell(scores.win_rate, digits),
@@ -213,7 +213,9 @@ impl Matrix {
                 }
             };
             let label = TableCell::text(&column.label);
-            table.push([label].into_iter().chain(self.cells.iter().map(cell)).collect());
+            let fewest = TableCell::count(column.optimal_ticks.map(|ticks| ticks as u64));
+            let fewest = with_optimum.then_some(fewest);
+            table.push([label].into_iter().chain(self.cells.iter().map(cell)).chain(fewest).collect());
         }
         table
     }

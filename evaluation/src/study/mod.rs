@@ -18,6 +18,7 @@ mod failures;
 mod leaderboard;
 mod matrix;
 mod player;
+mod power;
 mod read;
 mod scores;
 mod sweep;
@@ -32,6 +33,7 @@ pub use failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
 pub use leaderboard::LeaderRow;
 pub use matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
 pub use player::{CONTEXTUAL, Player, ZERO_SHOT};
+pub use power::{PowerRow, power, table as power_table};
 pub use read::PlayedLogs;
 pub use scores::{Estimate, Scores, StudyEpisode};
 pub use sweep::{Sweep, SweepRow};
@@ -58,7 +60,7 @@ pub struct Study {
     pub players: Vec<Player>,
     /// What was played.
     pub games: Vec<StudyGame>,
-    /// All episodes, those that were broken off too: by player, then in the order given.
+    /// All episodes, those that were broken off too: by player, game, level and run.
     pub episodes: Vec<StudyEpisode>,
     /// What a reader has to know before comparing: different step limits, episodes that are missing.
     pub notes: Vec<String>,
@@ -88,6 +90,8 @@ pub struct Study {
     pub times: Vec<TimeRow>,
     /// Results by kind of game.
     pub taxonomy: Vec<TaxonomyRow>,
+    /// What so many episodes can show.
+    pub power: Vec<PowerRow>,
 }
 
 /// A game of a study.
@@ -128,7 +132,8 @@ impl From<&Subject> for StudyGame {
 
 impl Study {
     /// The study of these players' episodes. A game of an episode that is not among `games` is added, by its id alone; so are
-    /// levels. Cost: O(episodes · (players + levels)), and 2000 resamples for each pair of players.
+    /// levels. Cost: O(episodes log episodes), a Fisher test for each pair of
+    /// players and level, and 2000 resamples for each pair.
     pub fn new(results: Vec<(Player, Vec<EpisodeMetrics>)>, games: Vec<StudyGame>) -> Study {
         let mut study = Study {
             players: Vec::new(),
@@ -148,6 +153,7 @@ impl Study {
             difficulties: Vec::new(),
             times: Vec::new(),
             taxonomy: Vec::new(),
+            power: Vec::new(),
         };
         for (player, episodes) in results {
             let known = study.players.iter().position(|known| *known == player);
@@ -157,7 +163,7 @@ impl Study {
             });
             episodes.into_iter().for_each(|metrics| study.add(player, metrics));
         }
-        study.episodes.sort_by_key(|episode| episode.player);
+        study.episodes.sort_by_key(|episode| (place(episode), episode.metrics.run));
         scores::normalise(&mut study.episodes);
         study.note();
         let players = 0..study.players.len();
@@ -176,6 +182,7 @@ impl Study {
         study.difficulties = difficulty::difficulties(&study);
         study.times = players.map(|player| TimeRow::of(&study, player)).collect();
         study.taxonomy = taxonomy::taxonomy(&study);
+        study.power = power::of_study(&study);
         study
     }
 
@@ -224,9 +231,13 @@ impl Study {
         scopes.collect()
     }
 
-    /// The episodes of a player.
-    pub fn of_player(&self, player: usize) -> impl Iterator<Item = &StudyEpisode> + '_ {
-        self.episodes.iter().filter(move |episode| episode.player == player)
+    /// The episodes of a player; on a game, if one is given, and on one of its levels. Cost: O(log episodes).
+    pub fn on(&self, player: usize, game: Option<usize>, level: Option<usize>) -> &[StudyEpisode] {
+        let first = (player, game.unwrap_or(0), level.unwrap_or(0));
+        let last = (player, game.unwrap_or(usize::MAX), level.unwrap_or(usize::MAX));
+        let from = self.episodes.partition_point(|episode| place(episode) < first);
+        let to = self.episodes.partition_point(|episode| place(episode) <= last);
+        &self.episodes[from..to]
     }
 
     /// The ended episodes of models; of all players, if there is no model.
@@ -259,8 +270,14 @@ impl Study {
         tables.push(difficulty::table(self));
         tables.push(times::table(self));
         tables.push(taxonomy::table(self));
+        tables.push(power::table(&self.power));
         tables
     }
+}
+
+/// Player, game and level: the order of episodes.
+fn place(episode: &StudyEpisode) -> (usize, usize, usize) {
+    (episode.player, episode.game, episode.metrics.level)
 }
 
 /// The draws for an interval: the same for the same study.

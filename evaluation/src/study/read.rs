@@ -8,7 +8,7 @@ use crate::study::{Player, Study, StudyGame};
 use crate::subject::Subject;
 use engine::Digest;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Logs of episodes, each with what it was played on.
@@ -25,11 +25,12 @@ impl Study {
     pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
         let mut results: Vec<(Player, Vec<EpisodeMetrics>)> = Vec::new();
         let mut names = Names::default();
-        let mut notes = Vec::new();
+        let (mut notes, mut seeds) = (Vec::new(), BTreeSet::new());
         for folder in folders {
             let evaluation = Evaluation::open(folder)?;
             let player = Player::from(&evaluation.settings.entrant);
             evaluation.subjects.iter().try_for_each(|subject| names.add(subject, folder))?;
+            seeds.insert(evaluation.settings.seed.clone());
             let tasks = evaluation.tasks();
             let measured = tasks.par_iter().map(|task| {
                 let log = evaluation.events(task)?;
@@ -51,6 +52,11 @@ impl Study {
         let mut study = Study::new(results, names.games());
         study.notes.extend(notes);
         study.notes.extend(names.unpaired());
+        if seeds.len() > 1 {
+            study
+                .notes
+                .push("Players met different chance (--seed): their episodes are not paired.".to_owned());
+        }
         Ok(study)
     }
 

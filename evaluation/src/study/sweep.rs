@@ -1,7 +1,7 @@
 //! A player game by game, and what it comes to: the sweep of the paper (`spec/06` §4 and §5.2).
 
 use crate::study::Study;
-use crate::study::scores::{Estimate, Scores, StudyEpisode, levels_of};
+use crate::study::scores::{Estimate, Scores, levels_of};
 use crate::study::table::{Table, TableCell};
 use serde::Serialize;
 
@@ -35,31 +35,22 @@ pub struct SweepRow {
 
 impl Sweep {
     pub(crate) fn of(study: &Study, player: usize) -> Sweep {
-        let ended = |game: Option<usize>| {
-            let episodes =
-                study.of_player(player).filter(move |episode| game.is_none_or(|game| game == episode.game));
-            episodes.filter(|episode| episode.metrics.counts())
-        };
         let levels = |game: Option<usize>| {
-            let played = levels_of(ended(game));
-            let won = levels_of(ended(game).filter(|episode: &&StudyEpisode| episode.metrics.won()));
+            let ended = || study.on(player, game, None).iter().filter(|episode| episode.metrics.counts());
+            let (played, won) =
+                (levels_of(ended()), levels_of(ended().filter(|episode| episode.metrics.won())));
             (played.len() as u64, (played.len() - won.len()) as u64)
         };
         let row = |game: usize| {
-            let all = || study.of_player(player).filter(move |episode| episode.game == game);
+            let all = study.on(player, Some(game), None);
             let (levels, zero_win_levels) = levels(Some(game));
-            all().next().is_some().then(|| SweepRow {
-                game,
-                scores: Scores::of(all()),
-                levels,
-                zero_win_levels,
-            })
+            (!all.is_empty()).then(|| SweepRow { game, scores: Scores::of(all), levels, zero_win_levels })
         };
         let (played, zero_win_levels) = levels(None);
         Sweep {
             player,
             games: (0..study.games.len()).filter_map(row).collect(),
-            total: Scores::of(study.of_player(player)),
+            total: Scores::of(study.on(player, None, None)),
             levels: played,
             zero_win_levels,
         }

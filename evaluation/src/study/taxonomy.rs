@@ -30,7 +30,7 @@ pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
     for kind in kinds {
         for player in 0..study.players.len() {
             let of_kind = |game: usize| study.games[game].taxonomy.contains(kind);
-            let episodes = || study.of_player(player).filter(|episode| of_kind(episode.game));
+            let episodes = || study.on(player, None, None).iter().filter(|episode| of_kind(episode.game));
             let mut games: Vec<usize> = episodes().map(|episode| episode.game).collect();
             games.sort_unstable();
             games.dedup();

@@ -25,7 +25,7 @@ pub struct TimeRow {
 impl TimeRow {
     pub(crate) fn of(study: &Study, player: usize) -> TimeRow {
         let all = |of: fn(&crate::metrics::EpisodeMetrics) -> Vec<f64>| {
-            study.of_player(player).flat_map(|episode| of(&episode.metrics)).collect::<Vec<f64>>()
+            study.on(player, None, None).iter().flat_map(|episode| of(&episode.metrics)).collect::<Vec<f64>>()
         };
         let times = all(|metrics| metrics.decision_ms.clone());
         let calls = all(|metrics| metrics.calls.iter().map(|&calls| calls as f64).collect());
