@@ -35,12 +35,6 @@ pub struct Before<'a> {
     pub reward: f64,
 }
 
-/// The actions that can be chosen: nothing, and what the avatar can do.
-pub(crate) fn offered(game: &Game, state: &State) -> Vec<Action> {
-    let own = game.actions(state).iter().copied().filter(|&action| action != Action::Nil);
-    [Action::Nil].into_iter().chain(own).collect()
-}
-
 /// The start of an episode as a player sees it, for looking at prompts without playing.
 #[derive(Clone, Debug)]
 pub struct Observed {
@@ -53,7 +47,7 @@ impl Observed {
     pub fn first(task: &Task<'_>) -> Observed {
         let game = &task.subject.game;
         let state = game.start(&task.level.level, task.chance());
-        Observed { observation: game.observe(&state), actions: offered(game, &state) }
+        Observed { observation: game.observe(&state), actions: choices(game, &state) }
     }
 
     /// The turn.
@@ -68,4 +62,10 @@ impl Observed {
             actions: &self.actions,
         }
     }
+}
+
+/// What can be chosen in a state: nothing, or a key.
+pub(crate) fn choices(game: &Game, state: &State) -> Vec<Action> {
+    let keys = game.actions(state).iter().copied().filter(|&action| action != Action::Nil);
+    std::iter::once(Action::Nil).chain(keys).collect()
 }

@@ -2,6 +2,7 @@
 
 mod builtin;
 mod model;
+pub mod process;
 
 pub use builtin::{Contestant, Replay};
 pub use model::ModelPlayer;
@@ -26,6 +27,9 @@ pub trait Agent: Send {
     /// # Errors
     /// The agent cannot take it up again.
     fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt>;
+
+    /// The episode has ended: what is seen after the last action. Nothing is asked, and nothing can go wrong any more.
+    fn end(&mut self, _last: &Turn<'_>) {}
 }
 
 /// What an agent has decided.

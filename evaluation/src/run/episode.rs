@@ -5,7 +5,7 @@ use crate::log::{Event, Journal, SCHEMA, Status};
 use crate::player::{Choice, Contestant, Halt, Validity};
 use crate::run::clock::Stopwatch;
 use crate::subject::{Subject, SubjectLevel};
-use crate::turn::{Before, Turn, offered};
+use crate::turn::{Before, Turn, choices};
 use agents::{Planner, Player};
 use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
 
@@ -76,6 +76,7 @@ pub fn play(
             return Ok(Left::Halted(halt));
         }
     }
+    play.finish();
     let outcome = play.state.outcome();
     let status = if play.state.is_over() { Status::Over } else { Status::StepLimit };
     journal.push(Event::End { status, outcome, score: play.state.score(), steps: play.steps })?;
@@ -141,7 +142,7 @@ impl<'a> Playing<'a> {
             journal.set_step(from, Some(at));
             let recorded = journal.events()[at].clone();
             let choice = Choice { action, validity };
-            let (actions, before) = (offered(self.game(), &self.state), self.before.take());
+            let (actions, before) = (choices(self.game(), &self.state), self.before.take());
             let turn = turn(self.task, self.steps, &self.seen, &before, &actions);
             if let Contestant::Agent(agent) = &mut *self.contestant
                 && let Err(halt) = agent.recall(&turn, journal, &choice)
@@ -171,7 +172,7 @@ impl<'a> Playing<'a> {
                 Ok((Choice { action, validity: Validity::Valid }, Some(calls)))
             }
             (Contestant::Agent(agent), _) => {
-                let actions = offered(game, &self.state);
+                let actions = choices(game, &self.state);
                 let turn = turn(self.task, self.steps, &self.seen, &self.before, &actions);
                 agent.act(&turn, journal).map(|choice| (choice, None))
             }
@@ -191,6 +192,13 @@ impl<'a> Playing<'a> {
                 }
                 Ok(Err(halt))
             }
+        }
+    }
+
+    /// Shows the agent what has come of it.
+    fn finish(&mut self) {
+        if let Contestant::Agent(agent) = &mut *self.contestant {
+            agent.end(&turn(self.task, self.steps, &self.seen, &self.before, &[]));
         }
     }
 

@@ -1,0 +1,273 @@
+//! Agents of other people, each a process of its own that is spoken to in lines of JSON (`docs/agents.md`).
+//!
+//! The process is told what a player may know and nothing else: not the source of the level, not the forward model, not the
+//! seed, not the way to a witness. It runs in an empty folder of its own, with little of the environment.
+
+mod child;
+mod message;
+
+pub use message::PROTOCOL;
+
+use crate::client::{Finish, Usage};
+use crate::encoding;
+use crate::legend::{Legend, LegendOptions};
+use crate::log::{Event, Journal, Reply, ReplyClass};
+use crate::player::{Agent, Choice, Halt, Validity};
+use crate::turn::Turn;
+use child::{Silence, Talker};
+use engine::Action;
+use engine::describe::Guide;
+use message::{Message, Past, Seen};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// Characters of a wrong answer that are recorded.
+const MAX_RECORDED: usize = 500;
+
+/// How often a wrong answer is asked again.
+const ASKED_AGAIN: u32 = 1;
+
+/// How agents are run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProcessConfig {
+    /// How long an answer may take; what the process needs to start counts for its first answer.
+    pub timeout: Duration,
+    /// Names of environment variables that the process inherits beyond the usual ones.
+    pub inherited: Vec<String>,
+}
+
+impl Default for ProcessConfig {
+    fn default() -> ProcessConfig {
+        ProcessConfig { timeout: Duration::from_secs(300), inherited: Vec::new() }
+    }
+}
+
+/// A player that is another program. It is started with the first turn of an episode, and killed at the end.
+#[derive(Debug)]
+pub struct Process {
+    command: String,
+    words: Vec<String>,
+    config: ProcessConfig,
+    running: Option<Running>,
+}
+
+#[derive(Debug)]
+struct Running {
+    talker: Talker,
+    shown: Shown,
+}
+
+impl Process {
+    /// The player that a command line starts. Words are split as a shell does; no shell runs.
+    ///
+    /// # Errors
+    /// The command line is empty, or its quotes do not match; in words.
+    pub fn new(command: &str, config: ProcessConfig) -> Result<Process, String> {
+        let words = shlex::split(command).filter(|words| words.first().is_some_and(|word| !word.is_empty()));
+        let words = words.ok_or_else(|| {
+            format!("`cmd:{command}` is no command line; write the program and its arguments, quoted as for a shell")
+        })?;
+        Ok(Process { command: command.to_owned(), words, config, running: None })
+    }
+
+    /// The command line.
+    pub fn command(&self) -> &str {
+        &self.command
+    }
+
+    /// Another one of the same, not started yet: each episode has its own.
+    #[must_use]
+    pub fn another(&self) -> Process {
+        Process {
+            command: self.command.clone(),
+            words: self.words.clone(),
+            config: self.config.clone(),
+            running: None,
+        }
+    }
+
+    /// The process, started and greeted if it is not yet.
+    fn running(&mut self, turn: &Turn<'_>) -> Result<&mut Running, Halt> {
+        let running = match self.running.take() {
+            Some(running) => running,
+            None => {
+                let talker = Talker::start(&self.words, &self.config.inherited).map_err(|error| {
+                    Halt::Rejected(format!("`{}` cannot be started: {error}", self.command))
+                })?;
+                let shown = Shown::of(turn);
+                talker.say(line(&shown.hello(turn)));
+                Running { talker, shown }
+            }
+        };
+        Ok(self.running.insert(running))
+    }
+
+    /// The player has failed: it is killed, and its last words are told.
+    fn failed(&mut self, silence: Silence, turn: &Turn<'_>) -> Halt {
+        let number = turn.number;
+        let what = match silence {
+            Silence::TimedOut => {
+                let seconds = self.config.timeout.as_secs_f64();
+                format!("has not answered at step {number} within {seconds} s")
+            }
+            Silence::Closed => format!("has left at step {number}"),
+            Silence::Flood => {
+                let limit = child::MAX_LINE / 1024;
+                format!("has written a line of more than {limit} KiB at step {number}")
+            }
+        };
+        let (status, words) = self.running.take().map_or((None, String::new()), |it| it.talker.kill());
+        let status = status.map_or_else(String::new, |status| format!(" ({status})"));
+        let words =
+            if words.is_empty() { ", and said nothing" } else { "; its last words: " }.to_owned() + &words;
+        Halt::Infrastructure(format!("`{}` {what}{status}{words}", self.command))
+    }
+}
+
+impl Agent for Process {
+    fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt> {
+        let timeout = self.config.timeout;
+        let running = self.running(turn)?;
+        running.talker.say(line(&running.shown.turn(turn, None)));
+        for attempt in 0..=ASKED_AGAIN {
+            let answer = match hear(&self.running(turn)?.talker, timeout, turn.number) {
+                Ok(answer) => answer,
+                Err(silence) => return Err(self.failed(silence, turn)),
+            };
+            match read(&answer, turn.actions) {
+                Ok(action) => return Ok(Choice { action, validity: Validity::Valid }),
+                Err(message) => {
+                    record(journal, turn, attempt, &answer)?;
+                    if attempt < ASKED_AGAIN {
+                        let again = Message::Invalid { turn: turn.number, message };
+                        self.running(turn)?.talker.say(line(&again));
+                    }
+                }
+            }
+        }
+        Ok(Choice { action: Action::Nil, validity: Validity::Invalid })
+    }
+
+    fn recall(&mut self, turn: &Turn<'_>, _: &Journal, choice: &Choice) -> Result<(), Halt> {
+        let running = self.running(turn)?;
+        let past = Past { past: true, action: choice.action };
+        running.talker.say(line(&running.shown.turn(turn, Some(past))));
+        Ok(())
+    }
+
+    fn end(&mut self, last: &Turn<'_>) {
+        if let Some(Running { talker, shown }) = self.running.take() {
+            let end =
+                Message::End { turn: last.number, seen: shown.seen(last), outcome: last.observation.outcome };
+            talker.say(line(&end));
+            talker.let_go();
+        }
+    }
+}
+
+/// What of a game stands for the whole episode.
+#[derive(Debug)]
+struct Shown {
+    rules: String,
+    legend: Legend,
+}
+
+impl Shown {
+    fn of(turn: &Turn<'_>) -> Shown {
+        let analysis = &turn.subject.analysis;
+        // The characters of the level files are not those of the grid.
+        let rules = Guide { legend: Vec::new(), ..Guide::from_analysis(analysis) };
+        Shown { rules: rules.to_string(), legend: Legend::new(analysis, &LegendOptions::default()) }
+    }
+
+    fn hello<'a>(&'a self, turn: &'a Turn<'_>) -> Message<'a> {
+        let mut legend: BTreeMap<char, Vec<&str>> = BTreeMap::new();
+        for entry in self.legend.entries() {
+            legend.entry(entry.symbol).or_default().push(&entry.name);
+        }
+        Message::Hello {
+            protocol: PROTOCOL,
+            rules: &self.rules,
+            legend,
+            actions: turn.actions,
+            columns: turn.observation.columns,
+            rows: turn.observation.rows,
+            step_limit: turn.limit,
+        }
+    }
+
+    fn turn<'a>(&self, turn: &'a Turn<'_>, past: Option<Past>) -> Message<'a> {
+        Message::Turn { turn: turn.number, seen: self.seen(turn), actions: turn.actions, past }
+    }
+
+    fn seen<'a>(&self, turn: &'a Turn<'_>) -> Seen<'a> {
+        let grid = encoding::grid(turn.observation, &self.legend);
+        let reward = turn.before.map_or(0.0, |before| before.reward);
+        Seen::of(turn.observation, grid.lines().map(str::to_owned).collect(), reward)
+    }
+}
+
+/// An answer.
+#[derive(Deserialize)]
+struct Answer {
+    action: String,
+}
+
+/// The turn that an answer says it is for, if it says so.
+#[derive(Deserialize)]
+struct Addressed {
+    turn: u64,
+}
+
+/// The next answer. One that says it is for an earlier turn is passed over, so that an agent that says so cannot get out of
+/// step.
+fn hear(talker: &Talker, timeout: Duration, turn: u64) -> Result<Vec<u8>, Silence> {
+    loop {
+        let answer = talker.hear(timeout)?;
+        if !serde_json::from_slice::<Addressed>(&answer).is_ok_and(|addressed| addressed.turn < turn) {
+            return Ok(answer);
+        }
+    }
+}
+
+/// The action in an answer, or what is wrong with it.
+fn read(answer: &[u8], actions: &[Action]) -> Result<Action, String> {
+    let names = || actions.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let Answer { action } = serde_json::from_slice(answer)
+        .map_err(|error| format!("{error}; answer {{\"action\": …}} with one of {}", names()))?;
+    let known = actions.iter().find(|known| known.to_string() == action);
+    known.copied().ok_or_else(|| format!("there is no action `{action}` now; there are {}", names()))
+}
+
+/// Puts a wrong answer on record, unless an interrupted run has done so.
+fn record(journal: &mut Journal, turn: &Turn<'_>, attempt: u32, answer: &[u8]) -> Result<(), Halt> {
+    let id = (turn.number, attempt);
+    let known = |event: &Event| matches!(event, Event::Reply(reply) if (reply.step, reply.attempt) == id);
+    if journal.pending().iter().any(known) {
+        return Ok(());
+    }
+    let reply = Reply {
+        step: turn.number,
+        attempt,
+        class: ReplyClass::Invalid,
+        text: String::from_utf8_lossy(answer).chars().take(MAX_RECORDED).collect(),
+        reasoning: None,
+        action: None,
+        stage: None,
+        finish: Finish::Other,
+        usage: Usage::default(),
+        served_by: None,
+        failures: Vec::new(),
+        cached: false,
+        latency_ms: 0.0,
+    };
+    journal.push(Event::Reply(reply)).map_err(|error| Halt::Log(error.to_string()))
+}
+
+fn line(message: &Message<'_>) -> Vec<u8> {
+    serde_json::to_vec(message).expect("messages are plain data")
+}
+
+#[cfg(all(test, unix))]
+mod tests;

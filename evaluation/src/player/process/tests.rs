@@ -1,0 +1,275 @@
+use super::*;
+use crate::subject::{Subject, SubjectFacts};
+use crate::turn::Before;
+use engine::{Observation, Outcome, Seed, State};
+use rustix::process::{Pid, test_kill_process};
+use serde_json::Value;
+
+const GAME: &str = "BasicGame\n  SpriteSet\n    goal > Door\n    coin > Resource limit=2\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    c > coin\n  InteractionSet\n    avatar wall > stepBack\n    coin avatar > collectResource scoreChange=1\n    goal avatar > killSprite scoreChange=2\n  TerminationSet\n    SpriteCounter stype=goal win=True\n";
+const LEVEL: &str = "wwwwww\nwA c w\nw   gw\nwwwwww\n";
+
+/// An episode on a small board.
+struct Board {
+    subject: Subject,
+    state: State,
+    before: Option<(Observation, Action, f64)>,
+    number: u64,
+    agent: Process,
+    journal: Journal,
+}
+
+impl Board {
+    /// With a script for `sh` as the player, and a second for its answers if it is to hang.
+    fn with(script: &str, timeout: Duration) -> Board {
+        let subject =
+            Subject::read("board", GAME, &[(0, LEVEL.to_owned(), None)], SubjectFacts::default()).unwrap();
+        let state = subject.game.start(&subject.levels[0].level, Seed::from_text("board"));
+        let config = ProcessConfig { timeout, ..ProcessConfig::default() };
+        let command = shlex::try_join(["sh", "-c", script]).unwrap();
+        let agent = Process::new(&command, config).unwrap();
+        Board { subject, state, before: None, number: 0, agent, journal: Journal::in_memory() }
+    }
+
+    fn of(script: &str) -> Board {
+        Board::with(script, Duration::from_secs(60))
+    }
+
+    fn turn<T>(&mut self, use_it: impl FnOnce(&mut Process, &mut Journal, &Turn<'_>) -> T) -> T {
+        let observation = self.subject.game.observe(&self.state);
+        let actions: Vec<Action> =
+            [Action::Nil].iter().chain(self.subject.game.actions(&self.state)).copied().collect();
+        let before = self.before.as_ref();
+        let turn = Turn {
+            subject: &self.subject,
+            level: 0,
+            number: self.number,
+            limit: 30,
+            observation: &observation,
+            before: before.map(|(observation, action, reward)| Before {
+                observation,
+                action: *action,
+                reward: *reward,
+            }),
+            actions: &actions,
+        };
+        use_it(&mut self.agent, &mut self.journal, &turn)
+    }
+
+    fn play(&mut self, action: Action) {
+        let (observation, score) = (self.subject.game.observe(&self.state), self.state.score());
+        self.subject.game.step(&mut self.state, action);
+        self.before = Some((observation, action, self.state.score() - score));
+        self.number += 1;
+    }
+
+    /// One decision, played.
+    fn decide(&mut self) -> Result<Choice, Halt> {
+        let choice = self.turn(|agent, journal, turn| agent.act(turn, journal))?;
+        self.play(choice.action);
+        Ok(choice)
+    }
+
+    /// One decision that was played before.
+    fn recall(&mut self, action: Action) {
+        let choice = Choice { action, validity: Validity::Valid };
+        self.turn(|agent, journal, turn| agent.recall(turn, journal, &choice)).unwrap();
+        self.play(action);
+    }
+
+    fn end(&mut self) {
+        self.turn(|agent, _, turn| agent.end(turn));
+    }
+
+    fn failure(&mut self) -> String {
+        match self.decide() {
+            Err(Halt::Infrastructure(message)) => message,
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// What a script has copied to the file.
+fn heard(path: &std::path::Path) -> Vec<Value> {
+    let text = std::fs::read_to_string(path).unwrap();
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+#[test]
+fn an_episode_is_played_in_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("heard");
+    let mut board = Board::of(&format!(
+        "tee {} | while read line; do case $line in *'\"type\":\"turn\"'*) echo '{{\"action\":\"right\"}}';; esac; done",
+        log.display()
+    ));
+    for _ in 0..2 {
+        assert_eq!(board.decide(), Ok(Choice { action: Action::Right, validity: Validity::Valid }));
+    }
+    board.end();
+    assert_eq!(board.journal.events(), []);
+    let heard = heard(&log);
+    assert_eq!(heard.len(), 4);
+    let hello = &heard[0];
+    assert_eq!((&hello["type"], &hello["protocol"]), (&"hello".into(), &1.into()));
+    assert_eq!((&hello["columns"], &hello["rows"], &hello["step_limit"]), (&6.into(), &4.into(), &30.into()));
+    assert!(hello["rules"].as_str().unwrap().contains("You win when no goal is left."));
+    assert!(!hello["rules"].as_str().unwrap().contains("characters"));
+    assert_eq!(hello["legend"]["w"], serde_json::json!(["wall"]));
+    let turn = &heard[2];
+    assert_eq!((&turn["turn"], &turn["tick"], &turn["score"]), (&1.into(), &1.into(), &0.0.into()));
+    assert_eq!(turn["grid"], serde_json::json!(["wwwwww", "w.@c.w", "w...gw", "wwwwww"]));
+    assert_eq!(turn["sprites"][1], serde_json::json!({"name": "coin", "cells": [[3, 1]]}));
+    assert_eq!(
+        turn["avatar"],
+        serde_json::json!({"name": "avatar", "health": 0, "cell": [2, 1], "facing": null})
+    );
+    let end = &heard[3];
+    assert_eq!((&end["type"], &end["outcome"], &end["turn"]), (&"end".into(), &"ongoing".into(), &2.into()));
+    assert_eq!(
+        (&end["reward"], &end["score"], &end["resources"]["coin"]),
+        (&1.0.into(), &1.0.into(), &1.into())
+    );
+    for secret in ["seed", "hash", "level", "source"] {
+        assert!(heard.iter().all(|message| message.get(secret).is_none()), "{secret}");
+    }
+}
+
+#[test]
+fn past_turns_are_told_and_not_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("heard");
+    // Answers with nothing but what was not said to be past.
+    let mut board = Board::of(&format!(
+        "tee {} | while read line; do case $line in *'\"past\":true'*|*hello*|*'\"end\"'*) ;; *) echo '{{\"action\":\"down\"}}';; esac; done",
+        log.display()
+    ));
+    board.recall(Action::Right);
+    board.recall(Action::Nil);
+    assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Down));
+    board.end();
+    let heard = heard(&log);
+    let told =
+        |at: usize| (heard[at]["turn"].clone(), heard[at]["past"].clone(), heard[at]["action"].clone());
+    assert_eq!(told(1), (0.into(), true.into(), "right".into()));
+    assert_eq!(told(2), (1.into(), true.into(), "nil".into()));
+    assert_eq!(told(3), (2.into(), Value::Null, Value::Null));
+}
+
+#[test]
+fn a_wrong_answer_is_asked_again_once() {
+    // Wrong at first, right when told so; later wrong twice.
+    let mut board = Board::of(
+        "read hello; read turn; echo '{\"action\":\"jump\"}'; read invalid; echo \"$invalid\" >&2; echo '{\"action\":\"left\"}'; \
+         read turn; echo hm; read invalid; echo '{\"act\":\"left\"}'; read turn; exit 3",
+    );
+    assert_eq!(board.decide(), Ok(Choice { action: Action::Left, validity: Validity::Valid }));
+    assert_eq!(board.decide(), Ok(Choice { action: Action::Nil, validity: Validity::Invalid }));
+    let wrong = |event: &Event| match event {
+        Event::Reply(reply) => (reply.step, reply.attempt, reply.class, reply.text.clone()),
+        other => panic!("{other:?}"),
+    };
+    let wrong: Vec<_> = board.journal.events().iter().map(wrong).collect();
+    let invalid = ReplyClass::Invalid;
+    let texts = ["{\"action\":\"jump\"}", "hm", "{\"act\":\"left\"}"].map(str::to_owned);
+    let [first, second, third] = texts;
+    assert_eq!(wrong, [(0, 0, invalid, first), (1, 0, invalid, second), (1, 1, invalid, third)]);
+    let message = board.failure();
+    assert!(message.contains("has left at step 2") && message.contains("exit status: 3"), "{message}");
+    assert!(
+        message.contains("there is no action `jump` now; there are nil, up, left, down, right"),
+        "{message}"
+    );
+}
+
+/// An agent that says which turn it means is never taken to mean another one.
+#[test]
+fn late_answers_are_passed_over() {
+    let mut board = Board::of(
+        "read hello; read turn; echo '{\"turn\":0,\"action\":\"up\"}'; echo '{\"turn\":0,\"action\":\"up\"}'; read turn; \
+         echo '{\"turn\":1,\"action\":\"right\"}'; read end",
+    );
+    assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Up));
+    assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Right));
+}
+
+#[test]
+fn a_process_that_fails_is_told_with_its_last_words() {
+    let check = |script: &str, timeout: Duration, expected: &[&str]| {
+        let message = Board::with(script, timeout).failure();
+        assert!(expected.iter().all(|words| message.contains(words)), "{script}: {message}");
+    };
+    let (soon, late) = (Duration::from_millis(300), Duration::from_secs(60));
+    check(
+        "echo no such module >&2; exit 1",
+        late,
+        &["has left at step 0 (exit status: 1)", "no such module"],
+    );
+    check("read hello; exec sleep 600", soon, &["has not answered at step 0 within 0.3 s", "said nothing"]);
+    check("yes | tr -d '\\n'; echo over >&2", late, &["a line of more than 1024 KiB"]);
+    check("kill -9 $$", late, &["has left"]);
+}
+
+#[test]
+fn what_cannot_be_started_ends_it_all() {
+    let mut board = Board::of("true");
+    board.agent = Process::new("no-such-program-anywhere x", ProcessConfig::default()).unwrap();
+    assert!(
+        matches!(board.decide(), Err(Halt::Rejected(message)) if message.contains("no-such-program-anywhere"))
+    );
+    for command in ["", "  ", "python3 'agent.py"] {
+        assert!(Process::new(command, ProcessConfig::default()).is_err(), "{command}");
+    }
+}
+
+#[test]
+fn nothing_is_left_behind() {
+    // Its child stays when it is let go, and is killed with it.
+    let folder = tempfile::tempdir().unwrap();
+    let pid = folder.path().join("pid");
+    let mut board = Board::of(&format!(
+        "sleep 600 & echo $! > {}; ls -A >&2; while read line; do echo '{{\"action\":\"nil\"}}'; done; exec sleep 600",
+        pid.display()
+    ));
+    board.decide().unwrap();
+    let talker = &board.agent.running.as_ref().unwrap().talker;
+    let (own, path) = (talker.id(), talker.folder().to_owned());
+    assert_eq!(std::fs::read_dir(&path).unwrap().count(), 0);
+    let child = std::fs::read_to_string(&pid).unwrap().trim().parse().unwrap();
+    board.end();
+    assert!(!path.exists());
+    let gone = |id: i32| test_kill_process(Pid::from_raw(id).unwrap()).is_err();
+    assert!(gone(own.cast_signed()));
+    // Its child is nobody's now, and whoever takes in orphans may need a moment to bury it.
+    let dead = || {
+        let status = std::fs::read_to_string(format!("/proc/{child}/stat")).unwrap_or_default();
+        gone(child) || status.contains(") Z ")
+    };
+    for _ in 0..200 {
+        if dead() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    panic!("process {child} has outlived its parent");
+}
+
+#[test]
+fn the_environment_is_small() {
+    let mut board = Board::of("env >&2; pwd >&2; exit 0");
+    let message = board.failure();
+    let (variable, value) = std::env::vars_os()
+        .map(|(name, value)| (name.into_string().unwrap_or_default(), value))
+        .find(|(name, _)| name.starts_with("CARGO_"))
+        .expect("tests are run by cargo");
+    assert!(!message.contains(&format!("{variable}=")), "{message} {value:?}");
+    assert!(message.contains("PATH=") && message.contains("arcade-player-"), "{message}");
+}
+
+#[test]
+fn outcomes_are_told() {
+    let mut board = Board::of("while read line; do echo '{\"action\":\"right\"}'; done");
+    let path: Vec<Action> = [Action::Right; 3].into_iter().chain([Action::Down]).collect();
+    path.into_iter().for_each(|action| board.play(action));
+    assert_eq!(board.state.outcome(), Outcome::Won);
+    board.end();
+}
