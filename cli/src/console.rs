@@ -35,6 +35,11 @@ impl Console {
         Ok(())
     }
 
+    /// A line of JSON, for people and programs alike: what a verb says that goes on after its answer.
+    pub(crate) fn line(&self, value: &serde_json::Value) {
+        out(format_args!("{value}\n"));
+    }
+
     /// Remarks beside the answer.
     pub(crate) fn remark(&self, text: impl Display) {
         if !self.quiet {

@@ -28,6 +28,7 @@
 
 mod ablation;
 pub mod analysis;
+mod arrange;
 mod causes;
 mod chance;
 mod compile;

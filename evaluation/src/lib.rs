@@ -16,6 +16,7 @@ pub mod metrics;
 pub mod player;
 pub mod prompt;
 pub mod run;
+pub mod serve;
 pub mod study;
 mod subject;
 pub mod tokens;

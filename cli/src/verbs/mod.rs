@@ -10,5 +10,6 @@ pub(crate) mod regenerate;
 pub(crate) mod release;
 pub(crate) mod render;
 pub(crate) mod run;
+pub(crate) mod serve_player;
 pub(crate) mod validate;
 pub(crate) mod verify;

@@ -9,9 +9,11 @@ use crate::failure::{Answer, Failure};
 use crate::verbs::release::in_pool;
 use agents::{Budget, PlannerSpec};
 use engine::{Outcome, SEMANTICS};
+use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
 use evaluation::player::{Contestant, Replay};
 use evaluation::prompt::PromptSettings;
 use evaluation::run::{self, FORMAT, Left, Progress, SETTINGS_FILE, Tally, Task};
+use evaluation::serve::{PromptPlayer, Prompted};
 use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject};
 use human::Human;
 use indicatif::ProgressBar;
@@ -34,7 +36,7 @@ pub(crate) struct Args {
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
     /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (docs/planners.md), `replay:FILE`,
-    /// `human`
+    /// `human`, `reflex` (docs/serve-player.md); or a program of yours, `"cmd:python3 my_agent.py"` (docs/agents.md)
     #[arg(long, value_name = "NAME", required_unless_present = "model", conflicts_with = "model")]
     player: Option<String>,
     /// Only these of the games
@@ -79,6 +81,8 @@ enum Asked {
     Planner(PlannerSpec),
     Replay(Replay),
     Human(PromptSettings),
+    Prompted(PromptPlayer, PromptSettings),
+    Process(Process),
     Model(Box<model::Asked>),
 }
 
@@ -87,6 +91,8 @@ enum Ready {
     Planner(PlannerSpec, Budget),
     Replay(Replay),
     Human(Prompters),
+    Prompted(PromptPlayer, Prompters),
+    Process(Process),
     Model(Box<model::Ready>),
 }
 
@@ -136,7 +142,7 @@ fn forecast(asked: &Asked, settings: &Settings, subjects: &[Subject], console: &
             console.document(&forecast)?;
             console.say(forecast);
         }
-        Asked::Planner(_) | Asked::Replay(_) | Asked::Human(_) => {
+        _ => {
             let episodes = tasks.len();
             console.document(&json!({ "episodes": episodes, "max_steps": settings.max_steps }))?;
             console
@@ -162,6 +168,11 @@ impl Asked {
             }
             Asked::Replay(replay) => ("replay".to_owned(), json!({ "replay": replay.digest() })),
             Asked::Human(prompts) => ("human".to_owned(), json!({ "prompt": prompts })),
+            Asked::Prompted(player, prompts) => (player.to_string(), json!({ "prompt": prompts })),
+            Asked::Process(process) => {
+                let command = process.command();
+                (format!("cmd:{command}"), json!({ "command": command, "protocol": PROTOCOL }))
+            }
         };
         Ok(Entrant { name, mode: None, aids: Vec::new(), details })
     }
@@ -171,6 +182,10 @@ impl Asked {
             Asked::Planner(spec) => Ready::Planner(spec, Budget(args.budget)),
             Asked::Replay(replay) => Ready::Replay(replay),
             Asked::Human(prompts) => Ready::Human(model::prompters(&evaluation.subjects, &prompts)?),
+            Asked::Prompted(player, prompts) => {
+                Ready::Prompted(player, model::prompters(&evaluation.subjects, &prompts)?)
+            }
+            Asked::Process(process) => Ready::Process(process),
             Asked::Model(model) => Ready::Model(Box::new(model.connect(evaluation)?)),
         })
     }
@@ -184,6 +199,11 @@ impl Ready {
             Ready::Human(prompters) => {
                 Contestant::Agent(Box::new(Human::new(prompters[&task.subject.id].clone())))
             }
+            Ready::Prompted(player, prompters) => {
+                let prompter = prompters[&task.subject.id].clone();
+                Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter)))
+            }
+            Ready::Process(process) => Contestant::Agent(Box::new(process.another())),
             Ready::Model(model) => model.contestant(task),
         }
     }
@@ -193,7 +213,7 @@ impl Ready {
         match self {
             Ready::Model(_) => Some(args.model.concurrency.get()),
             Ready::Human(_) => Some(1),
-            Ready::Planner(..) | Ready::Replay(_) => args.jobs,
+            Ready::Planner(..) | Ready::Replay(_) | Ready::Prompted(..) | Ready::Process(_) => args.jobs,
         }
     }
 }
@@ -209,6 +229,14 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
     }
     if player == "human" {
         return Ok(Asked::Human(args.model.prompt.settings()?));
+    }
+    if let Some(command) = player.strip_prefix("cmd:") {
+        return Process::new(command, ProcessConfig::default())
+            .map(Asked::Process)
+            .map_err(Failure::malformed);
+    }
+    if player == "reflex" {
+        return Ok(Asked::Prompted(PromptPlayer::Reflex, args.model.prompt.settings()?));
     }
     let name = if player == "nil" { "do-nothing" } else { player };
     name.parse().map(Asked::Planner).map_err(Failure::malformed)

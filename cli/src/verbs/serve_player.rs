@@ -1,0 +1,32 @@
+//! `arcade serve-player`: a player of known strength behind chat completions, for this machine only.
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use evaluation::serve::{PromptPlayer, Server};
+use serde_json::json;
+
+/// Answers OpenAI-compatible chat completions on 127.0.0.1 with a player that knows nothing but the prompt, until it is
+/// killed: `random`, `reflex` (the shortest way, by the board and the rules of the prompt) or `planner:NAME[:CALLS]` (on the
+/// position that the prompt shows, if that is all there is to know). The first line that it prints has the base URL.
+///
+/// Example: arcade serve-player --player reflex --port 8090
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// random, reflex, or planner:NAME[:CALLS]
+    #[arg(long, value_name = "NAME")]
+    player: String,
+    /// The port; 0 takes any free one
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    port: u16,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let player: PromptPlayer = args.player.parse().map_err(Failure::malformed)?;
+    let name = player.to_string();
+    let server = Server::bind(player, args.port)
+        .map_err(|error| Failure::surroundings(error, "there is no server"))?;
+    console.line(&json!({"base_url": server.base_url(), "port": server.address().port(), "model": name}));
+    console.remark("serving until it is killed");
+    server.run().map_err(|error| Failure::surroundings(error, "the server has stopped"))?;
+    Ok(true)
+}

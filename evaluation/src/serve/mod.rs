@@ -1,0 +1,150 @@
+//! Players of known strength that see the prompt and nothing else: behind chat completions on loopback, or called directly.
+//!
+//! They have no access to the game that is played: what they know of it they have read in the conversation. So they test the
+//! whole path from the state to the prompt to the answer to the action, and other people's harnesses as well
+//! ([docs/serve-player.md](../../../docs/serve-player.md)). The same conversation always gets the same answer.
+
+mod prompted;
+mod random;
+mod reflex;
+mod replan;
+mod server;
+mod shown;
+
+pub use prompted::Prompted;
+pub use server::{Running, Server};
+
+use crate::client::{
+    ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Finish, Model, Role, Usage,
+};
+use agents::PlannerSpec;
+use engine::{Action, Seed};
+use shown::Shown;
+use std::fmt;
+use std::str::FromStr;
+
+/// The names of players that need nothing but a prompt, the weakest first; `planner:NAME` beside them.
+pub const PROMPT_PLAYERS: &[&str] = &["random", "reflex"];
+
+/// A player that answers prompts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PromptPlayer {
+    /// Any action but nil, by the digest of the conversation.
+    Random,
+    /// The shortest way to what the rules say is good: [its rules](../../../docs/serve-player.md).
+    Reflex,
+    /// A planner, on the position that is put together from the prompt; for games of which it shows all that matters.
+    Planner(PlannerSpec),
+}
+
+/// A conversation to which a player has no answer, in words: they name what is missing and the next move.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Unanswerable(pub String);
+
+impl PromptPlayer {
+    /// What the player says to a conversation. Cost: O(bytes); for a planner, its budget in forward-model calls.
+    ///
+    /// # Errors
+    /// The conversation does not tell what the player needs.
+    pub fn answer(&self, messages: &[ChatMessage]) -> Result<String, Unanswerable> {
+        let shown = Shown::of(messages)?;
+        let seed = seed(messages);
+        let action = match self {
+            PromptPlayer::Random => random::choose(&shown, seed),
+            PromptPlayer::Reflex => reflex::choose(&shown, seed)?,
+            PromptPlayer::Planner(spec) => replan::choose(&shown, spec, seed)?,
+        };
+        Ok(shown.answer(action))
+    }
+}
+
+impl FromStr for PromptPlayer {
+    type Err = Unanswerable;
+
+    fn from_str(name: &str) -> Result<PromptPlayer, Unanswerable> {
+        if let Some(planner) = name.strip_prefix("planner:") {
+            let spec = planner.parse::<PlannerSpec>().map_err(|error| Unanswerable(error.to_string()))?;
+            return Ok(PromptPlayer::Planner(spec));
+        }
+        match name {
+            "random" => Ok(PromptPlayer::Random),
+            "reflex" => Ok(PromptPlayer::Reflex),
+            _ => {
+                let near = engine::nearest(name, PROMPT_PLAYERS.iter().copied());
+                let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let names = PROMPT_PLAYERS.join(", ");
+                Err(Unanswerable(format!(
+                    "no player named `{name}` answers prompts{near}; there are {names}, and `planner:NAME`, such as `planner:mcts:300`"
+                )))
+            }
+        }
+    }
+}
+
+impl fmt::Display for PromptPlayer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PromptPlayer::Random => f.write_str("random"),
+            PromptPlayer::Reflex => f.write_str("reflex"),
+            PromptPlayer::Planner(spec) => write!(f, "planner:{spec}"),
+        }
+    }
+}
+
+impl Model for PromptPlayer {
+    fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError> {
+        let answer = self.answer(&request.messages).map_err(|error| ChatError {
+            kind: ChatErrorKind::Rejected,
+            message: error.to_string(),
+            failures: Vec::new(),
+        })?;
+        Ok(ChatReply {
+            usage: Usage {
+                input_tokens: Some(prompt_tokens(&request.messages)),
+                output_tokens: Some(tokens(&answer)),
+                ..Usage::default()
+            },
+            text: answer,
+            reasoning: None,
+            finish: Finish::Stop,
+            served_by: Some(self.to_string()),
+            failures: Vec::new(),
+            latency_ms: 0.0,
+            cached: false,
+        })
+    }
+}
+
+/// What decides the choices that nothing else decides: the whole conversation, to the byte.
+fn seed(messages: &[ChatMessage]) -> Seed {
+    let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 served conversation");
+    for message in messages {
+        let role = [match message.role {
+            Role::System => 0,
+            Role::User => 1,
+            Role::Assistant => 2,
+        }];
+        let image = message.image.as_deref().unwrap_or_default();
+        for part in [&role, message.text.as_bytes(), image] {
+            hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
+        }
+    }
+    Seed::from_text(&hasher.finalize().to_hex())
+}
+
+/// Tokens of a text as they are billed here: four bytes each.
+fn tokens(text: &str) -> u64 {
+    text.len().div_ceil(4) as u64
+}
+
+/// Tokens of a conversation.
+fn prompt_tokens(messages: &[ChatMessage]) -> u64 {
+    messages.iter().map(|message| tokens(&message.text)).sum()
+}
+
+/// The actions other than nil, if there are any.
+fn deeds(actions: &[Action]) -> Vec<Action> {
+    let deeds: Vec<Action> = actions.iter().copied().filter(|&action| action != Action::Nil).collect();
+    if deeds.is_empty() { actions.to_vec() } else { deeds }
+}

@@ -1,0 +1,319 @@
+//! What the sentences of the rules mean to somebody who wants to know where to go. `engine::describe` writes them; here they
+//! are read, and nothing else is.
+
+use regex::{Captures, Regex};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
+
+/// What a player believes of the things on the board, by name. What it does not understand it does not believe.
+#[derive(Debug, Default)]
+pub(super) struct Beliefs<'a> {
+    /// What the player is now.
+    me: &'a str,
+    groups: BTreeMap<&'a str, Vec<&'a str>>,
+    /// It cannot be entered.
+    pub(super) blocks: BTreeSet<&'a str>,
+    /// It is pushed.
+    pub(super) pushed: BTreeSet<&'a str>,
+    /// Touching it kills, where the condition holds.
+    kills: Vec<(&'a str, Option<Need<'a>>)>,
+    /// Touching it takes it away, where the condition holds.
+    taken: Vec<(&'a str, Option<Need<'a>>)>,
+    /// Touching it changes something: who the player is, what it holds, what is elsewhere.
+    pub(super) changes: BTreeSet<&'a str>,
+    /// The game is won when none is left.
+    pub(super) wins: BTreeSet<&'a str>,
+    /// The game is lost when none is left.
+    pub(super) precious: BTreeSet<&'a str>,
+    /// It moves by itself.
+    pub(super) moves: BTreeSet<&'a str>,
+    /// What takes what away by touching it.
+    ends: Vec<(&'a str, &'a str)>,
+    /// What the use key makes.
+    pub(super) shot: Option<Shot<'a>>,
+}
+
+/// What has to be held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Need<'a> {
+    resource: &'a str,
+    least: i32,
+    /// It must not be held.
+    not: bool,
+}
+
+/// What the use key makes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Shot<'a> {
+    /// The type.
+    pub(super) name: &'a str,
+    /// It appears where the player is, not ahead.
+    pub(super) here: bool,
+    /// What it costs.
+    pub(super) ammo: Vec<&'a str>,
+    /// It moves on by itself; in this direction, if that is always the same.
+    pub(super) flies: Option<Option<&'a str>>,
+}
+
+/// Somebody in a sentence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Party<'a> {
+    You,
+    It(&'a str),
+}
+
+/// What a sentence is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Subject {
+    /// Who belongs to a group.
+    Group,
+    Win,
+    Lose,
+    /// The first cannot enter the second.
+    Block,
+    /// The first goes, by touching the second.
+    End,
+    /// Both go.
+    EndBoth,
+    /// The second pushes the first.
+    Push,
+    /// Something else comes of the two touching.
+    Change,
+    /// The first moves by itself.
+    Motion,
+}
+
+/// The sentences that are understood, in the words of `engine::describe`. The first that fits counts.
+static SENTENCES: LazyLock<Vec<(Regex, Subject)>> = LazyLock::new(|| {
+    use Subject::{Block, Change, End, EndBoth, Group, Lose, Motion, Push, Win};
+    let need = r"(?: (?P<when>if|unless) you hold at least (?P<least>\d+) (?P<resource>\S+?)(?:,.*)?)?";
+    let touching = "(?P<one>.+?) (?:die|dies|disappear|disappears) on";
+    let all: [(String, Subject); 16] = [
+        (r"^Any (?P<one>\S+) means (?P<two>.+)$".into(), Group),
+        (r"^You win when (?:no (?P<one>.+) is left|at most \d+ (?P<two>.+) are left)$".into(), Win),
+        (r"^You lose when no (?P<one>.+) is left$".into(), Lose),
+        (r"^(?P<one>.+) cannot enter (?P<two>.+?)(?:: .*)?$".into(), Block),
+        (format!("^{touching} touching (?P<two>.+?){need}$"), End),
+        (format!("^{touching} touching (?P<two>.+?) unless .*$"), End),
+        (format!("^{touching} running into (?P<two>.+) head-on$"), End),
+        (r"^(?P<one>you) die if (?P<two>.+) falls on you from above$".into(), End),
+        (r"^(?P<one>.+) and (?P<two>.+) both (?:die|disappear) when they touch$".into(), EndBoth),
+        (r"^(?P<one>.+) loses? \d+ health points? on touching (?P<two>.+), and .*$".into(), End),
+        (format!("^(?P<two>.+?) collects? (?P<one>.+?){need}$"), End),
+        (r"^(?P<two>.+) push(?:es)? (?P<one>.+)$".into(), Push),
+        (r"^(?P<one>.+) turns? into .+ on touching (?P<two>.+?)(?:, and .*)?$".into(), Change),
+        (r"^(?P<one>.+) gains? \d+ .+ on touching (?P<two>.+?)(?:, and .*)?$".into(), Change),
+        (r"^when (?P<one>.+?) touch(?:es)? (?P<two>.+?)(?: and .*)?, .+$".into(), Change),
+        (
+            r"^the (?P<one>\S+) (?:moves (?:straight|up|left|down|right)|wanders|chases|flees).*$".into(),
+            Motion,
+        ),
+    ];
+    let compile = |(pattern, subject): (String, Subject)| {
+        let regex = regex::RegexBuilder::new(&pattern).case_insensitive(true).build();
+        (regex.expect("a pattern of ours"), subject)
+    };
+    all.into_iter().map(compile).collect()
+});
+
+/// What the use key does, among what else the keys do.
+static USE_KEY: LazyLock<Regex> = LazyLock::new(|| {
+    let pattern = r"the use key puts (?:a|an) (?P<shot>\S+?)(?: or .*?)? (?P<place>where you are|ahead of you)(?: and costs (?P<ammo>[^;.]+))?[;.]";
+    Regex::new(pattern).expect("a pattern of ours")
+});
+
+impl<'a> Beliefs<'a> {
+    /// What sentences tell somebody who is `me` now. Cost: O(sentences × bytes).
+    pub(super) fn of(sentences: &[&'a str], me: &'a str) -> Beliefs<'a> {
+        let mut beliefs = Beliefs { me, ..Beliefs::default() };
+        let fits = |sentence: &&'a str| {
+            // What comes after the first full stop is about points.
+            let first = sentence.split_once(". ").map_or(*sentence, |(first, _)| first).trim_end_matches('.');
+            SENTENCES.iter().find_map(|(regex, subject)| Some((*subject, regex.captures(first)?)))
+        };
+        let mut read: Vec<(Subject, Captures<'a>)> = sentences.iter().filter_map(fits).collect();
+        // Who belongs to a group is known before anything is said of it.
+        read.sort_by_key(|(subject, _)| *subject);
+        for (subject, found) in read {
+            match subject {
+                Subject::Group => beliefs.group(&found),
+                Subject::Win => beliefs.win(&found),
+                Subject::Lose => beliefs.lose(&found),
+                Subject::Block => beliefs.block(&found),
+                Subject::End => beliefs.end(&found),
+                Subject::EndBoth => beliefs.end_both(&found),
+                Subject::Push => beliefs.push(&found),
+                Subject::Change => beliefs.change(&found),
+                Subject::Motion => beliefs.motion(&found),
+            }
+        }
+        beliefs.read_keys(sentences);
+        beliefs
+    }
+
+    /// Whether touching it kills, with what is held.
+    pub(super) fn is_deadly(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
+        self.kills.iter().any(|(other, need)| *other == name && need.is_none_or(|need| need.is_met(held)))
+    }
+
+    /// Whether touching it takes it away, with what is held.
+    pub(super) fn is_taken(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
+        self.taken.iter().any(|(other, need)| *other == name && need.is_none_or(|need| need.is_met(held)))
+    }
+
+    /// Whether what the use key makes takes it away.
+    pub(super) fn is_shot(&self, name: &str) -> bool {
+        self.shot.as_ref().is_some_and(|shot| self.ends.contains(&(name, shot.name)))
+    }
+
+    /// Whether what the use key makes ends at it.
+    pub(super) fn stops_shots(&self, name: &str) -> bool {
+        self.shot.as_ref().is_some_and(|shot| self.ends.contains(&(shot.name, name)))
+    }
+
+    fn group(&mut self, found: &Captures<'a>) {
+        let members = self.parties(found, "two").into_iter().filter_map(Party::name).collect();
+        if let Some(name) = found.name("one") {
+            self.groups.insert(name.as_str(), members);
+        }
+    }
+
+    fn win(&mut self, found: &Captures<'a>) {
+        let names = self.names(found, "one").into_iter().chain(self.names(found, "two"));
+        let names: Vec<&str> = names.collect();
+        self.wins.extend(names);
+    }
+
+    fn lose(&mut self, found: &Captures<'a>) {
+        let names = self.names(found, "one");
+        self.precious.extend(names);
+    }
+
+    fn block(&mut self, found: &Captures<'a>) {
+        if self.is_me(found, "one") {
+            let names = self.names(found, "two");
+            self.blocks.extend(names);
+        }
+    }
+
+    fn push(&mut self, found: &Captures<'a>) {
+        if self.is_me(found, "two") {
+            let names = self.names(found, "one");
+            self.pushed.extend(names);
+        }
+    }
+
+    fn change(&mut self, found: &Captures<'a>) {
+        for (one, other) in [("one", "two"), ("two", "one")] {
+            if self.is_me(found, one) {
+                let names = self.names(found, other);
+                self.changes.extend(names);
+            }
+        }
+    }
+
+    fn end(&mut self, found: &Captures<'a>) {
+        let need = found.name("resource").map(|resource| Need {
+            resource: resource.as_str(),
+            least: found.name("least").and_then(|least| least.as_str().parse().ok()).unwrap_or(1),
+            not: found.name("when").is_some_and(|when| when.as_str() == "unless"),
+        });
+        let (goes, by) = (self.names(found, "one"), self.names(found, "two"));
+        if self.is_me(found, "one") {
+            self.kills.extend(by.iter().map(|&name| (name, need)));
+        }
+        if self.is_me(found, "two") {
+            self.taken.extend(goes.iter().map(|&name| (name, need)));
+        }
+        self.ends.extend(goes.iter().flat_map(|&goes| by.iter().map(move |&by| (goes, by))));
+    }
+
+    fn end_both(&mut self, found: &Captures<'a>) {
+        let (one, two) = (self.names(found, "one"), self.names(found, "two"));
+        if self.is_me(found, "one") {
+            self.kills.extend(two.iter().map(|&name| (name, None)));
+        }
+        if self.is_me(found, "two") {
+            self.kills.extend(one.iter().map(|&name| (name, None)));
+        }
+        for (&one, &two) in one.iter().flat_map(|one| two.iter().map(move |two| (one, two))) {
+            self.ends.extend([(one, two), (two, one)]);
+        }
+    }
+
+    fn motion(&mut self, found: &Captures<'a>) {
+        self.moves.extend(found.name("one").map(|name| name.as_str()));
+    }
+
+    fn read_keys(&mut self, sentences: &[&'a str]) {
+        let mine = sentences.iter().find(|line| {
+            line.starts_with(&format!("You are the {}:", self.me))
+                || line.starts_with(&format!("As {}:", self.me))
+        });
+        let Some(found) = mine.and_then(|line| USE_KEY.captures(line)) else { return };
+        let name = found.name("shot").map_or("", |name| name.as_str());
+        let flight = |line: &&'a str| {
+            let rest = line.strip_prefix("The ")?.strip_prefix(name)?.strip_prefix(" moves ")?;
+            Some(["up", "left", "down", "right"].into_iter().find(|way| rest.starts_with(way)))
+        };
+        let ammo = found.name("ammo").map_or("", |ammo| ammo.as_str());
+        self.shot = Some(Shot {
+            name,
+            here: found.name("place").is_some_and(|place| place.as_str() == "where you are"),
+            ammo: ammo
+                .split(" or ")
+                .flat_map(|part| part.split(", "))
+                .filter(|name| !name.is_empty())
+                .collect(),
+            flies: sentences.iter().find_map(flight),
+        });
+    }
+
+    fn is_me(&self, found: &Captures<'a>, part: &str) -> bool {
+        let parties = self.parties(found, part);
+        parties.contains(&Party::You) || parties.contains(&Party::It(self.me))
+    }
+
+    fn names(&self, found: &Captures<'a>, part: &str) -> Vec<&'a str> {
+        self.parties(found, part).into_iter().filter_map(Party::name).collect()
+    }
+
+    /// `you`, `you as bare`, `the crate or any beast`: groups taken apart.
+    fn parties(&self, found: &Captures<'a>, part: &str) -> Vec<Party<'a>> {
+        let text = found.name(part).map_or("", |found| found.as_str());
+        let words = text.split(" or ").flat_map(|part| part.split(", "));
+        let party = |word: &'a str| {
+            let lower = |prefix: &str| {
+                let (head, name) = word.split_at_checked(prefix.len())?;
+                head.eq_ignore_ascii_case(prefix).then_some(name)
+            };
+            if word.eq_ignore_ascii_case("you") {
+                return vec![Party::You];
+            }
+            if let Some(state) = lower("you as ") {
+                return vec![Party::It(state)];
+            }
+            let name = ["the ", "any ", "an ", "a "].into_iter().find_map(lower).unwrap_or(word);
+            match self.groups.get(name) {
+                Some(members) => members.iter().copied().map(Party::It).chain([Party::It(name)]).collect(),
+                None => vec![Party::It(name)],
+            }
+        };
+        words.flat_map(party).collect()
+    }
+}
+
+impl<'a> Party<'a> {
+    fn name(self) -> Option<&'a str> {
+        match self {
+            Party::You => None,
+            Party::It(name) => Some(name),
+        }
+    }
+}
+
+impl Need<'_> {
+    fn is_met(self, held: &BTreeMap<&str, i32>) -> bool {
+        (held.get(self.resource).copied().unwrap_or(0) >= self.least) != self.not
+    }
+}

@@ -1,0 +1,188 @@
+//! A player that goes the shortest way, on the board that it is shown, to what the rules that it is shown say is good.
+//!
+//! It looks no step ahead: it keeps off what kills, and goes to what wins when it is gone, else to what can be collected or
+//! changes something, else to what it knows nothing bad about. It shoots what its shots end and what stands before it.
+
+mod beliefs;
+mod route;
+
+use super::shown::{Shown, You};
+use super::{Unanswerable, deeds};
+use beliefs::Beliefs;
+use engine::describe::Guide;
+use engine::{Action, Game, Sampler, Seed};
+use route::{Board, Routes, WAYS};
+use std::collections::BTreeMap;
+
+/// What a step next to something deadly that moves costs, in steps.
+const NEAR_DANGER: u32 = 8;
+
+/// What it costs to push something, in steps.
+const PUSH: u32 = 20;
+
+/// One decision of so many goes anywhere: without a memory, a way that leads nowhere would be gone forever.
+const STRAYS: usize = 16;
+
+/// The next step.
+///
+/// # Errors
+/// The prompt shows no board, or no rules in words.
+pub(super) fn choose(shown: &Shown<'_>, seed: Seed) -> Result<Action, Unanswerable> {
+    // What VGDL says is said in words first.
+    let game = shown.vgdl.and_then(|vgdl| Game::from_source(vgdl).ok());
+    let guide = game.map(|game| sentences(Guide::of(&game))).unwrap_or_default();
+    let rules: Vec<&str> = shown.rules.iter().copied().chain(guide.iter().map(String::as_str)).collect();
+    if shown.cells.is_empty() || rules.is_empty() {
+        let what = "`reflex` reads the board as a grid and the rules in words or as VGDL: leave `grid` and the rules on";
+        return Err(Unanswerable(what.to_owned()));
+    }
+    let mut choices = seed.sampler();
+    let Some(you) = shown.you else { return Ok(*choices.choose(&deeds(&shown.actions))) };
+    let board = Board { columns: shown.columns, rows: shown.cells.len() / shown.columns };
+    let none = BTreeMap::new();
+    let held = shown.held.as_ref().unwrap_or(&none);
+    let beliefs = Beliefs::of(&rules, you.name);
+    let player = Reflex { shown, you, board, held, beliefs };
+    let fire = player.fire();
+    Ok(fire.or_else(|| player.go(&mut choices)).unwrap_or_else(|| player.stray(&mut choices)))
+}
+
+/// All that a guide says of the rules.
+fn sentences(guide: Guide) -> Vec<String> {
+    let Guide { controls, winning, losing, sprites, groups, clockwork, meetings, .. } = guide;
+    [controls, winning, losing, sprites, groups, clockwork, meetings].into_iter().flatten().collect()
+}
+
+struct Reflex<'a> {
+    shown: &'a Shown<'a>,
+    you: You<'a>,
+    board: Board,
+    held: &'a BTreeMap<&'a str, i32>,
+    beliefs: Beliefs<'a>,
+}
+
+impl Reflex<'_> {
+    /// What else is in a cell.
+    fn others(&self, cell: usize) -> impl Iterator<Item = &str> {
+        self.shown.cells[cell].iter().copied().filter(|name| *name != self.you.name)
+    }
+
+    fn is_deadly(&self, cell: usize) -> bool {
+        self.others(cell).any(|name| self.beliefs.is_deadly(name, self.held))
+    }
+
+    fn is_near_danger(&self, cell: usize) -> bool {
+        let lurks = |name: &str| self.beliefs.moves.contains(name) && self.beliefs.is_deadly(name, self.held);
+        let beside = WAYS.into_iter().filter_map(|(_, way)| self.board.beside(cell, way));
+        beside.into_iter().any(|beside| self.others(beside).any(lurks))
+    }
+
+    fn is_taken(&self, name: &str) -> bool {
+        self.beliefs.is_taken(name, self.held) && !self.beliefs.precious.contains(name)
+    }
+
+    /// It can be touched, but stays where it is.
+    fn is_blocked(&self, cell: usize) -> bool {
+        self.others(cell)
+            .any(|name| self.beliefs.blocks.contains(name) && !self.beliefs.is_taken(name, self.held))
+    }
+
+    /// How good it is to go to a cell: 0 is best.
+    fn worth(&self, cell: usize) -> Option<u32> {
+        let worth = |name: &str| {
+            let (beliefs, taken) = (&self.beliefs, self.is_taken(name));
+            if beliefs.wins.contains(name) && taken {
+                return Some(0);
+            }
+            if taken || beliefs.changes.contains(name) {
+                return Some(1);
+            }
+            let known = beliefs.blocks.contains(name)
+                || beliefs.pushed.contains(name)
+                || beliefs.precious.contains(name);
+            (!known && !beliefs.is_taken(name, &BTreeMap::new())).then_some(2)
+        };
+        self.others(cell).filter_map(worth).min()
+    }
+
+    /// What it costs to enter a cell that way; none if it kills or does not let one in.
+    fn price(&self, cell: usize, way: (isize, isize)) -> Option<u32> {
+        if self.is_deadly(cell) || (self.is_blocked(cell) && self.worth(cell).is_none_or(|worth| worth > 1)) {
+            return None;
+        }
+        let near = if self.is_near_danger(cell) { NEAR_DANGER } else { 0 };
+        if self.others(cell).any(|name| self.beliefs.pushed.contains(name)) {
+            let free = |beyond: usize| self.others(beyond).next().is_none();
+            return self.board.beside(cell, way).is_some_and(free).then_some(PUSH + near);
+        }
+        Some(1 + near)
+    }
+
+    /// The use key, if something that it ends is in line; a turn towards it, if it is in another line.
+    fn fire(&self) -> Option<Action> {
+        let shot = self.beliefs.shot.as_ref()?;
+        let has_ammo = |ammo: &&str| self.held.get(ammo).copied().unwrap_or(0) > 0;
+        if !self.shown.actions.contains(&Action::Use)
+            || !(shot.ammo.is_empty() || shot.ammo.iter().any(has_ammo))
+        {
+            return None;
+        }
+        let always = shot.flies.flatten();
+        let reach = if shot.flies.is_some() { usize::MAX } else { 1 };
+        let facing = always.and_then(|way| WAYS.into_iter().find(|(action, _)| action.to_string() == way));
+        let facing = facing.or_else(|| WAYS.into_iter().find(|(action, _)| Some(*action) == self.you.facing));
+        if let Some((_, way)) = facing
+            && self.target(way, reach).is_some()
+        {
+            return Some(Action::Use);
+        }
+        let turns =
+            WAYS.into_iter().filter(|(action, _)| self.shown.actions.contains(action) && always.is_none());
+        let mut seen = turns.filter_map(|(action, way)| Some((self.target(way, reach)?, action)));
+        // One that is too near is no longer waited for.
+        seen.find(|(distance, _)| *distance > 1).map(|(_, action)| action)
+    }
+
+    /// How far off the first thing that way is that a shot ends.
+    fn target(&self, way: (isize, isize), reach: usize) -> Option<usize> {
+        let mut cell = self.you.cell;
+        for distance in 1..=reach {
+            cell = self.board.beside(cell, way)?;
+            let foe = |name: &str| self.beliefs.is_shot(name) && !self.beliefs.precious.contains(name);
+            if self.others(cell).any(foe) {
+                return Some(distance);
+            }
+            if self
+                .others(cell)
+                .any(|name| self.beliefs.stops_shots(name) || self.beliefs.blocks.contains(name))
+            {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// The first step to the best thing that can be reached, the nearest of equals.
+    fn go(&self, choices: &mut Sampler) -> Option<Action> {
+        let enter = |cell: usize, way| self.price(cell, way);
+        let routes = Routes::from(self.board, self.you.cell, &self.shown.actions, enter, |cell| {
+            !self.is_blocked(cell)
+        });
+        let cells = 0..self.shown.cells.len();
+        let reached = cells.filter_map(|cell| Some((self.worth(cell)?, routes.to(cell)?)));
+        let (_, (cost, first)) = reached.min_by_key(|(worth, (cost, _))| (*worth, *cost))?;
+        // Its last step goes nowhere else.
+        (cost == 1 || choices.below(STRAYS) != 0).then_some(first)
+    }
+
+    /// Any step that is not known to be bad.
+    fn stray(&self, choices: &mut Sampler) -> Action {
+        let fine = |(action, way): (Action, (isize, isize))| {
+            let next = self.board.beside(self.you.cell, way)?;
+            let offered = self.shown.actions.contains(&action);
+            (offered && self.price(next, way).is_some() && !self.is_near_danger(next)).then_some(action)
+        };
+        let fine: Vec<Action> = WAYS.into_iter().filter_map(fine).collect();
+        *choices.choose(&if fine.is_empty() { deeds(&self.shown.actions) } else { fine })
+    }
+}

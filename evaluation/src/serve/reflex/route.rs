@@ -1,0 +1,73 @@
+//! Cheapest ways over a board.
+
+use engine::Action;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// The four ways, in the order in which equals are preferred.
+pub(super) const WAYS: [(Action, (isize, isize)); 4] =
+    [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
+
+/// A board of cells.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Board {
+    /// Its columns.
+    pub(super) columns: usize,
+    /// Its rows.
+    pub(super) rows: usize,
+}
+
+impl Board {
+    /// The next cell that way; none at the edge.
+    pub(super) fn beside(self, cell: usize, way: (isize, isize)) -> Option<usize> {
+        let column =
+            (cell % self.columns).checked_add_signed(way.0).filter(|&column| column < self.columns)?;
+        let row = (cell / self.columns).checked_add_signed(way.1).filter(|&row| row < self.rows)?;
+        Some(row * self.columns + column)
+    }
+}
+
+/// The cheapest ways from one cell to all others.
+#[derive(Debug)]
+pub(super) struct Routes(Vec<Option<(u32, Action)>>);
+
+impl Routes {
+    /// `enter`: what it costs to go into a cell that way; none if one cannot. `ends`: cells that can be entered but not
+    /// passed, for what it costs. Cost: O(cells log cells).
+    pub(super) fn from(
+        board: Board,
+        start: usize,
+        actions: &[Action],
+        enter: impl Fn(usize, (isize, isize)) -> Option<u32>,
+        passes: impl Fn(usize) -> bool,
+    ) -> Routes {
+        let mut best: Vec<Option<(u32, Action)>> = vec![None; board.columns * board.rows];
+        let mut queue = BinaryHeap::from([Reverse((0, 0_u32, start, Action::Nil))]);
+        let mut number = 0;
+        let mut done = vec![false; best.len()];
+        while let Some(Reverse((cost, _, cell, first))) = queue.pop() {
+            if std::mem::replace(&mut done[cell], true) {
+                continue;
+            }
+            if cell != start {
+                best[cell] = Some((cost, first));
+                if !passes(cell) {
+                    continue;
+                }
+            }
+            for (action, way) in WAYS.into_iter().filter(|(action, _)| actions.contains(action)) {
+                let Some(next) = board.beside(cell, way).filter(|&next| !done[next]) else { continue };
+                let Some(price) = enter(next, way) else { continue };
+                number += 1;
+                let first = if cell == start { action } else { first };
+                queue.push(Reverse((cost + price, number, next, first)));
+            }
+        }
+        Routes(best)
+    }
+
+    /// The cost of a cell, and the first step there.
+    pub(super) fn to(&self, cell: usize) -> Option<(u32, Action)> {
+        self.0[cell]
+    }
+}

@@ -1,0 +1,179 @@
+//! Planning on a position that is put together from what the prompt shows.
+//!
+//! This works where the prompt shows all that matters: the rules as VGDL, a game in which chance decides nothing, that waits
+//! for the player, and whose sprites have nothing that a board does not show. Where that is not certain, there is no answer.
+
+use super::Unanswerable;
+use super::shown::Shown;
+use agents::{Budget, Planner, PlannerSpec};
+use engine::analysis::Time;
+use engine::syntax::{Description, MappingLine, parse};
+use engine::{Action, Analysis, Direction, Game, Level, Seed};
+use std::collections::BTreeMap;
+
+/// Forward-model calls of a decision, where the planner's name does not say.
+const BUDGET: Budget = Budget(1000);
+
+/// Effects that leave nothing behind but what is where, and what the avatar holds.
+const SHOWN_EFFECTS: &[&str] = &[
+    "killSprite",
+    "killBoth",
+    "killAll",
+    "stepBack",
+    "undoAll",
+    "bounceForward",
+    "collectResource",
+    "collectResourceIfHeld",
+    "changeResource",
+    "transformTo",
+    "transformToAll",
+    "killIfHasMore",
+    "killIfHasLess",
+    "killIfOtherHasMore",
+    "killIfOtherHasLess",
+    "spawn",
+    "spawnIfHasMore",
+    "spawnIfHasLess",
+    "cloneSprite",
+    "teleportToExit",
+];
+
+/// Terminations that look at what is where, or at the clock.
+const SHOWN_ENDINGS: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpriteCounter", "Timeout"];
+
+/// What a planner plays on the position that a prompt shows.
+///
+/// # Errors
+/// The prompt does not show a position of a game that can be planned on: what is missing.
+pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Action, Unanswerable> {
+    let refuse =
+        |why: String| Err(Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")));
+    let Some(vgdl) = shown.vgdl else {
+        return refuse("it needs the rules as VGDL (`rules = \"vgdl\"`)".to_owned());
+    };
+    let (description, _) = parse(vgdl);
+    let game = match Game::compile(&description) {
+        Ok(game) => game,
+        Err(problems) => return refuse(format!("its VGDL does not compile: {problems}")),
+    };
+    if let Err(why) = is_shown(&Analysis::of(&game), shown) {
+        return refuse(why);
+    }
+    let position = match Position::of(description, shown) {
+        Ok(position) => position,
+        Err(why) => return refuse(why),
+    };
+    let Position { game, level } = position;
+    let facing = shown.you.and_then(|you| you.facing).and_then(direction);
+    let held = shown.held.iter().flatten();
+    let held: Vec<_> = held.filter_map(|(name, amount)| Some((game.sprite_type(name)?, *amount))).collect();
+    let state = game.start_as(&level, seed.child("unused", 0), facing, &held);
+    let (action, _) =
+        spec.player(seed.child("planner", 0)).plan(&game, &state, spec.budget().unwrap_or(BUDGET));
+    if shown.actions.contains(&action) { Ok(action) } else { Ok(Action::Nil) }
+}
+
+/// Whether a board, what the avatar holds and where it faces are all that there is to know in a game; if not, why.
+fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
+    let game = analysis.game();
+    let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
+    if analysis.chance_decides() {
+        return Err("chance plays a part in this game".to_owned());
+    }
+    if let Some(&unseen) = analysis.unseen().first() {
+        return Err(format!("the {} matters and cannot be seen", game.name(unseen)));
+    }
+    if analysis.taxonomy().time != Time::TurnBased {
+        return Err(
+            "things move while you do nothing in this game, and the board does not show where to".to_owned()
+        );
+    }
+    if let Some(fleeting) = possible().find(|&stype| analysis.facts(stype).fleeting) {
+        return Err(format!("the board does not show how long the {} stays", game.name(fleeting)));
+    }
+    if let Some(slow) = analysis.avatars().iter().find(|avatar| analysis.facts(avatar.stype).pace != 1.0) {
+        return Err(format!("the board does not show when the {} can move", game.name(slow.stype)));
+    }
+    let matters = |name: &str| {
+        let Some(stype) = game.sprite_type(name) else { return false };
+        let meets = analysis.encounters().iter().any(|encounter| {
+            analysis.applies(encounter.first, stype)
+                || encounter.second.is_some_and(|second| analysis.applies(second, stype))
+        });
+        meets || analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype))
+    };
+    if let Some(floor) = shown.floors.iter().find(|name| matters(name)) {
+        return Err(format!("the {floor} matters, and the board does not show it"));
+    }
+    let clauses = game.clauses();
+    let effects = clauses.interactions.iter().map(|clause| clause.effect);
+    let endings = clauses.terminations.iter().map(|clause| clause.class);
+    let unknown = effects.filter(|effect| !SHOWN_EFFECTS.contains(effect));
+    match unknown.chain(endings.filter(|ending| !SHOWN_ENDINGS.contains(ending))).next() {
+        Some(word) => Err(format!("`{word}` may leave behind what a board does not show")),
+        None => Ok(()),
+    }
+}
+
+/// A game with a level mapping for the position, and the position as a level.
+struct Position {
+    game: Game,
+    level: Level,
+}
+
+impl Position {
+    fn of(mut description: Description, shown: &Shown<'_>) -> Result<Position, String> {
+        if shown.you.is_none() || shown.cells.is_empty() {
+            return Err("it shows no board with an avatar (`grid` and `position`)".to_owned());
+        }
+        let symbols: Vec<char> = ('!'..='~').collect();
+        let mut mapping: BTreeMap<&[&str], char> = BTreeMap::new();
+        let mut text = String::new();
+        for row in shown.cells.chunks(shown.columns) {
+            for names in row {
+                let next = symbols.get(mapping.len()).copied();
+                text.push(match names.as_slice() {
+                    [] => ' ',
+                    names => match (mapping.get(names), next) {
+                        (Some(&symbol), _) => symbol,
+                        (None, Some(symbol)) => *mapping.entry(names).or_insert(symbol),
+                        (None, None) => return Err("it shows too many different cells".to_owned()),
+                    },
+                });
+            }
+            text.push('\n');
+        }
+        let line = |(names, symbol): (&[&str], char)| MappingLine {
+            symbol,
+            names: names.iter().map(|&name| name.into()).collect(),
+            ..MappingLine::default()
+        };
+        description.mapping = mapping.into_iter().map(line).collect();
+        wind(&mut description, shown.tick);
+        let game = Game::compile(&description)
+            .map_err(|problems| format!("its board is not of its game: {problems}"))?;
+        let level =
+            game.level(&text).map_err(|problems| format!("its board is no level of its game: {problems}"))?;
+        Ok(Position { game, level })
+    }
+}
+
+/// Limits of ticks come so many ticks sooner.
+fn wind(description: &mut Description, ticks: u32) {
+    let timeouts = description.terminations.iter_mut().filter(|line| line.class.text == "Timeout");
+    for param in timeouts.flat_map(|line| &mut line.params).filter(|param| param.key.text == "limit") {
+        if let Ok(limit) = param.value.text.parse::<i64>() {
+            param.value.text = (limit - i64::from(ticks)).max(1).to_string();
+        }
+    }
+}
+
+fn direction(facing: Action) -> Option<Direction> {
+    match facing {
+        Action::Up => Some(Direction::UP),
+        Action::Left => Some(Direction::LEFT),
+        Action::Down => Some(Direction::DOWN),
+        Action::Right => Some(Direction::RIGHT),
+        Action::Nil | Action::Use => None,
+    }
+}

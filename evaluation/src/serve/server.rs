@@ -1,0 +1,241 @@
+//! OpenAI-compatible chat completions, answered by a player.
+
+use super::{PromptPlayer, prompt_tokens, seed, tokens};
+use crate::client::{ChatMessage, Role};
+use crate::error::EvaluationError;
+use axum::Router;
+use axum::body::Bytes;
+use axum::extract::{DefaultBodyLimit, State};
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Json, Response};
+use axum::routing::{get, post};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use tokio::sync::oneshot;
+
+/// Bytes of a request at most: a long conversation with a picture.
+const MAX_REQUEST: usize = 32 << 20;
+
+/// A server that has its port and does not answer yet.
+#[derive(Debug)]
+pub struct Server {
+    player: PromptPlayer,
+    listener: TcpListener,
+    address: SocketAddr,
+}
+
+impl Server {
+    /// Takes a port of 127.0.0.1, any free one for 0. Nobody but this machine can reach it.
+    ///
+    /// # Errors
+    /// The port is taken.
+    pub fn bind(player: PromptPlayer, port: u16) -> Result<Server, EvaluationError> {
+        let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).and_then(|listener| {
+            listener.set_nonblocking(true)?;
+            let address = listener.local_addr()?;
+            Ok(Server { player, listener, address })
+        });
+        let place = format!("127.0.0.1:{port}");
+        bound.map_err(EvaluationError::io("listen on", place.as_ref()))
+    }
+
+    /// Where it listens.
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// What clients call the base URL.
+    pub fn base_url(&self) -> String {
+        format!("http://{}/v1", self.address)
+    }
+
+    /// Answers until the program ends. A player that thinks for long holds up nobody else.
+    ///
+    /// # Errors
+    /// The system will not let it.
+    pub fn run(self) -> Result<(), EvaluationError> {
+        self.run_until(std::future::pending())
+    }
+
+    /// Answers in the background until what is returned is dropped.
+    pub fn spawn(self) -> Running {
+        let base_url = self.base_url();
+        let (stop, stopped) = oneshot::channel();
+        let thread = std::thread::spawn(move || {
+            let _ = self.run_until(async {
+                let _: Result<(), _> = stopped.await;
+            });
+        });
+        Running { base_url, stop: Some(stop), thread: Some(thread) }
+    }
+
+    fn run_until(self, stopped: impl Future<Output = ()> + Send + 'static) -> Result<(), EvaluationError> {
+        let place = self.address.to_string();
+        let serve = || {
+            let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+            let router = router(self.player);
+            runtime.block_on(async {
+                let listener = tokio::net::TcpListener::from_std(self.listener)?;
+                axum::serve(listener, router).with_graceful_shutdown(stopped).await
+            })
+        };
+        serve().map_err(EvaluationError::io("listen on", place.as_ref()))
+    }
+}
+
+/// A server that answers. Dropping it stops it.
+#[derive(Debug)]
+pub struct Running {
+    base_url: String,
+    stop: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Running {
+    /// What clients call the base URL.
+    pub fn base_url(&self) -> &str {
+        &self.base_url
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        drop(self.stop.take());
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn router(player: PromptPlayer) -> Router {
+    let no_route = || async {
+        refusal(StatusCode::NOT_FOUND, "unknown_url", "there is POST /v1/chat/completions and GET /v1/models")
+    };
+    let no_method = || async {
+        refusal(
+            StatusCode::METHOD_NOT_ALLOWED,
+            "method_not_supported",
+            "use POST for /v1/chat/completions, GET for /v1/models",
+        )
+    };
+    Router::new()
+        .route("/v1/chat/completions", post(complete))
+        .route("/v1/models", get(models))
+        .fallback(no_route)
+        .method_not_allowed_fallback(no_method)
+        .layer(DefaultBodyLimit::max(MAX_REQUEST))
+        .with_state(Arc::new(player))
+}
+
+/// What of a request matters; how to sample does not.
+#[derive(Deserialize)]
+struct Request {
+    model: String,
+    messages: Vec<Message>,
+    #[serde(default)]
+    stream: bool,
+    n: Option<u32>,
+}
+
+#[derive(Deserialize)]
+struct Message {
+    role: String,
+    content: Content,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Content {
+    Text(String),
+    Parts(Vec<Part>),
+}
+
+#[derive(Deserialize)]
+struct Part {
+    /// None of a picture, which no player sees.
+    text: Option<String>,
+}
+
+async fn models(State(player): State<Arc<PromptPlayer>>) -> Json<Value> {
+    Json(json!({
+        "object": "list",
+        "data": [{"id": player.to_string(), "object": "model", "created": 0, "owned_by": "infinite-arcade"}],
+    }))
+}
+
+async fn complete(
+    State(player): State<Arc<PromptPlayer>>,
+    body: Result<Bytes, axum::extract::rejection::BytesRejection>,
+) -> Response {
+    let body = match body {
+        Ok(body) => body,
+        Err(error) => return refusal(error.status(), "unreadable_body", &error.body_text()),
+    };
+    let answered = tokio::task::spawn_blocking(move || completion(&player, &body)).await;
+    match answered {
+        Ok(Ok(document)) => Json(document).into_response(),
+        Ok(Err(refusal)) => refusal,
+        Err(_) => refusal(StatusCode::INTERNAL_SERVER_ERROR, "player_failed", "the player has failed"),
+    }
+}
+
+fn completion(player: &PromptPlayer, body: &[u8]) -> Result<Value, Response> {
+    let bad = |code, message: &str| refusal(StatusCode::BAD_REQUEST, code, message);
+    let request: Request =
+        serde_json::from_slice(body).map_err(|error| bad("invalid_json", &error.to_string()))?;
+    let name = player.to_string();
+    if request.model != name {
+        let message = format!("the model `{}` does not exist; this server has `{name}`", request.model);
+        return Err(refusal(StatusCode::NOT_FOUND, "model_not_found", &message));
+    }
+    if request.stream || request.n.is_some_and(|n| n != 1) {
+        return Err(bad(
+            "unsupported_value",
+            "answers come whole and one at a time: no `stream`, and `n` is 1",
+        ));
+    }
+    let messages = request.messages.into_iter().map(message).collect::<Result<Vec<_>, String>>();
+    let messages = messages.map_err(|error| bad("invalid_role", &error))?;
+    let answer = player.answer(&messages).map_err(|error| bad("unanswerable", &error.to_string()))?;
+    let (prompt, said) = (prompt_tokens(&messages), tokens(&answer));
+    let id = seed(&messages).to_string();
+    Ok(json!({
+        "id": format!("chatcmpl-{}", &id[..24.min(id.len())]),
+        "object": "chat.completion",
+        "created": 0,
+        "model": name,
+        "choices": [{
+            "index": 0,
+            "message": {"role": "assistant", "content": answer, "refusal": null},
+            "logprobs": null,
+            "finish_reason": "stop",
+        }],
+        "usage": {"prompt_tokens": prompt, "completion_tokens": said, "total_tokens": prompt + said},
+    }))
+}
+
+fn message(message: Message) -> Result<ChatMessage, String> {
+    let role = match message.role.as_str() {
+        "system" | "developer" => Role::System,
+        "user" => Role::User,
+        "assistant" => Role::Assistant,
+        other => return Err(format!("no role `{other}`; there are system, user and assistant")),
+    };
+    let text = match message.content {
+        Content::Text(text) => text,
+        Content::Parts(parts) => {
+            parts.into_iter().filter_map(|part| part.text).collect::<Vec<_>>().join("\n")
+        }
+    };
+    Ok(ChatMessage { role, text, image: None })
+}
+
+/// An error as the real interfaces tell it.
+fn refusal(status: StatusCode, code: &str, message: &str) -> Response {
+    let kind = if status.is_server_error() { "server_error" } else { "invalid_request_error" };
+    let error = json!({"error": {"message": message, "type": kind, "param": null, "code": code}});
+    (status, Json(error)).into_response()
+}

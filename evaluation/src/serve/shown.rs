@@ -1,0 +1,226 @@
+//! What a conversation shows, read back from its words (`docs/prompts.md` says what stands where).
+
+use super::Unanswerable;
+use crate::client::ChatMessage;
+use engine::Action;
+use std::collections::BTreeMap;
+
+/// The character of the avatar, unless the legend has others.
+const AVATAR: char = '@';
+
+/// A prompt, as a player reads it.
+#[derive(Debug, Default)]
+pub(super) struct Shown<'a> {
+    /// The sentences of the rules, in order; those about the keys too.
+    pub(super) rules: Vec<&'a str>,
+    /// The rules as VGDL, where they are told so.
+    pub(super) vgdl: Option<&'a str>,
+    /// What can be chosen now.
+    pub(super) actions: Vec<Action>,
+    /// Columns of the board; 0 without one.
+    pub(super) columns: usize,
+    /// Row-major: the names in each cell, from the lowest to the uppermost, floors left out.
+    pub(super) cells: Vec<Vec<&'a str>>,
+    /// Names that the board leaves out.
+    pub(super) floors: Vec<&'a str>,
+    /// Ticks played.
+    pub(super) tick: u32,
+    /// The player, while it is there.
+    pub(super) you: Option<You<'a>>,
+    /// What the player holds; none if that is not told.
+    pub(super) held: Option<BTreeMap<&'a str, i32>>,
+    /// Answers are numbers, as in the reference's style.
+    numbered: Option<Vec<Action>>,
+}
+
+/// Where and what the player is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct You<'a> {
+    /// Its type, as far as it is told.
+    pub(super) name: &'a str,
+    /// The cell.
+    pub(super) cell: usize,
+    /// Where it faces.
+    pub(super) facing: Option<Action>,
+}
+
+/// Sections of a message by heading, the first of each.
+struct Sections<'a>(Vec<(&'a str, &'a str)>);
+
+impl<'a> Sections<'a> {
+    fn of(message: &'a ChatMessage) -> Sections<'a> {
+        Sections(crate::prompt::sections(&message.text))
+    }
+
+    fn get(&self, heading: &str) -> Option<&'a str> {
+        self.0.iter().find(|(known, _)| *known == heading).map(|(_, body)| *body)
+    }
+}
+
+impl<'a> Shown<'a> {
+    /// Reads a conversation: the static part from its first message, the turn from the last one that shows one.
+    ///
+    /// # Errors
+    /// It lists no actions.
+    pub(super) fn of(messages: &'a [ChatMessage]) -> Result<Shown<'a>, Unanswerable> {
+        let missing = |what: &str| {
+            Unanswerable(format!("the prompt has no {what}; see docs/prompts.md for what stands where"))
+        };
+        let fixed = Sections::of(messages.first().ok_or_else(|| missing("messages"))?);
+        let mut turns = messages.iter().rev().map(Sections::of);
+        let turn = turns.find(|turn| turn.get("Board").or(turn.get("Turn")).is_some());
+        let turn = turn.unwrap_or(Sections(Vec::new()));
+        let mut shown = Shown::default();
+
+        let actions = fixed.get("Actions").ok_or_else(|| missing("section `Actions`"))?;
+        shown.read_actions(actions);
+        let rules = fixed.get("Rules").unwrap_or_default();
+        match rules.find("BasicGame").filter(|_| rules.contains("SpriteSet")) {
+            Some(start) => shown.vgdl = Some(&rules[start..]),
+            None => {
+                shown.rules =
+                    rules.lines().chain(actions.lines()).map(|line| line.trim_start_matches("- ")).collect()
+            }
+        }
+        let told = turn.get("Turn").unwrap_or_default();
+        if let Some(now) = told.lines().find_map(|line| line.strip_prefix("Actions now: ")) {
+            shown.actions = actions_of(now);
+        }
+        if shown.actions.is_empty() {
+            return Err(missing("actions that can be chosen"));
+        }
+        if let Some(board) = turn.get("Board") {
+            let legend = turn.get("Legend").or(fixed.get("Legend")).unwrap_or_default();
+            let symbols = Symbols::of(legend);
+            shown.read_board(board, &symbols, told);
+            shown.floors = symbols.floors;
+            shown.read_stacks(turn.get("Cells with several").unwrap_or_default());
+        }
+        let tick = told.strip_prefix("Tick ").and_then(|rest| rest.split_once(' '));
+        shown.tick = tick.and_then(|(tick, _)| tick.parse().ok()).unwrap_or(0);
+        shown.held = told.lines().find_map(|line| line.strip_prefix("You hold ")).map(holdings);
+        Ok(shown)
+    }
+
+    /// An action in the format that the conversation asks for.
+    pub(super) fn answer(&self, action: Action) -> String {
+        match &self.numbered {
+            None => format!("ACTION: {action}"),
+            Some(listed) => {
+                let number = listed.iter().position(|listed| *listed == action).unwrap_or_default();
+                format!("```\nAction:{number}\n```")
+            }
+        }
+    }
+
+    /// `nil, up, left`, or a line for each with its number.
+    fn read_actions(&mut self, section: &str) {
+        let numbered =
+            |line: &str| line.split_once(": ACTION_").and_then(|(_, name)| action(&name.to_lowercase()));
+        let listed: Vec<Action> = section.lines().filter_map(numbered).collect();
+        self.actions = if listed.is_empty() {
+            actions_of(section.lines().next().unwrap_or_default())
+        } else {
+            listed.clone()
+        };
+        self.numbered = Some(listed).filter(|listed| !listed.is_empty());
+    }
+
+    fn read_board(&mut self, board: &'a str, symbols: &Symbols<'a>, told: &'a str) {
+        self.columns = board.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+        let you = told.lines().find_map(|line| line.strip_prefix("You are the "));
+        let you = you.and_then(|line| line.split_once(" at (")).and_then(|(name, rest)| {
+            let (place, facing) = rest.split_once(')')?;
+            let (column, row) = place.split_once(',')?;
+            let cell = row.parse::<usize>().ok()? * self.columns + column.parse::<usize>().ok()?;
+            let facing = facing.strip_prefix(", facing ").and_then(|word| action(word.trim_end_matches('.')));
+            Some(You { name, cell, facing })
+        });
+        self.you = you;
+        for line in board.lines() {
+            let row = self.cells.len();
+            for symbol in line.chars() {
+                let cell = self.cells.len();
+                let own = symbol == symbols.you;
+                if own && self.you.is_none() {
+                    let name = symbols.names.get(&symbol).copied().unwrap_or("avatar");
+                    self.you = Some(You { name, cell, facing: None });
+                }
+                let here = self.you.filter(|you| you.cell == cell).map(|you| you.name);
+                self.cells.push(here.or(symbols.names.get(&symbol).copied()).into_iter().collect());
+            }
+            self.cells.resize(row + self.columns, Vec::new());
+        }
+        self.you = self.you.filter(|you| you.cell < self.cells.len());
+    }
+
+    /// `frost over snow: (3,4) (5,4)`, a line for each pile.
+    fn read_stacks(&mut self, section: &'a str) {
+        for line in section.lines() {
+            let Some((names, places)) = line.split_once(": ") else { continue };
+            let names: Vec<&str> = names.rsplit(" over ").collect();
+            let places = places.split_whitespace().filter_map(|place| {
+                let (column, row) = place.strip_prefix('(')?.strip_suffix(')')?.split_once(',')?;
+                Some((column.parse::<usize>().ok()?, row.parse::<usize>().ok()?))
+            });
+            for (column, row) in places.filter(|(column, _)| *column < self.columns) {
+                if let Some(cell) = self.cells.get_mut(row * self.columns + column) {
+                    cell.clone_from(&names);
+                }
+            }
+        }
+    }
+}
+
+/// What characters stand for.
+struct Symbols<'a> {
+    names: BTreeMap<char, &'a str>,
+    you: char,
+    floors: Vec<&'a str>,
+}
+
+impl<'a> Symbols<'a> {
+    /// `w wall`, `@ you: bare or armed`, `. nothing or floor`; `wall -> 'w'` in the reference's style.
+    fn of(legend: &'a str) -> Symbols<'a> {
+        let mut symbols = Symbols { names: BTreeMap::new(), you: AVATAR, floors: Vec::new() };
+        for line in legend.lines() {
+            if let Some((name, symbol)) = line.strip_suffix('\'').and_then(|line| line.split_once(" -> '")) {
+                symbols.names.extend(symbol.chars().next().map(|symbol| (symbol, name)));
+                continue;
+            }
+            let mut characters = line.chars();
+            let (Some(symbol), Some(names)) = (characters.next(), characters.as_str().strip_prefix(' '))
+            else {
+                continue;
+            };
+            match names.strip_prefix("you: ") {
+                _ if names.starts_with("nothing") => symbols.floors = names.split(" or ").skip(1).collect(),
+                Some(states) => {
+                    symbols.you = symbol;
+                    symbols.names.insert(symbol, states.split(" or ").next().unwrap_or(states));
+                }
+                None => {
+                    symbols.names.insert(symbol, names);
+                }
+            }
+        }
+        symbols
+    }
+}
+
+/// `2 key, 1 gem.`, which further sentences may follow; `nothing.`
+fn holdings(text: &str) -> BTreeMap<&str, i32> {
+    let list = text.split_once('.').map_or(text, |(list, _)| list);
+    let items = list.split(", ").filter_map(|item| item.split_once(' '));
+    items.filter_map(|(amount, name)| Some((name, amount.parse().ok()?))).collect()
+}
+
+/// `nil, up, left`.
+fn actions_of(list: &str) -> Vec<Action> {
+    list.split(", ").filter_map(|word| action(word.trim())).collect()
+}
+
+/// By name.
+fn action(word: &str) -> Option<Action> {
+    Action::ALL.into_iter().find(|action| action.to_string() == word)
+}

@@ -1,0 +1,261 @@
+//! Served players: over the network they play the moves that they play when they are called directly, and what cannot be
+//! answered is told as the real interfaces tell it.
+
+use engine::{Action, Game, Observation, Outcome, Seed, State};
+use evaluation::answer::Reading;
+use evaluation::client::{ChatMessage, ChatRequest, Decoding, Model, ModelOptions, Role, connect};
+use evaluation::prompt::{Attempt, Mode, Past, PromptSettings, Prompter, Rules};
+use evaluation::serve::{PromptPlayer, Running, Server};
+use evaluation::{Before, Subject, SubjectFacts, Turn};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Decisions of an episode at most.
+const LIMIT: u64 = 200;
+
+/// A game of the corpus with its first level.
+fn corpus_game(folder: &Path) -> Subject {
+    let text = |file: &str| std::fs::read_to_string(folder.join(file)).unwrap();
+    let name = folder.file_name().unwrap().to_str().unwrap();
+    subject(name, &text("game.vgdl"), &text("lvl0.txt"))
+}
+
+fn subject(name: &str, source: &str, level: &str) -> Subject {
+    Subject::read(name, source, &[(0, level.to_owned(), None)], SubjectFacts::default()).unwrap()
+}
+
+fn corpus() -> Vec<Subject> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora");
+    let entries = std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
+    let mut folders: Vec<_> = entries.filter(|path| path.join("game.vgdl").exists()).collect();
+    folders.sort();
+    folders.iter().map(|folder| corpus_game(folder)).collect()
+}
+
+fn offered(game: &Game, state: &State) -> Vec<Action> {
+    [Action::Nil].iter().chain(game.actions(state)).copied().collect()
+}
+
+/// What is played when a player answers the prompts of a level; whether it is won.
+fn episode(
+    subject: &Subject,
+    settings: &PromptSettings,
+    answer: impl Fn(&[ChatMessage]) -> String,
+) -> (Vec<Action>, Outcome) {
+    let prompter = Prompter::new(subject, settings.clone()).unwrap();
+    let game = &subject.game;
+    let mut state = game.start(&subject.levels[0].level, Seed::from_text("served").child(&subject.id, 0));
+    let (mut actions, mut past): (Vec<Action>, Vec<Past>) = (Vec::new(), Vec::new());
+    let mut before: Option<(Observation, Action, f64)> = None;
+    while !state.is_over() && (actions.len() as u64) < LIMIT {
+        let (observation, score) = (game.observe(&state), state.score());
+        let turn = Turn {
+            subject,
+            level: 0,
+            number: actions.len() as u64,
+            limit: LIMIT,
+            observation: &observation,
+            before: before.as_ref().map(|(observation, action, reward)| Before {
+                observation,
+                action: *action,
+                reward: *reward,
+            }),
+            actions: &offered(game, &state),
+        };
+        let prompt = prompter.prompt(&turn, &past, &[]);
+        let answer = answer(&prompt.messages);
+        let action = match prompter.read(&answer, &turn) {
+            Reading::Strict(action) => action,
+            other => panic!("{}: {other:?}: {answer}", subject.id),
+        };
+        game.step(&mut state, action);
+        actions.push(action);
+        past.push(Past::new(prompt.shown, &[Attempt { answer, complaint: None }], action));
+        before = Some((observation, action, state.score() - score));
+    }
+    (actions, state.outcome())
+}
+
+fn directly(player: &PromptPlayer) -> impl Fn(&[ChatMessage]) -> String {
+    |messages| player.answer(messages).unwrap()
+}
+
+fn spawn(player: &str) -> Running {
+    Server::bind(player.parse().unwrap(), 0).unwrap().spawn()
+}
+
+/// The status and the document of a reply.
+fn post(server: &Running, path: &str, body: &str) -> (u16, Value) {
+    let agent: ureq::Agent = ureq::Agent::config_builder().http_status_as_error(false).build().into();
+    let request = agent.post(format!("{}{path}", server.base_url()));
+    let mut reply = request.content_type("application/json").send(body).unwrap();
+    let text = reply.body_mut().read_to_string().unwrap();
+    (reply.status().as_u16(), serde_json::from_str(&text).unwrap())
+}
+
+fn body(model: &str, messages: &[ChatMessage]) -> String {
+    let role = |role: Role| match role {
+        Role::System => "system",
+        Role::User => "user",
+        Role::Assistant => "assistant",
+    };
+    let messages: Vec<Value> =
+        messages.iter().map(|message| json!({"role": role(message.role), "content": message.text})).collect();
+    json!({"model": model, "messages": messages, "temperature": 0.7}).to_string()
+}
+
+/// Through a model's client, whichever it is.
+fn through(model: &dyn Model, messages: &[ChatMessage]) -> String {
+    let (messages, sample) = (messages.to_vec(), Seed::from_text("through"));
+    model.chat(&ChatRequest { messages, decoding: Decoding::default(), sample }).unwrap().text
+}
+
+#[test]
+fn moves_over_the_network_are_those_of_a_direct_call() {
+    for (name, mode) in [("random", Mode::ZeroShot), ("reflex", Mode::ZeroShot), ("reflex", Mode::Contextual)]
+    {
+        let (player, server): (PromptPlayer, Running) = (name.parse().unwrap(), spawn(name));
+        let base_url = Some(server.base_url().to_owned());
+        let remote =
+            connect(&ModelOptions { base_url, ..ModelOptions::new(&format!("openai:{name}")) }).unwrap();
+        let settings = PromptSettings { mode, ..PromptSettings::default() };
+        let mut played = 0;
+        for subject in corpus().iter().take(10) {
+            let direct = episode(subject, &settings, |messages| through(&player, messages));
+            let remotely = episode(subject, &settings, |messages| through(&*remote.model, messages));
+            assert_eq!(remotely, direct, "{name} on {}", subject.id);
+            played += direct.0.len();
+        }
+        assert!(played > 200, "{name} played {played} moves only");
+    }
+}
+
+#[test]
+fn reflex_is_better_than_random() {
+    let settings = PromptSettings::default();
+    let wins = |player: &PromptPlayer| {
+        let won = |subject: &&Subject| episode(subject, &settings, directly(player)).1 == Outcome::Won;
+        corpus().iter().filter(won).count()
+    };
+    let (random, reflex) = (wins(&PromptPlayer::Random), wins(&PromptPlayer::Reflex));
+    println!("of the first levels of the corpus, random wins {random} and reflex {reflex}");
+    assert!(reflex > random, "{reflex} {random}");
+}
+
+/// A lamp behind a gate that a key opens, a moth that kills, a bat to be shot.
+const LAMP: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    lamp > Door\n    gate > Immovable\n    key > Resource limit=2\n    moth > Immovable\n    bat > Immovable\n    dart > Missile\n    avatar > ShootAvatar stype=dart\n  LevelMapping\n    . > floor\n    A > avatar floor\n    l > lamp floor\n    g > gate floor\n    k > key floor\n    m > moth floor\n    b > bat floor\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    key avatar > collectResource\n    avatar moth bat > killSprite\n    bat dart > killBoth\n    dart wall > killSprite\n    lamp avatar > killSprite scoreChange=5\n  TerminationSet\n    MultiSpriteCounter stype1=lamp stype2=bat win=True\n    SpriteCounter stype=avatar win=False\n";
+
+#[test]
+fn reflex_goes_by_the_rules() {
+    let reflex = PromptPlayer::Reflex;
+    let check = |level: &str, limit: usize| {
+        for rules in [Rules::Described, Rules::Vgdl] {
+            let settings = PromptSettings { rules, ..PromptSettings::default() };
+            let (actions, outcome) = episode(&subject("lamp", LAMP, level), &settings, directly(&reflex));
+            assert_eq!(outcome, Outcome::Won, "{level}{rules:?} {actions:?}");
+            assert!(actions.len() <= limit, "{level}{rules:?} {actions:?}");
+        }
+    };
+    // The lamp at once; around the moth; the key first, then through the gate; the bat from afar.
+    check("wwwwww\nwA..lw\nwwwwww\n", 12);
+    check("wwwwwww\nwA.m.lw\nw.....w\nwwwwwww\n", 24);
+    check("wwwwwwww\nw.A.wl.w\nw...g..w\nwk..w..w\nwwwwwwww\n", 60);
+    check("wwwwwwww\nwA....bw\nw......w\nwwwwwwww\n", 12);
+}
+
+/// Two crates to be pushed onto two drains, past each other.
+const CELLAR: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    drain > Door\n    crate > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    A > avatar floor\n    x > crate floor\n    o > drain floor\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall crate > undoAll\n    crate drain > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    Timeout limit=100 win=False\n";
+const CELLAR_LEVEL: &str = "wwwwwww\nw...o.w\nw.x...w\nw.Ax.ow\nw.....w\nwwwwwww\n";
+
+#[test]
+fn a_planner_wins_on_the_position_that_it_reads() {
+    let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };
+    let cellar = subject("cellar", CELLAR, CELLAR_LEVEL);
+    let (_, outcome) = episode(&cellar, &settings, directly(&"planner:mcts:2000".parse().unwrap()));
+    assert_eq!(outcome, Outcome::Won);
+}
+
+#[test]
+fn planners_refuse_what_a_board_does_not_show() {
+    let refusal = |source: &str, level: &str, settings: &PromptSettings| {
+        let subject = subject("refused", source, level);
+        let player: PromptPlayer = "planner:mcts:20".parse().unwrap();
+        let prompter = Prompter::new(&subject, settings.clone()).unwrap();
+        let state = subject.game.start(&subject.levels[0].level, Seed::from_text("refused"));
+        let observation = subject.game.observe(&state);
+        let actions = &offered(&subject.game, &state);
+        let (subject, observation) = (&subject, &observation);
+        let turn = Turn { subject, level: 0, number: 0, limit: 9, observation, before: None, actions };
+        player.answer(&prompter.prompt(&turn, &[], &[]).messages).unwrap_err().to_string()
+    };
+    let vgdl = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };
+    let check = |source: &str, settings: &PromptSettings, words: &str| {
+        let message = refusal(source, CELLAR_LEVEL, settings);
+        assert!(message.starts_with("`planner:mcts:20` cannot plan on this prompt: "), "{message}");
+        assert!(message.contains(words), "{message}");
+    };
+    check(CELLAR, &PromptSettings::default(), "it needs the rules as VGDL");
+    check(&CELLAR.replace("crate > Passive", "crate > RandomNPC"), &vgdl, "chance plays a part");
+    check(
+        &CELLAR.replace("drain > Door", "drain > Door hidden=True"),
+        &vgdl,
+        "the drain matters and cannot be seen",
+    );
+    check(
+        &CELLAR.replace("crate > Passive", "crate > Missile orientation=LEFT"),
+        &vgdl,
+        "things move while you do nothing",
+    );
+    check(&CELLAR.replace("MovingAvatar", "MovingAvatar cooldown=3"), &vgdl, "when the avatar can move");
+    check(
+        &CELLAR.replace("crate drain > killSprite", "crate drain > subtractHealthPoints"),
+        &vgdl,
+        "`subtractHealthPoints`",
+    );
+    let mut blind = vgdl.clone();
+    blind.encodings.grid = false;
+    check(CELLAR, &blind, "no board");
+}
+
+#[test]
+fn errors_have_the_form_of_the_real_interfaces() {
+    let server = spawn("random");
+    let check = |path: &str, body: &str, status: u16, code: &str| {
+        let (got, document) = post(&server, path, body);
+        assert_eq!((got, &document["error"]["code"]), (status, &Value::from(code)), "{document}");
+        assert!(document["error"]["message"].as_str().is_some_and(|message| !message.is_empty()));
+        assert_eq!(document["error"]["type"], "invalid_request_error");
+    };
+    let user = |text: &str| vec![ChatMessage { role: Role::User, text: text.to_owned(), image: None }];
+    check("/chat/completions", "{", 400, "invalid_json");
+    check("/chat/completions", "{\"model\":\"random\"}", 400, "invalid_json");
+    check("/chat/completions", &body("gpt", &user("hi")), 404, "model_not_found");
+    check("/chat/completions", &body("random", &user("hi")), 400, "unanswerable");
+    check("/chat/completions", &body("random", &[]), 400, "unanswerable");
+    check("/chat/completions", &body("random", &user("hi")).replace("user", "judge"), 400, "invalid_role");
+    let streamed = body("random", &user("hi")).replace("\"temperature\":0.7", "\"stream\":true");
+    check("/chat/completions", &streamed, 400, "unsupported_value");
+    check("/embeddings", "{}", 404, "unknown_url");
+    check("/models", "{}", 405, "method_not_supported");
+    check("/chat/completions", &" ".repeat(33 << 20), 413, "unreadable_body");
+}
+
+#[test]
+fn what_is_asked_by_hand_is_answered() {
+    let server = spawn("random");
+    let text = "## Actions\nnil, use\n\n## Turn\nTick 3 of at most 9. Score 0.";
+    let parts = json!([{"type": "text", "text": text}, {"type": "image_url", "image_url": {"url": "data:"}}]);
+    let request =
+        json!({"model": "random", "messages": [{"role": "user", "content": parts}], "n": 1, "stream": false});
+    let (status, reply) = post(&server, "/chat/completions", &request.to_string());
+    assert_eq!(status, 200, "{reply}");
+    let choice = &reply["choices"][0];
+    assert_eq!(choice["message"], json!({"role": "assistant", "content": "ACTION: use", "refusal": null}));
+    assert_eq!((&choice["finish_reason"], &reply["model"]), (&"stop".into(), &"random".into()));
+    let prompt = text.len().div_ceil(4);
+    let usage = json!({"prompt_tokens": prompt, "completion_tokens": 3, "total_tokens": prompt + 3});
+    assert_eq!(reply["usage"], usage);
+    let mut models = ureq::get(format!("{}/models", server.base_url())).call().unwrap();
+    let models: Value = serde_json::from_str(&models.body_mut().read_to_string().unwrap()).unwrap();
+    assert_eq!(models["data"][0]["id"], "random");
+}
