@@ -21,6 +21,7 @@ use model::{ModelArgs, Prompters};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
 /// Has a player play a snapshot or games, and records every episode.
 ///
@@ -92,7 +93,8 @@ enum Ready {
     Replay(Replay),
     Human(Prompters),
     Prompted(PromptPlayer, Prompters),
-    Process(Process),
+    /// A command line, and seconds for an answer.
+    Process(String, u64),
     Model(Box<model::Ready>),
 }
 
@@ -174,7 +176,11 @@ impl Asked {
                 (format!("cmd:{command}"), json!({ "command": command, "protocol": PROTOCOL }))
             }
         };
-        Ok(Entrant { name, mode: None, aids: Vec::new(), details })
+        let aids = match self {
+            Asked::Human(prompts) | Asked::Prompted(_, prompts) => prompts.aids(),
+            _ => Vec::new(),
+        };
+        Ok(Entrant { name, mode: None, aids, details })
     }
 
     fn ready(self, args: &Args, evaluation: &Evaluation) -> Result<Ready, Failure> {
@@ -185,7 +191,7 @@ impl Asked {
             Asked::Prompted(player, prompts) => {
                 Ready::Prompted(player, model::prompters(&evaluation.subjects, &prompts)?)
             }
-            Asked::Process(process) => Ready::Process(process),
+            Asked::Process(process) => Ready::Process(process.command().to_owned(), args.model.timeout),
             Asked::Model(model) => Ready::Model(Box::new(model.connect(evaluation)?)),
         })
     }
@@ -203,7 +209,10 @@ impl Ready {
                 let prompter = prompters[&task.subject.id].clone();
                 Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter)))
             }
-            Ready::Process(process) => Contestant::Agent(Box::new(process.another())),
+            Ready::Process(command, timeout) => {
+                let process = process(command, *timeout).expect("it was read before");
+                Contestant::Agent(Box::new(process))
+            }
             Ready::Model(model) => model.contestant(task),
         }
     }
@@ -213,7 +222,7 @@ impl Ready {
         match self {
             Ready::Model(_) => Some(args.model.concurrency.get()),
             Ready::Human(_) => Some(1),
-            Ready::Planner(..) | Ready::Replay(_) | Ready::Prompted(..) | Ready::Process(_) => args.jobs,
+            _ => args.jobs,
         }
     }
 }
@@ -231,15 +240,20 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
         return Ok(Asked::Human(args.model.prompt.settings()?));
     }
     if let Some(command) = player.strip_prefix("cmd:") {
-        return Process::new(command, ProcessConfig::default())
-            .map(Asked::Process)
-            .map_err(Failure::malformed);
+        return process(command, args.model.timeout).map(Asked::Process).map_err(Failure::malformed);
     }
-    if player == "reflex" {
-        return Ok(Asked::Prompted(PromptPlayer::Reflex, args.model.prompt.settings()?));
+    if player == "reflex" || player.starts_with("planner:") {
+        let player: PromptPlayer = player.parse().map_err(Failure::malformed)?;
+        return Ok(Asked::Prompted(player, args.model.prompt.settings()?));
     }
     let name = if player == "nil" { "do-nothing" } else { player };
     name.parse().map(Asked::Planner).map_err(Failure::malformed)
+}
+
+/// A program as a player.
+fn process(command: &str, timeout: u64) -> Result<Process, String> {
+    let timeout = Duration::from_secs(timeout.max(1));
+    Process::new(command, ProcessConfig { timeout, ..ProcessConfig::default() })
 }
 
 /// `results/` and who plays.
@@ -260,7 +274,7 @@ fn file_name(name: &str) -> String {
 fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, ready: &Ready) -> Answer {
     let spent = match ready {
         Ready::Model(model) => Some(model.caps.spent()),
-        Ready::Planner(..) | Ready::Replay(_) | Ready::Human(_) => None,
+        _ => None,
     };
     let spending = spent.map(
         |spent| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": spent.cost.dollars() }),

@@ -78,9 +78,9 @@ pub(crate) struct ModelArgs {
     /// Tries of a request in all
     #[arg(long, value_name = "N", default_value = "8")]
     tries: NonZeroU32,
-    /// Seconds that a try may take
+    /// Seconds that a try, or an answer of a program, may take
     #[arg(long, value_name = "S", default_value_t = 600)]
-    timeout: u64,
+    pub(crate) timeout: u64,
     #[command(flatten)]
     pub(crate) prompt: PromptArgs,
 }
@@ -212,25 +212,6 @@ impl PromptArgs {
         }
         Ok(settings)
     }
-
-    /// What is beyond or short of the default, a word each, for tables.
-    fn aids(&self) -> Vec<String> {
-        let mut aids: Vec<String> = self.with.iter().map(|aid| format!("+{}", aid.name())).collect();
-        aids.extend(self.without.iter().map(|aid| format!("-{}", aid.name())));
-        let switches = [
-            (matches!(self.prompt_style, StyleName::Reference), "style=reference"),
-            (matches!(self.rules, RulesName::Vgdl), "rules=vgdl"),
-            (matches!(self.rules, RulesName::None), "rules=none"),
-            (self.masked_names, "masked-names"),
-            (self.identity_tracking, "identity-tracking"),
-            (self.shuffle_symbols.is_some(), "shuffled-symbols"),
-            (self.strategy.is_some(), "+strategy"),
-        ];
-        aids.extend(switches.into_iter().filter(|(on, _)| *on).map(|(_, name)| name.to_owned()));
-        aids.sort();
-        aids.dedup();
-        aids
-    }
 }
 
 impl Aid {
@@ -289,7 +270,6 @@ pub(crate) struct Asked {
     options: ModelOptions,
     settings: ModelSettings,
     prompts: PromptSettings,
-    aids: Vec<String>,
     reasks: u32,
 }
 
@@ -323,8 +303,8 @@ impl Asked {
         let options = args.options(model)?;
         let settings = client::settings(&options).map_err(failure)?;
         client::price(&options).map_err(failure)?;
-        let (prompts, aids, reasks) = (args.prompt.settings()?, args.prompt.aids(), args.reasks);
-        Ok(Asked { options, settings, prompts, aids, reasks })
+        let (prompts, reasks) = (args.prompt.settings()?, args.reasks);
+        Ok(Asked { options, settings, prompts, reasks })
     }
 
     /// Who plays, as results call it.
@@ -338,7 +318,7 @@ impl Asked {
         Ok(Entrant {
             name: self.settings.model.clone(),
             mode: Some(mode.to_owned()),
-            aids: self.aids.clone(),
+            aids: self.prompts.aids(),
             details: json!({
                 "model": self.settings,
                 "prompt": self.prompts,

@@ -76,17 +76,6 @@ impl Process {
         &self.command
     }
 
-    /// Another one of the same, not started yet: each episode has its own.
-    #[must_use]
-    pub fn another(&self) -> Process {
-        Process {
-            command: self.command.clone(),
-            words: self.words.clone(),
-            config: self.config.clone(),
-            running: None,
-        }
-    }
-
     /// The process, started and greeted if it is not yet.
     fn running(&mut self, turn: &Turn<'_>) -> Result<&mut Running, Halt> {
         let running = match self.running.take() {
