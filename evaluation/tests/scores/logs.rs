@@ -38,7 +38,7 @@ BasicGame
 const HALL: &str = "wwwwwww\nwA g dw\nwwwwwww\nwm    w\nwwwwwww";
 const STORE: &str = "wwwwwwww\nwA b  dw\nwwwwwwww";
 
-fn subject() -> Subject {
+pub(crate) fn subject() -> Subject {
     let levels = [(0, HALL.to_owned(), Some(4)), (3, STORE.to_owned(), None)];
     Subject::read("hall", GAME, &levels, SubjectFacts::default()).expect("the game is sound")
 }

@@ -1,5 +1,6 @@
 //! What is measured of episodes, and what a study makes of it.
 
+mod folders;
 mod logs;
 mod paper;
 mod study;

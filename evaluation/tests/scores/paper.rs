@@ -5,6 +5,7 @@ use crate::episode;
 use engine::Outcome;
 use evaluation::metrics::EpisodeMetrics;
 use evaluation::study::{CONTEXTUAL, Player, Scope, Study, TableCell, ZERO_SHOT};
+use std::io::Write;
 use std::path::Path;
 
 /// Levels and runs of the main experiment.
@@ -17,7 +18,7 @@ type Row = (Player, Vec<(String, u64)>);
 fn published() -> Option<Vec<Row>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/spec/paper-winrates.csv");
     let Ok(mut reader) = csv::Reader::from_path(&path) else {
-        eprintln!("SKIPPED: {} is not there", path.display());
+        let _ = writeln!(std::io::stderr(), "SKIPPED: {} is not there", path.display());
         return None;
     };
     let games: Vec<String> = reader.headers().unwrap().iter().skip(2).map(str::to_owned).collect();
