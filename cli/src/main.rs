@@ -4,6 +4,7 @@ mod conformance;
 mod console;
 mod embedded;
 mod episodes;
+mod evaluation_report;
 mod failure;
 mod game_report;
 mod input;
@@ -43,6 +44,7 @@ enum Verb {
     Run(verbs::run::Args),
     Evaluate(verbs::evaluate::Args),
     ServePlayer(verbs::serve_player::Args),
+    Report(verbs::report::Args),
     Play(verbs::play::Args),
     Render(verbs::render::Args),
     Describe(verbs::describe::Args),
@@ -70,6 +72,7 @@ fn main() -> ExitCode {
         Verb::Run(args) => verbs::run::run(&args, &console),
         Verb::Evaluate(args) => verbs::evaluate::run(&args, &console),
         Verb::ServePlayer(args) => verbs::serve_player::run(&args, &console),
+        Verb::Report(args) => verbs::report::run(&args, &console),
         Verb::Play(args) => verbs::play::run(&args, &console),
         Verb::Render(args) => verbs::render::run(&args, &console),
         Verb::Describe(args) => verbs::describe::run(&args, &console),

@@ -11,7 +11,7 @@ pub fn svg(picture: &Picture) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n<defs>\n"
     );
     for (at, tile) in picture.tiles().iter().enumerate() {
-        define(&mut text, at, tile);
+        text.push_str(&svg_tile(&format!("t{at}"), tile));
     }
     text.push_str("</defs>\n");
     for stamp in picture.stamps() {
@@ -26,8 +26,9 @@ pub fn svg(picture: &Picture) -> String {
     text
 }
 
-fn define(text: &mut String, at: usize, tile: &Tile) {
-    let _ = write!(text, "<g id=\"t{at}\">");
+/// A tile as an SVG group of this id, in a unit square: for pages that stamp it many times. Hovering over it tells its name.
+pub fn svg_tile(id: &str, tile: &Tile) -> String {
+    let mut text = format!("<g id=\"{id}\">");
     if let Some(name) = &tile.name {
         let _ = write!(text, "<title>{}</title>", escaped(name));
     }
@@ -45,6 +46,7 @@ fn define(text: &mut String, at: usize, tile: &Tile) {
         };
     }
     text.push_str("</g>\n");
+    text
 }
 
 fn path(outline: &Outline) -> String {

@@ -74,6 +74,12 @@ impl Fact {
     pub(crate) fn of(self, of: String) -> Fact {
         Fact { of, ..self }
     }
+
+    /// Its interval.
+    #[must_use]
+    pub(crate) fn within(self, band: String) -> Fact {
+        Fact { band, ..self }
+    }
 }
 
 /// Quantiles in a line; none of nothing.

@@ -1,6 +1,7 @@
 //! What the pages of all reports share: how figures are worded and laid out, and the template parts that show them.
 
 pub(crate) mod facts;
+pub(crate) mod plots;
 pub(crate) mod words;
 
 use crate::failure::Failure;
@@ -9,32 +10,56 @@ use base64::engine::general_purpose::STANDARD;
 use minijinja::Environment;
 use minijinja::value::{Serde, Value};
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// The templates that a page may include or import.
-const SHARED: [(&str, &str); 2] =
-    [("style.css", include_str!("style.css")), ("parts.html", include_str!("parts.html"))];
+const SHARED: [(&str, &str); 4] = [
+    ("style.css", include_str!("style.css")),
+    ("plots.css", include_str!("plots.css")),
+    ("dark.css", include_str!("dark.css")),
+    ("parts.html", include_str!("parts.html")),
+];
 
 /// A picture in a page.
 #[derive(Serialize)]
 pub(crate) struct Figure<'a> {
     png: String,
     size: [u32; 2],
-    head: &'a str,
-    line: &'a str,
+    head: Cow<'a, str>,
+    line: Cow<'a, str>,
 }
 
 impl<'a> Figure<'a> {
     /// A PNG of this size, with what is said under it.
-    pub(crate) fn new(png: &[u8], size: [u32; 2], head: &'a str, line: &'a str) -> Figure<'a> {
-        Figure { png: STANDARD.encode(png), size, head, line }
+    pub(crate) fn new(
+        png: &[u8],
+        size: [u32; 2],
+        head: impl Into<Cow<'a, str>>,
+        line: impl Into<Cow<'a, str>>,
+    ) -> Figure<'a> {
+        Figure { png: STANDARD.encode(png), size, head: head.into(), line: line.into() }
+    }
+
+    /// What it takes of the page.
+    pub(crate) fn bytes(&self) -> usize {
+        self.png.len()
     }
 }
 
 /// The page that a template makes: one HTML file that needs nothing else. The same arguments give the same bytes.
 pub(crate) fn render(template: &'static str, page: &impl Serialize) -> Result<String, Failure> {
+    render_with(&[], template, page)
+}
+
+/// The page of a template that includes or imports these, by name, beside the shared ones.
+pub(crate) fn render_with(
+    parts: &[(&'static str, &'static str)],
+    template: &'static str,
+    page: &impl Serialize,
+) -> Result<String, Failure> {
     let render = || {
         let mut environment = Environment::new();
-        for (name, text) in SHARED {
+        for (name, text) in SHARED.iter().chain(parts) {
             environment.add_template(name, text)?;
         }
         environment.add_template("page.html", template)?;

@@ -9,6 +9,7 @@ pub(crate) mod play;
 pub(crate) mod regenerate;
 pub(crate) mod release;
 pub(crate) mod render;
+pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod serve_player;
 pub(crate) mod validate;

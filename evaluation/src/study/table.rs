@@ -72,7 +72,7 @@ impl TableCell {
     }
 
     /// As people read it.
-    fn plain(&self) -> String {
+    pub fn plain(&self) -> String {
         match self {
             TableCell::Missing => "–".to_owned(),
             TableCell::Text(text) => text.clone(),

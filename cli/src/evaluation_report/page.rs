@@ -1,0 +1,68 @@
+//! The page: one HTML file that needs nothing else.
+
+use super::Results;
+use super::replay::Replays;
+use super::sections::{self, Section};
+use super::told::Told;
+use crate::failure::Failure;
+use crate::page::facts::Fact;
+use crate::page::words;
+use evaluation::study::{LeaderRow, Study, Table};
+use serde::Serialize;
+
+const TEMPLATE: &str = include_str!("page.html");
+const PARTS: [(&str, &str); 2] =
+    [("page.css", include_str!("page.css")), ("replay.js", include_str!("replay.js"))];
+
+/// All that the template shows.
+#[derive(Serialize)]
+struct Page<'a> {
+    title: &'a str,
+    subtitle: &'a str,
+    headlines: Vec<Fact>,
+    counted: &'a [String],
+    warnings: &'a [String],
+    sections: Vec<Section>,
+    /// Style rules that show the chosen heat map.
+    tab_rules: String,
+    replays: Option<Replays>,
+}
+
+/// The page. The same results give the same bytes.
+pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Result<String, Failure> {
+    let replays = Replays::of(results.evaluations, results.replays)?;
+    let (sections, tab_rules) = sections::all(results.study, tables);
+    let page = Page {
+        title: &told.title,
+        subtitle: &told.subtitle,
+        headlines: headlines(results.study),
+        counted: &told.counted,
+        warnings: &told.warnings,
+        sections,
+        tab_rules,
+        replays: Some(replays).filter(Replays::is_some),
+    };
+    crate::page::render_with(&PARTS, TEMPLATE, &page)
+}
+
+/// What is looked at first: the best models, or players if there is no model, and the marks to compare them with.
+fn headlines(study: &Study) -> Vec<Fact> {
+    let is_model = |row: &&LeaderRow| !study.players[row.player].is_reference();
+    let models = study.leaderboard.iter().filter(is_model).take(3);
+    let marks = study.leaderboard.iter().filter(|row| !is_model(row));
+    let shown = models.chain(marks).take(5);
+    let mut facts: Vec<Fact> = shown
+        .map(|row| {
+            let rate = row.scores.win_rate;
+            let value = rate.map_or(words::NONE.to_owned(), |rate| words::whole_percent(rate.value));
+            let band = rate.map_or(String::new(), |rate| {
+                format!("{:.0} to {:.0}\u{a0}%", 100.0 * rate.low, 100.0 * rate.high)
+            });
+            let won = format!("{} of {} won", row.scores.wins, words::grouped(row.scores.episodes));
+            Fact::plain(study.players[row.player].label(), value).of(won).within(band)
+        })
+        .collect();
+    let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count() as u64;
+    facts.push(Fact::plain("episodes", words::grouped(ended)));
+    facts
+}

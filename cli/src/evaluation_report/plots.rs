@@ -1,0 +1,312 @@
+//! The plots of the page, from the numbers of the study.
+
+use crate::page::plots::{Forest, ForestRow, HeatMap, Label, Violin, Violins, forest, heat_map, violins};
+use crate::page::plots::{Matrix as Coefficients, matrix};
+use crate::page::words;
+use evaluation::study::{
+    CORRELATED, Correlation, Estimate, FailureMeasure, Matrix, Measure, Player, Scope, Study, Test,
+};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// Columns of a heat map that stay together; it is as wide as a phone.
+const COLUMNS: usize = 6;
+
+/// A plot with what is said above and below.
+#[derive(Serialize)]
+pub(super) struct Plot {
+    head: String,
+    svg: String,
+    caption: String,
+}
+
+/// Plots behind a heading that opens them.
+#[derive(Serialize)]
+pub(super) struct Group {
+    name: String,
+    plots: Vec<Plot>,
+}
+
+/// Heat maps: one is seen at a time.
+#[derive(Serialize)]
+pub(super) struct Heats {
+    measures: Vec<String>,
+    scopes: Vec<String>,
+    panels: Vec<Panel>,
+}
+
+/// A measure in a scope, over all games.
+#[derive(Serialize)]
+struct Panel {
+    measure: usize,
+    scope: usize,
+    svgs: Vec<String>,
+    /// The scale, and what stands at its ends.
+    key: String,
+    low: String,
+    high: String,
+    note: &'static str,
+}
+
+impl Heats {
+    /// All measures in all scopes.
+    pub(super) fn of(study: &Study) -> Heats {
+        let scopes = study.by_level.iter().map(|matrix| match matrix.scope {
+            Scope::ZeroShot => "zero-shot".to_owned(),
+            Scope::Contextual => "contextual".to_owned(),
+            Scope::Both => "both modes together".to_owned(),
+        });
+        let panels = Measure::ALL.into_iter().enumerate().flat_map(|(measure, shown)| {
+            let matrices = study.by_level.iter().enumerate();
+            matrices.map(move |(scope, matrix)| Panel::of(study, matrix, shown, measure, scope))
+        });
+        let measures = Measure::ALL.map(|measure| measure.title().to_owned()).to_vec();
+        Heats { measures, scopes: scopes.collect(), panels: panels.collect() }
+    }
+
+    /// The style rules by which a choice shows its panel.
+    pub(super) fn rules(&self) -> String {
+        let mut text = String::new();
+        for measure in 0..self.measures.len() {
+            let _ = writeln!(
+                text,
+                "#m{measure}:checked ~ .choice label[for=m{measure}] {{ background: var(--fill); color: var(--page); border-color: var(--fill); }} \
+                 #m{measure}:focus-visible ~ .choice label[for=m{measure}] {{ outline: 2px solid var(--warm); }}"
+            );
+            for scope in 0..self.scopes.len() {
+                let _ = writeln!(
+                    text,
+                    "#m{measure}:checked ~ #s{scope}:checked ~ .m{measure}.s{scope} {{ display: block; }}"
+                );
+            }
+        }
+        for scope in 0..self.scopes.len() {
+            let _ = writeln!(
+                text,
+                "#s{scope}:checked ~ .choice label[for=s{scope}] {{ background: var(--fill); color: var(--page); border-color: var(--fill); }}"
+            );
+        }
+        text
+    }
+}
+
+impl Panel {
+    fn of(study: &Study, matrix: &Matrix, shown: Measure, measure: usize, scope: usize) -> Panel {
+        let mut values = matrix.values(shown);
+        let mut rows: Vec<Label> = matrix.rows.iter().map(|row| label(&row.label, row.reference)).collect();
+        let optimal: Vec<Option<f64>> =
+            matrix.columns.iter().map(|column| column.optimal_ticks.map(|ticks| ticks as f64)).collect();
+        if shown == Measure::Steps && optimal.iter().any(Option::is_some) {
+            values.push(optimal);
+            rows.push(Label { name: "shortest win".to_owned(), note: "proved".to_owned() });
+        }
+        let most = values.iter().flatten().flatten().copied().fold(0.0, f64::max);
+        let scale = if shown.is_share() { [0.0, 1.0] } else { [0.0, most.max(1.0)] };
+        let show: fn(f64) -> String = match shown {
+            Measure::WinRate => |value| format!("{:.0}", 100.0 * value),
+            Measure::Steps => |value| format!("{value:.0}"),
+            _ => two_digits,
+        };
+        let heads = |share: &str| {
+            if shown == Measure::WinRate { format!("{share}\u{a0}%") } else { share.to_owned() }
+        };
+        let (low, high) = match shown {
+            Measure::WinRate => (heads("0"), heads("100")),
+            Measure::Steps => ("0".to_owned(), words::grouped(scale[1] as u64)),
+            _ => ("0".to_owned(), "1".to_owned()),
+        };
+        let svgs = packed(study, matrix).into_iter().map(|columns| {
+            let groups: Vec<(String, Vec<String>)> = columns
+                .chunk_by(|&one, &other| matrix.columns[one].game == matrix.columns[other].game)
+                .map(|levels| {
+                    let name = |&at: &usize| {
+                        matrix.columns[at].level.map_or(String::new(), |level| level.to_string())
+                    };
+                    (game(study, matrix.columns[levels[0]].game), levels.iter().map(name).collect())
+                })
+                .collect();
+            let cells: Vec<Vec<Option<f64>>> =
+                values.iter().map(|row| columns.iter().map(|&at| row[at]).collect()).collect();
+            heat_map(&HeatMap {
+                label: shown.title(),
+                rows: &rows,
+                groups: &groups,
+                cells: &cells,
+                scale,
+                show,
+            })
+        });
+        let note = match shown.higher_is_better() {
+            Some(true) => "higher is better",
+            Some(false) => "lower is better",
+            None => "neither more nor fewer is better by itself",
+        };
+        Panel { measure, scope, svgs: svgs.collect(), key: key(), low, high, note }
+    }
+}
+
+/// `.45`, `1`: the zero before the point is left out, so that it fits into a cell.
+fn two_digits(value: f64) -> String {
+    let text = format!("{value:.2}");
+    match text.as_str() {
+        "0.00" => "0".to_owned(),
+        "1.00" => "1".to_owned(),
+        _ => text.strip_prefix('0').map_or_else(|| text.clone(), str::to_owned),
+    }
+}
+
+/// The colours of a heat map from left to right.
+fn key() -> String {
+    let step =
+        |at: usize| format!("<g class=\"q{at}\"><rect x=\"{}\" width=\"12\" height=\"12\"/></g>", 12 * at);
+    let steps: String = (0..=10).map(step).collect();
+    format!("<svg width=\"132\" height=\"12\" viewBox=\"0 0 132 12\" aria-hidden=\"true\">{steps}</svg>")
+}
+
+/// The columns in stretches of about [`COLUMNS`]: games stay whole unless they are longer than that.
+fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
+    let mut stretches: Vec<Vec<usize>> = Vec::new();
+    for game in 0..study.games.len() {
+        let columns: Vec<usize> =
+            (0..matrix.columns.len()).filter(|&at| matrix.columns[at].game == game).collect();
+        let pieces = columns.len().div_ceil(COLUMNS).max(1);
+        for piece in columns.chunks(columns.len().div_ceil(pieces).max(1)) {
+            match stretches.last_mut() {
+                Some(last) if last.len() + piece.len() <= COLUMNS => last.extend(piece),
+                _ => stretches.push(piece.to_vec()),
+            }
+        }
+    }
+    stretches
+}
+
+/// What a game is called.
+pub(super) fn game(study: &Study, game: usize) -> String {
+    let game = &study.games[game];
+    if game.title.is_empty() { game.id.clone() } else { game.title.clone() }
+}
+
+/// A player in two lines: its name; its mode and aids, or that it is a mark to compare with.
+fn label(name: &str, reference: bool) -> Label {
+    match name.split_once(" (") {
+        Some((name, note)) => Label { name: name.to_owned(), note: note.trim_end_matches(')').to_owned() },
+        None => Label {
+            name: name.to_owned(),
+            note: if reference { "reference".to_owned() } else { String::new() },
+        },
+    }
+}
+
+fn label_of(player: &Player) -> Label {
+    label(&player.label(), player.is_reference())
+}
+
+/// Win rates of all players over all that they played.
+pub(super) fn win_rates(study: &Study) -> Plot {
+    let rows: Vec<ForestRow> = study
+        .leaderboard
+        .iter()
+        .map(|row| {
+            let player = &study.players[row.player];
+            let of = format!("{}/{}", row.scores.wins, row.scores.episodes);
+            forest_row(label_of(player), row.scores.win_rate, of, player.is_reference())
+        })
+        .collect();
+    Plot {
+        head: "Win rates".to_owned(),
+        svg: forest(&Forest { label: "win rates with Wilson intervals", rows: &rows }),
+        caption: "Wilson's intervals: episodes taken for independent. The table has intervals that draw whole games too.".to_owned(),
+    }
+}
+
+/// Win rates by game, a plot for each player.
+pub(super) fn win_rates_by_game(study: &Study) -> Vec<Group> {
+    let group = |sweep: &evaluation::study::Sweep| {
+        let player = &study.players[sweep.player];
+        let mut games: Vec<_> = sweep.games.iter().filter(|row| row.scores.episodes > 0).collect();
+        games.sort_by(|a, b| {
+            let rate = |scores: &evaluation::study::Scores| scores.win_rate.map_or(-1.0, |rate| rate.value);
+            rate(&b.scores).total_cmp(&rate(&a.scores))
+        });
+        let rows: Vec<ForestRow> = games
+            .into_iter()
+            .map(|row| {
+                let label = Label { name: game(study, row.game), note: String::new() };
+                let of = format!("{}/{}", row.scores.wins, row.scores.episodes);
+                forest_row(label, row.scores.win_rate, of, player.is_reference())
+            })
+            .collect();
+        let svg = forest(&Forest { label: "win rates by game", rows: &rows });
+        let plot = Plot { head: String::new(), svg, caption: String::new() };
+        Group { name: format!("{}: win rate by game", player.label()), plots: vec![plot] }
+    };
+    study.sweeps.iter().filter(|sweep| !sweep.games.is_empty()).map(group).collect()
+}
+
+fn forest_row(label: Label, rate: Option<Estimate>, of: String, reference: bool) -> ForestRow {
+    let share = rate.map(|rate| (rate.value, [rate.low, rate.high]));
+    ForestRow { label, share, of, reference }
+}
+
+/// How won and other episodes were walked.
+pub(super) fn failures(study: &Study) -> Vec<Plot> {
+    let shown = [
+        FailureMeasure::BumpRate,
+        FailureMeasure::MaxBumps,
+        FailureMeasure::LateBumpRate,
+        FailureMeasure::OscillationRate,
+    ];
+    let modes = study.failures.iter().filter(|mode| shown.contains(&mode.measure));
+    let plot = |mode: &evaluation::study::FailureMode| {
+        let most = mode.won.iter().chain(&mode.lost).copied().fold(1.0, f64::max);
+        let scale = if mode.measure == FailureMeasure::MaxBumps { [0.0, most] } else { [0.0, 1.0] };
+        let groups =
+            [Violin { name: "won", values: &mode.won }, Violin { name: "not won", values: &mode.lost }];
+        let svg = violins(&Violins { label: mode.measure.title(), groups: &groups, scale });
+        Plot { head: mode.measure.title().to_owned(), svg, caption: String::new() }
+    };
+    modes.map(plot).collect()
+}
+
+/// The correlation matrices; none without episodes.
+pub(super) fn correlations(study: &Study) -> Vec<Plot> {
+    if study.correlations.episodes == 0 {
+        return Vec::new();
+    }
+    let names = CORRELATED.map(str::to_owned);
+    let plot = |head: &str, of: fn(&Correlation) -> Option<Test>| {
+        let mut cells = vec![vec![None; names.len()]; names.len()];
+        for pair in &study.correlations.pairs {
+            let [column, row] = pair.pair;
+            cells[row][column] = of(pair).map(|test| (test.r, corrected(test.adjusted)));
+        }
+        let svg = matrix(&Coefficients { label: head, names: &names, cells: &cells });
+        Plot { head: head.to_owned(), svg, caption: String::new() }
+    };
+    vec![plot("Pearson", |pair| pair.pearson), plot("Spearman", |pair| pair.spearman)]
+}
+
+/// `p < 0.001`.
+fn corrected(p: f64) -> String {
+    if p < 0.001 { "p < 0.001".to_owned() } else { format!("p {p:.3}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_fit_into_a_cell() {
+        assert_eq!([0.0, 0.004, 0.456, 1.0].map(two_digits), ["0", "0", ".46", "1"]);
+    }
+
+    #[test]
+    fn players_are_told_in_two_lines() {
+        let check = |name: &str, reference, expect: [&str; 2]| {
+            let Label { name, note } = label(name, reference);
+            assert_eq!([name.as_str(), note.as_str()], expect);
+        };
+        check("a-model (zero-shot, coordinates)", false, ["a-model", "zero-shot, coordinates"]);
+        check("random", true, ["random", "reference"]);
+    }
+}

@@ -1,0 +1,342 @@
+//! Some episodes step by step: the boards, and beside each what the player was told and said.
+
+mod frames;
+mod talk;
+
+use crate::failure::Failure;
+use crate::page::{Figure, words};
+use ::render::{Looks, RenderError, Style, picture, png};
+use engine::{Action, Outcome, State};
+use evaluation::log::{Event, Status};
+use evaluation::run::Task;
+use evaluation::{Evaluation, Validity};
+use frames::{Boards, Tiles};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use talk::{Talk, talks};
+
+/// Bytes of all replays together, about.
+const BYTES: usize = 9_000_000;
+/// Of a longer episode, the first and the last decisions are shown.
+const FIRST: usize = 200;
+const LAST: usize = 100;
+/// Pixels of a cell of the boards that change, and of the longer side of the still ones.
+const CELL: u32 = 20;
+const STILL: u32 = 220;
+/// Still boards of an episode, start and end among them.
+const STILLS: usize = 4;
+
+/// All replays of a page.
+#[derive(Serialize)]
+pub(super) struct Replays {
+    /// The tiles of their boards, SVG.
+    symbols: String,
+    /// By player.
+    players: Vec<PlayerReplays>,
+    /// What is not shown.
+    note: String,
+}
+
+/// A player's episodes.
+#[derive(Serialize)]
+struct PlayerReplays {
+    name: String,
+    episodes: Vec<Replay>,
+}
+
+/// An episode.
+#[derive(Serialize)]
+struct Replay {
+    /// Game, level and run.
+    title: String,
+    /// How it went.
+    result: String,
+    /// Whether it was won.
+    won: bool,
+    /// Pixels of the board.
+    size: [u32; 2],
+    /// For the script: tiles, changes from board to board, what is said below each.
+    data: String,
+    /// A few of the boards.
+    stills: Vec<Figure<'static>>,
+    /// Every action, equal ones in a row counted.
+    actions: String,
+    /// What the player was told before its first decision.
+    told: Vec<String>,
+    /// What was said at each decision; empty for players without words.
+    decisions: Vec<Decision>,
+    /// Decisions in the middle that are left out.
+    skipped: usize,
+}
+
+/// A decision with words.
+#[derive(Serialize)]
+struct Decision {
+    /// The board that was seen, counted from 0 among those shown.
+    at: usize,
+    /// Counted from 0.
+    step: usize,
+    action: String,
+    /// What was wrong with the choice, if anything was.
+    validity: &'static str,
+    talk: Talk,
+}
+
+/// What the script of the page reads.
+#[derive(Serialize)]
+struct Data<'a> {
+    cell: u32,
+    prefix: &'a str,
+    changes: &'a [String],
+    captions: &'a [String],
+}
+
+/// An episode that may be shown.
+struct Candidate<'a> {
+    evaluation: &'a Evaluation,
+    task: Task<'a>,
+}
+
+impl Replays {
+    /// The first run of `levels` levels for each player, the same levels for all as far as they were played: the first level of
+    /// each game in turn, then the second. Players with words come first where there is no room for all. Cost: O(steps) of play
+    /// and drawing for each.
+    pub(super) fn of(evaluations: &[Evaluation], levels: usize) -> Result<Replays, Failure> {
+        let (players, mut left_out) = (candidates(evaluations, levels), 0);
+        let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();
+        let mut shown: Vec<Vec<Replay>> = players.iter().map(|_| Vec::new()).collect();
+        let most = players.iter().map(|player| player.1.len()).max().unwrap_or(0);
+        let mut bytes = 0;
+        for at in 0..most {
+            for ((_, candidates), shown) in players.iter().zip(&mut shown) {
+                let Some(candidate) = candidates.get(at) else { continue };
+                if bytes >= BYTES {
+                    left_out += 1;
+                    continue;
+                }
+                let count = tiles.len();
+                let digest = candidate.task.subject.game.digest().to_string();
+                let tiles = tiles.entry(digest).or_insert_with(|| Tiles::new(format!("t{count}-")));
+                if let Some(replay) = Replay::of(candidate, tiles)? {
+                    bytes += replay.bytes();
+                    shown.push(replay);
+                }
+            }
+        }
+        let symbols = tiles.values().map(Tiles::symbols).collect();
+        let names = players.into_iter().map(|(name, _)| name).zip(shown);
+        let players: Vec<PlayerReplays> = names
+            .map(|(name, episodes)| PlayerReplays { name, episodes })
+            .filter(|player| !player.episodes.is_empty())
+            .collect();
+        Ok(Replays { symbols, players, note: note(levels, left_out) })
+    }
+
+    /// Whether there is any.
+    pub(super) fn is_some(&self) -> bool {
+        !self.players.is_empty()
+    }
+}
+
+fn note(levels: usize, left_out: u64) -> String {
+    let mut note = format!(
+        "The first run of up to {} for each player; every other episode is in the logs. Of episodes of more than {} decisions, the \
+         first {FIRST} and the last {LAST} are shown.",
+        words::many(levels as u64, "level"),
+        FIRST + LAST
+    );
+    if left_out > 0 {
+        note += &format!(" {} left out for want of room.", words::many(left_out, "more episode"));
+    }
+    note
+}
+
+/// By player, models first: the episodes that may be shown.
+fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Candidate<'_>>)> {
+    let mut wanted: BTreeSet<(usize, &str)> = BTreeSet::new();
+    for evaluation in evaluations {
+        for subject in &evaluation.subjects {
+            wanted.extend(subject.levels.iter().enumerate().map(|(place, _)| (place, subject.id.as_str())));
+        }
+    }
+    let wanted: Vec<(usize, &str)> = wanted.into_iter().take(levels).collect();
+    let mut players: BTreeMap<(bool, String), BTreeMap<(usize, &str), Candidate<'_>>> = BTreeMap::new();
+    for evaluation in evaluations {
+        let entrant = &evaluation.settings.entrant;
+        let key = (entrant.mode.is_none(), evaluation::study::Player::from(entrant).label());
+        let player = players.entry(key).or_default();
+        for task in evaluation.tasks() {
+            let place = task.subject.levels.iter().position(|level| level.number == task.level.number);
+            let key = (place.unwrap_or_default(), task.subject.id.as_str());
+            if wanted.contains(&key) {
+                player.entry(key).or_insert(Candidate { evaluation, task });
+            }
+        }
+    }
+    let named = |((_, name), found): ((bool, String), BTreeMap<_, _>)| (name, found.into_values().collect());
+    players.into_iter().map(named).collect()
+}
+
+impl Replay {
+    /// Plays and draws an episode; none if nothing was played.
+    fn of(candidate: &Candidate<'_>, tiles: &mut Tiles) -> Result<Option<Replay>, Failure> {
+        let Candidate { evaluation, task } = candidate;
+        let log = evaluation.events(task).map_err(crate::verbs::evaluate::failure)?;
+        let steps: Vec<(Action, Validity)> = log
+            .iter()
+            .filter_map(|event| match event {
+                Event::Step { action, validity, .. } => Some((*action, *validity)),
+                _ => None,
+            })
+            .collect();
+        if steps.is_empty() {
+            return Ok(None);
+        }
+        let shown = |decision: &usize| *decision < FIRST || decision + LAST >= steps.len();
+        let (game, looks) = (&task.subject.game, Looks::of(&task.subject.analysis));
+        let mut state = game.start(&task.level.level, task.chance());
+        let (mut boards, mut captions, mut stills) = (Boards::new(CELL), Vec::new(), Vec::new());
+        let mut size = [0, 0];
+        let mut show = |state: &State, caption: String, still: Option<&'static str>| {
+            let drawn = picture(&looks, state, &Style::bare(CELL)).map_err(failed)?;
+            size = [drawn.width(), drawn.height()];
+            boards.push(&drawn, tiles);
+            if let Some(head) = still {
+                stills.push(figure(&looks, state, head, captions.len())?);
+            }
+            captions.push(caption);
+            Ok::<(), Failure>(())
+        };
+        for (decision, (action, validity)) in steps.iter().enumerate() {
+            if shown(&decision) {
+                let note = told(*validity);
+                let note = if note.is_empty() { String::new() } else { format!(" ({note})") };
+                let caption =
+                    format!("step {decision}, score {}: {action}{note}", words::short(state.score()));
+                show(&state, caption, still(decision, steps.len()))?;
+            }
+            game.step(&mut state, *action);
+        }
+        let result = result(&log, &state, steps.len());
+        show(&state, format!("the end: {result}"), Some("the end"))?;
+        let data = Data { cell: CELL, prefix: &tiles.prefix, changes: &boards.changes, captions: &captions };
+        let data = serde_json::to_string(&data).map_err(|error| Failure::surroundings(error, "a replay"))?;
+        let mut spoken = talks(&log);
+        let told_first = spoken.first_mut().map(|first| std::mem::take(&mut first.shown)).unwrap_or_default();
+        let words = spoken.iter().any(|talk| !talk.answers.is_empty());
+        let decisions: Vec<Decision> = steps
+            .iter()
+            .zip(spoken)
+            .enumerate()
+            .filter(|(step, _)| words && shown(step))
+            .enumerate()
+            .map(|(at, (step, ((action, validity), talk)))| Decision {
+                at,
+                step,
+                action: action.to_string(),
+                validity: told(*validity),
+                talk,
+            })
+            .collect();
+        let title = &task.subject.facts.title;
+        Ok(Some(Replay {
+            title: format!("{title}, level {}, run {}", task.level.number, task.run),
+            won: state.outcome() == Outcome::Won,
+            result,
+            size,
+            data,
+            stills,
+            actions: counted(&steps),
+            told: told_first,
+            decisions,
+            skipped: steps.len().saturating_sub(FIRST + LAST),
+        }))
+    }
+
+    /// About what it takes of the page.
+    fn bytes(&self) -> usize {
+        let talk = |talk: &Talk| {
+            let answers = talk.answers.iter();
+            let answers = answers
+                .map(|answer| answer.text.len() + answer.reasoning.as_ref().map_or(0, String::len) + 120);
+            answers.sum::<usize>() + talk.shown.iter().map(String::len).sum::<usize>()
+        };
+        let stills: usize = self.stills.iter().map(Figure::bytes).sum();
+        let told: usize = self.told.iter().map(String::len).sum();
+        let words: usize = self.decisions.iter().map(|decision| talk(&decision.talk) + 200).sum();
+        self.data.len() + stills + told + words + self.actions.len()
+    }
+}
+
+/// Whether the board before this decision is one of the still ones, and what it is called.
+fn still(decision: usize, steps: usize) -> Option<&'static str> {
+    if decision == 0 {
+        return Some("the start");
+    }
+    let between = (1..STILLS - 1).any(|part| decision == steps * part / (STILLS - 1));
+    between.then_some("")
+}
+
+fn figure(looks: &Looks, state: &State, head: &'static str, at: usize) -> Result<Figure<'static>, Failure> {
+    let (columns, rows) = state.size();
+    let cell = (STILL / columns.max(rows).max(1).cast_unsigned()).clamp(4, 24);
+    let drawn = picture(looks, state, &Style::bare(cell)).map_err(failed)?;
+    let size = [drawn.width(), drawn.height()];
+    let head = if head.is_empty() { format!("step {at}") } else { head.to_owned() };
+    Ok(Figure::new(&png(&drawn).map_err(failed)?, size, head, ""))
+}
+
+fn failed(error: RenderError) -> Failure {
+    Failure::surroundings(error, "the boards of a replay")
+}
+
+/// `won in 34 steps, score 5`.
+fn result(log: &[Event], state: &State, steps: usize) -> String {
+    let how = match (state.outcome(), log.last()) {
+        (Outcome::Won, _) => "won in",
+        (Outcome::Lost, _) => "lost after",
+        (_, Some(Event::End { status: Status::StepLimit, .. })) => "not over at the limit of",
+        (_, Some(Event::Halt { .. })) => "broken off after",
+        (_, Some(Event::End { .. })) => "over without a winner after",
+        _ => "interrupted after",
+    };
+    format!("{how} {}, score {}", words::many(steps as u64, "step"), words::short(state.score()))
+}
+
+/// What is wrong with a choice.
+fn told(validity: Validity) -> &'static str {
+    match validity {
+        Validity::Valid => "",
+        Validity::Invalid => "invalid answers",
+        Validity::Refused => "refused",
+        Validity::Truncated => "cut off",
+    }
+}
+
+/// `right ×3, use, nil ×2`.
+fn counted(steps: &[(Action, Validity)]) -> String {
+    let runs = steps.chunk_by(|one, other| one.0 == other.0);
+    let said = |run: &[(Action, Validity)]| match run.len() {
+        1 => run[0].0.to_string(),
+        many => format!("{} ×{many}", run[0].0),
+    };
+    runs.map(said).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_actions_are_counted() {
+        let steps = [Action::Up, Action::Up, Action::Use, Action::Nil, Action::Nil, Action::Nil];
+        assert_eq!(counted(&steps.map(|action| (action, Validity::Valid))), "up ×2, use, nil ×3");
+    }
+
+    #[test]
+    fn still_boards_are_spread() {
+        let found: Vec<usize> = (0..90).filter(|&at| still(at, 90).is_some()).collect();
+        assert_eq!(found, [0, 30, 60]);
+        assert_eq!((0..1).filter(|&at| still(at, 1).is_some()).count(), 1);
+    }
+}

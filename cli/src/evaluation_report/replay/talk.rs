@@ -1,0 +1,105 @@
+//! What was said at each decision of an episode.
+
+use crate::page::words;
+use evaluation::client::{Finish, Role};
+use evaluation::log::{Event, Reply, ReplyClass};
+use serde::Serialize;
+
+/// Letters of an answer, of reasoning and of what was shown, at most.
+const ANSWER: usize = 1_500;
+const REASONING: usize = 1_500;
+const SHOWN: usize = 6_000;
+
+/// What was said at a decision.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub(super) struct Talk {
+    /// What the player was told for the first time, whoever said it before; not its own words.
+    pub(super) shown: Vec<String>,
+    /// Its answers: several if it was asked again.
+    pub(super) answers: Vec<Answer>,
+}
+
+/// An answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct Answer {
+    /// The words.
+    pub(super) text: String,
+    /// What it thought, where that is known.
+    pub(super) reasoning: Option<String>,
+    /// What it is worth, in a word; empty for the format that was asked for.
+    pub(super) class: &'static str,
+    /// Tokens and time, in words.
+    pub(super) cost: String,
+}
+
+/// What was said at each decision, in order; nothing where a decision was made without words.
+pub(super) fn talks(log: &[Event]) -> Vec<Talk> {
+    let (mut talks, mut current) = (Vec::new(), Talk::default());
+    for event in log {
+        match event {
+            Event::Message { role, text, image, .. } if *role != Role::Assistant => {
+                let picture = if image.is_some() { "[a picture of the board]\n" } else { "" };
+                current.shown.push(cut(&format!("{picture}{text}"), SHOWN));
+            }
+            Event::Reply(reply) => current.answers.push(Answer::of(reply)),
+            Event::Step { .. } => talks.push(std::mem::take(&mut current)),
+            _ => {}
+        }
+    }
+    talks
+}
+
+impl Answer {
+    fn of(reply: &Reply) -> Answer {
+        let class = match reply.class {
+            ReplyClass::Strict => "",
+            ReplyClass::Tolerant => "read with tolerance",
+            ReplyClass::Invalid => "invalid",
+            ReplyClass::Refused => "refused",
+            ReplyClass::Truncated => "truncated",
+        };
+        let mut cost = Vec::new();
+        let usage = &reply.usage;
+        if let (Some(input), Some(output)) = (usage.input_tokens, usage.output_tokens) {
+            cost.push(format!("{} + {} tokens", words::grouped(input), words::grouped(output)));
+        }
+        if !reply.cached {
+            cost.push(format!("{} ms", words::short(reply.latency_ms.round())));
+        }
+        if reply.finish == Finish::Length {
+            cost.push("cut off".to_owned());
+        }
+        Answer {
+            text: cut(&reply.text, ANSWER),
+            reasoning: reply
+                .reasoning
+                .as_ref()
+                .map(|text| cut(text, REASONING))
+                .filter(|text| !text.is_empty()),
+            class,
+            cost: cost.join(", "),
+        }
+    }
+}
+
+/// The first letters of a text, and how many more there are.
+fn cut(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        None => text.trim_end().to_owned(),
+        Some((end, _)) => {
+            let more = text[end..].chars().count() as u64;
+            format!("{} … [{} more letters]", text[..end].trim_end(), words::grouped(more))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_texts_say_how_much_is_left_out() {
+        assert_eq!(cut("short\n", 10), "short");
+        assert_eq!(cut("äöüäöü", 4), "äöüä … [2 more letters]");
+    }
+}

@@ -1,0 +1,172 @@
+//! The questions of the page, each with its plots and tables.
+
+use super::plots::{self, Group, Heats, Plot};
+use crate::page::words;
+use evaluation::study::{Study, Table, TableCell};
+use serde::Serialize;
+
+/// Rows of a table in the page, at most; its file has all.
+const MOST: usize = 150;
+
+/// A question.
+#[derive(Serialize)]
+pub(super) struct Section {
+    id: &'static str,
+    title: &'static str,
+    note: String,
+    heats: Option<Heats>,
+    plots: Vec<Plot>,
+    groups: Vec<Group>,
+    tables: Vec<Shown>,
+}
+
+/// A table in the page.
+#[derive(Serialize)]
+struct Shown {
+    id: String,
+    title: String,
+    note: String,
+    columns: Vec<Column>,
+    rows: Vec<Row>,
+    /// Rows that are left out, in words; empty if none is.
+    more: String,
+}
+
+#[derive(Serialize)]
+struct Column {
+    name: String,
+    figures: bool,
+}
+
+#[derive(Serialize)]
+struct Row {
+    cells: Vec<String>,
+    /// Whether it is about a player that is no model.
+    mark: bool,
+}
+
+impl Section {
+    fn new(id: &'static str, title: &'static str, note: impl Into<String>) -> Section {
+        Section {
+            id,
+            title,
+            note: note.into(),
+            heats: None,
+            plots: Vec::new(),
+            groups: Vec::new(),
+            tables: Vec::new(),
+        }
+    }
+}
+
+/// All questions, and the style rules of the heat maps.
+pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
+    let of = |ids: &[&str]| -> Vec<Shown> {
+        let found = ids.iter().flat_map(|id| tables.iter().filter(move |table| table.id == *id));
+        found.map(|table| Shown::of(study, table)).collect()
+    };
+    let mut leaders = Section::new("leaderboard", "Leaderboard", "");
+    leaders.plots.push(plots::win_rates(study));
+    leaders.tables = of(&["leaderboard"]);
+    leaders.tables.iter_mut().for_each(|table| table.rows.extend(optimum(study, &table.columns)));
+
+    let heats = Heats::of(study);
+    let rules = heats.rules();
+    let mut levels = Section::new(
+        "levels",
+        "Level by level",
+        "A column for each level, in groups by game. Point at a cell to read it in full. What is hatched was not played, or is not known.",
+    );
+    levels.heats = Some(heats);
+
+    let mut games = Section::new("games", "Game by game", "");
+    games.groups = plots::win_rates_by_game(study);
+    games.tables = of(&["summary", "games", "difficulty"]);
+
+    let mut kinds = Section::new("kinds", "Kinds of game", "");
+    kinds.tables = of(&["taxonomy"]);
+
+    let mut pairs = Section::new(
+        "pairs",
+        "Players against each other",
+        "Every pair on the levels that both played. With few episodes on a level hardly anything can be significant there: the tests over \
+         games and over all levels have the power.",
+    );
+    pairs.tables = of(&["pairs-overall", "pairs-by-game", "pairs-by-level"]);
+
+    let mut modes = Section::new("modes", "Zero-shot against contextual", "");
+    modes.tables = of(&["modes-overall", "modes-by-game", "modes-by-level"]);
+    if modes.tables.is_empty() {
+        modes.note = "No model was evaluated in both modes.".to_owned();
+    }
+    let mut aids = Section::new("aids", "Without and with an aid", "");
+    aids.tables = of(&["aids-overall", "aids-by-game", "aids-by-level"]);
+    if aids.tables.is_empty() {
+        aids.note = "No model was evaluated without and with an aid.".to_owned();
+    }
+
+    let whose = if study.players.iter().any(|player| !player.is_reference()) {
+        "Over the episodes of models."
+    } else {
+        "Over the episodes of all players, since none of them is a model."
+    };
+    let mut walked = Section::new("failures", "How episodes were walked", whose);
+    walked.plots = plots::failures(study);
+    walked.tables = of(&["failure-modes", "oscillation"]);
+
+    let mut correlations = Section::new("correlations", "What goes with winning", whose);
+    correlations.plots = plots::correlations(study);
+    correlations.tables = of(&["correlations"]);
+
+    let mut answers = Section::new("answers", "Answers, failures and times", "");
+    answers.tables = of(&["answers", "broken-off", "times"]);
+
+    (vec![leaders, levels, games, kinds, pairs, modes, aids, walked, correlations, answers], rules)
+}
+
+/// The proved shortest wins as a row of the leaderboard.
+fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
+    let levels: Vec<Option<usize>> =
+        study.games.iter().flat_map(|game| &game.levels).map(|level| level.optimal_ticks).collect();
+    let known: Vec<f64> = levels.iter().flatten().map(|&ticks| ticks as f64).collect();
+    let mean = known.iter().sum::<f64>() / known.len() as f64;
+    let cell = |column: &Column| match column.name.as_str() {
+        "player" => format!(
+            "shortest wins, proved on {} of {}",
+            known.len(),
+            words::many(levels.len() as u64, "level")
+        ),
+        "steps" => format!("{mean:.1}"),
+        "optimality" => "1.000".to_owned(),
+        _ => words::NONE.to_owned(),
+    };
+    (!known.is_empty()).then(|| Row { cells: columns.iter().map(cell).collect(), mark: true })
+}
+
+impl Shown {
+    fn of(study: &Study, table: &Table) -> Shown {
+        let labels = |marks: bool| -> Vec<String> {
+            let players = study.players.iter().filter(|player| player.is_reference() == marks);
+            players.map(|player| player.label()).collect()
+        };
+        let (models, marks) = (labels(false), labels(true));
+        let column = |(at, name): (usize, &String)| {
+            let figures = !table.rows.iter().any(|row| matches!(row[at], TableCell::Text(_)));
+            Column { name: name.clone(), figures }
+        };
+        let row = |row: &Vec<TableCell>| {
+            let cells: Vec<String> = row.iter().map(TableCell::plain).collect();
+            let about = |players: &[String]| cells.iter().any(|cell| players.contains(cell));
+            Row { mark: about(&marks) && !about(&models), cells }
+        };
+        let more = table.rows.len().saturating_sub(MOST) as u64;
+        Shown {
+            id: table.id.clone(),
+            title: table.title.clone(),
+            note: table.note.clone(),
+            columns: table.columns.iter().enumerate().map(column).collect(),
+            rows: table.rows.iter().take(MOST).map(row).collect(),
+            more: if more == 0 { String::new() } else { words::many(more, "row") },
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! What is said before any table: what was counted, what was not, and why.
+
+use super::Results;
+use crate::page::words;
+use evaluation::Evaluation;
+use evaluation::metrics::EpisodeStatus;
+use evaluation::study::{Study, Table};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The words at the head of page and Markdown.
+pub(super) struct Told {
+    /// The heading.
+    pub(super) title: String,
+    /// Where the results are from.
+    pub(super) subtitle: String,
+    /// What was counted.
+    pub(super) counted: Vec<String>,
+    /// What has to be known before anything is compared.
+    pub(super) warnings: Vec<String>,
+}
+
+impl Told {
+    pub(super) fn of(results: &Results<'_>) -> Told {
+        let Results { study, evaluations, .. } = results;
+        let (games, levels) = (study.games.len() as u64, levels(study));
+        let title = format!(
+            "{} on {}, {}",
+            words::many(study.players.len() as u64, "player"),
+            words::many(games, "game"),
+            words::many(levels, "level")
+        );
+        let mut counted = vec![episodes(study), common(study, levels)];
+        counted.extend(answers(study));
+        counted.push(
+            "Intervals are for 95 %. A dash is a value that is not known, never 0. What each section tells, with its formulas, is in \
+             docs/report.md."
+                .to_owned(),
+        );
+        Told { title, subtitle: subtitle(evaluations), counted, warnings: study.notes.clone() }
+    }
+
+    /// The report as Markdown.
+    pub(super) fn markdown(&self, tables: &[Table]) -> String {
+        let mut text = format!("# {}\n\n{}\n", self.title, self.subtitle);
+        for sentence in &self.counted {
+            text += &format!("\n{sentence}\n");
+        }
+        for warning in &self.warnings {
+            text += &format!("\n> {warning}\n");
+        }
+        for table in tables.iter().filter(|table| !table.rows.is_empty()) {
+            text += &format!("\n{}", table.to_markdown());
+        }
+        text
+    }
+}
+
+fn levels(study: &Study) -> u64 {
+    study.games.iter().map(|game| game.levels.len() as u64).sum()
+}
+
+/// `snapshot 3f2a…, seed “evaluate”, at most 1 000 steps an episode, semantics 2, arcade 0.1.0`.
+fn subtitle(evaluations: &[Evaluation]) -> String {
+    let all = |said: &dyn Fn(&Evaluation) -> String| {
+        let different: BTreeSet<String> = evaluations.iter().map(said).collect();
+        different.into_iter().collect::<Vec<String>>().join(" and ")
+    };
+    let snapshot = all(&|evaluation| {
+        evaluation
+            .settings
+            .snapshot
+            .map_or("no snapshot".to_owned(), |root| format!("snapshot {}", root.short()))
+    });
+    let seed = all(&|evaluation| format!("“{}”", evaluation.settings.seed));
+    let limit = all(&|evaluation| words::grouped(evaluation.settings.max_steps));
+    let semantics = all(&|evaluation| evaluation.settings.semantics.to_string());
+    let suite = all(&|evaluation| evaluation.settings.suite.clone());
+    format!(
+        "{snapshot} · seed {seed} · at most {limit} steps an episode · semantics {semantics} · arcade {suite}"
+    )
+}
+
+/// How many episodes count, and why others do not.
+fn episodes(study: &Study) -> String {
+    let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
+    let mut excluded: BTreeMap<String, u64> = BTreeMap::new();
+    for episode in &study.episodes {
+        let why = match &episode.metrics.status {
+            EpisodeStatus::Over | EpisodeStatus::StepLimit => continue,
+            EpisodeStatus::Halted(reason) => match reason.as_str() {
+                "infrastructure" => "broken off by network, server or process".to_owned(),
+                "budget" => "broken off by a cap on cost, tokens or requests".to_owned(),
+                "rejected" => "broken off because the server would not have the request".to_owned(),
+                other => format!("broken off ({other})"),
+            },
+            EpisodeStatus::Interrupted => "interrupted and not finished".to_owned(),
+        };
+        *excluded.entry(why).or_default() += 1;
+    }
+    let all = words::many(study.episodes.len() as u64, "episode");
+    if excluded.is_empty() {
+        return format!("{all}, all of them ended: nothing is left out.");
+    }
+    let why: Vec<String> =
+        excluded.iter().map(|(why, count)| format!("{} {why}", words::grouped(*count))).collect();
+    let ended = words::grouped(ended as u64);
+    format!("{all}, of which {ended} ended and count. Left out of every number: {}.", why.join(", "))
+}
+
+/// On which levels the players can be compared.
+fn common(study: &Study, levels: u64) -> String {
+    let played = |player: usize| -> BTreeSet<(usize, usize)> {
+        let ended = study.of_player(player).filter(|episode| episode.metrics.counts());
+        ended.map(|episode| (episode.game, episode.metrics.level)).collect()
+    };
+    let all =
+        (0..study.players.len()).map(played).reduce(|all, one| all.intersection(&one).copied().collect());
+    let common = all.map_or(0, |all| all.len() as u64);
+    match (study.players.len(), common) {
+        (1, _) => format!("One player on {}.", words::many(levels, "level")),
+        (_, all) if all == levels => format!("All players have played all {}.", words::many(levels, "level")),
+        (_, 0) => "No level was played by all players: rates over all levels do not compare. Pairs are compared on levels that both \
+                   played."
+            .to_owned(),
+        (_, some) => format!(
+            "{} of {} were played by all players; rates over all levels compare only as far as that. Pairs are compared on levels that \
+             both played.",
+            words::grouped(some),
+            words::many(levels, "level")
+        ),
+    }
+}
+
+/// What came of the models' answers.
+fn answers(study: &Study) -> Option<String> {
+    let models = study.leaderboard.iter().filter(|row| !study.players[row.player].is_reference());
+    let (mut steps, mut invalid, mut refused, mut truncated, mut tolerant) = (0, 0, 0, 0, 0);
+    for row in models {
+        steps += row.choices.total();
+        invalid += row.choices.invalid;
+        refused += row.choices.refused;
+        truncated += row.choices.truncated;
+        tolerant += row.choices.tolerant;
+    }
+    (steps > 0).then(|| {
+        let [steps, invalid, refused, truncated, tolerant] =
+            [steps, invalid, refused, truncated, tolerant].map(words::grouped);
+        format!(
+            "Of {steps} decisions of models, nothing was done in {invalid} because no answer could be read, in {refused} because the \
+             model would not answer, in {truncated} because the answer was cut off; {tolerant} were read from an answer that is not in \
+             the format asked for."
+        )
+    })
+}

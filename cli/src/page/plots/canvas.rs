@@ -1,0 +1,109 @@
+//! SVG text in the making.
+
+use crate::page::facts::number;
+use std::fmt::Write;
+
+/// The edge of a text that its place names.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// A drawing; what is drawn later lies above.
+pub(super) struct Canvas {
+    text: String,
+}
+
+impl Canvas {
+    /// An empty drawing of this kind and size in pixels; `label` says what it is to those who cannot see it.
+    pub(super) fn new(kind: &str, width: f64, height: f64, label: &str) -> Canvas {
+        let (width, height, label) = (number(width), number(height), escaped(label));
+        let text = format!(
+            "<svg class=\"plot {kind}\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+             aria-label=\"{label}\">\n"
+        );
+        Canvas { text }
+    }
+
+    /// Opens a group of this class; `title` is told when it is pointed at.
+    pub(super) fn open(&mut self, class: &str, title: &str) {
+        let _ = write!(self.text, "<g class=\"{class}\">");
+        if !title.is_empty() {
+            let _ = write!(self.text, "<title>{}</title>", escaped(title));
+        }
+    }
+
+    /// Closes the group that was opened last.
+    pub(super) fn close(&mut self) {
+        self.text.push_str("</g>\n");
+    }
+
+    /// A rectangle.
+    pub(super) fn rect(&mut self, [x, y, w, h]: [f64; 4]) {
+        let [x, y, w, h] = [x, y, w, h].map(number);
+        let _ = write!(self.text, "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>");
+    }
+
+    /// A disc.
+    pub(super) fn dot(&mut self, x: f64, y: f64, radius: f64, class: &str) {
+        let [x, y, radius] = [x, y, radius].map(number);
+        let _ = write!(self.text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" class=\"{class}\"/>");
+    }
+
+    /// Straight lines, each through its points.
+    pub(super) fn lines(&mut self, lines: &[&[[f64; 2]]], class: &str) {
+        let ways: String = lines.iter().map(|points| way(points)).collect();
+        let _ = write!(self.text, "<path class=\"{class}\" d=\"{ways}\"/>");
+    }
+
+    /// What lies within these points.
+    pub(super) fn area(&mut self, points: &[[f64; 2]], class: &str) {
+        let _ = write!(self.text, "<path class=\"{class}\" d=\"{}Z\"/>", way(points));
+    }
+
+    /// Words whose foot is at this place.
+    pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, class: &str, words: &str) {
+        let (x, y, words) = (number(x), number(y), escaped(words));
+        let anchor = match anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
+        let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\"{anchor}{class}>{words}</text>");
+    }
+
+    /// A place where a value is missing: grey, hatched, with a dash.
+    pub(super) fn missing(&mut self, [x, y, w, h]: [f64; 4], title: &str) {
+        self.open("none", title);
+        self.rect([x, y, w, h]);
+        let far = |at: u32| f64::from(at) * 11.0;
+        let strokes = (1..).take_while(|&at| far(at) < w + h).map(far);
+        let stroke =
+            |far: f64| [[x + far.min(w), y + (far - w).max(0.0)], [x + (far - h).max(0.0), y + far.min(h)]];
+        let strokes: Vec<[[f64; 2]; 2]> = strokes.map(stroke).collect();
+        self.lines(&strokes.iter().map(<[_; 2]>::as_slice).collect::<Vec<_>>(), "hatch");
+        self.text(x + w / 2.0, y + h / 2.0 + 4.0, Anchor::Middle, "", crate::page::words::NONE);
+        self.close();
+    }
+
+    /// The SVG.
+    pub(super) fn finish(mut self) -> String {
+        self.text.push_str("</svg>\n");
+        self.text
+    }
+}
+
+/// The straight line through these points.
+fn way(points: &[[f64; 2]]) -> String {
+    let point = |(at, [x, y]): (usize, &[f64; 2])| {
+        format!("{}{} {}", if at == 0 { 'M' } else { 'L' }, number(*x), number(*y))
+    };
+    points.iter().enumerate().map(point).collect()
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,108 @@
+//! Shares with their intervals, a line each.
+
+use super::canvas::{Anchor, Canvas};
+use super::{Label, shortened};
+use crate::page::words;
+
+/// Pixels of the names, of the scale from 0 to 1, and of the figures beside it.
+const LEFT: f64 = 150.0;
+const PLANE: f64 = 200.0;
+const RIGHT: f64 = 160.0;
+/// Pixels of a line, and of the scale's marks.
+const LINE: f64 = 28.0;
+const FOOT: f64 = 24.0;
+/// Letters of a name, at most.
+const LETTERS: usize = 18;
+
+/// What a forest plot shows: shares from 0 to 1.
+pub(crate) struct Forest<'a> {
+    /// What it is, in words.
+    pub(crate) label: &'a str,
+    /// The lines, in the order in which they are drawn.
+    pub(crate) rows: &'a [ForestRow],
+}
+
+/// A line.
+pub(crate) struct ForestRow {
+    /// Whose share it is.
+    pub(crate) label: Label,
+    /// The share and its interval; none of nothing.
+    pub(crate) share: Option<(f64, [f64; 2])>,
+    /// Of how many.
+    pub(crate) of: String,
+    /// Whether it is a mark to compare with rather than a subject.
+    pub(crate) reference: bool,
+}
+
+/// Draws it, with a line at one half. Cost: O(rows).
+pub(crate) fn forest(plot: &Forest<'_>) -> String {
+    let foot = plot.rows.len() as f64 * LINE + 4.0;
+    let mut canvas = Canvas::new("forest", LEFT + PLANE + RIGHT, foot + FOOT, plot.label);
+    let along = |share: f64| LEFT + PLANE * share.clamp(0.0, 1.0);
+    for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
+        let class = if part == 0.5 { "half" } else { "rule" };
+        canvas.lines(&[&[[along(part), 2.0], [along(part), foot]]], class);
+        canvas.text(along(part), foot + 16.0, Anchor::Middle, "soft", &words::whole_percent(part));
+    }
+    for (at, row) in plot.rows.iter().enumerate() {
+        let (top, middle) = (at as f64 * LINE, at as f64 * LINE + LINE / 2.0 + 1.0);
+        let Label { name, note } = &row.label;
+        let lift = if note.is_empty() { 19.0 } else { 14.0 };
+        canvas.text(LEFT - 8.0, top + lift, Anchor::End, "", &shortened(name, LETTERS));
+        if !note.is_empty() {
+            canvas.text(LEFT - 8.0, top + 25.0, Anchor::End, "soft", &shortened(note, LETTERS + 4));
+        }
+        let beside = along(1.0) + 12.0;
+        match row.share.filter(|(share, [low, high])| [share, low, high].iter().all(|end| end.is_finite())) {
+            None => canvas.missing([along(0.0), top + 5.0, PLANE, LINE - 8.0], &format!("{name}: no value")),
+            Some((share, [low, high])) => {
+                let value = words::whole_percent(share);
+                let band = format!("{:.0}–{:.0}", 100.0 * low, 100.0 * high);
+                canvas.open(
+                    if row.reference { "mark" } else { "subject" },
+                    &format!("{name}: {value}, {band}"),
+                );
+                canvas.lines(&[&[[along(low), middle], [along(high), middle]]], "whisker");
+                for end in [low, high] {
+                    canvas.lines(&[&[[along(end), middle - 4.0], [along(end), middle + 4.0]]], "whisker");
+                }
+                canvas.dot(along(share), middle, 4.5, "dot");
+                canvas.close();
+                canvas.text(beside + 36.0, middle + 4.0, Anchor::End, "", &value);
+                canvas.text(beside + 44.0, middle + 4.0, Anchor::Start, "soft", &band);
+            }
+        }
+        if !row.of.is_empty() {
+            canvas.text(LEFT + PLANE + RIGHT - 2.0, middle + 4.0, Anchor::End, "soft", &row.of);
+        }
+    }
+    canvas.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_share_is_told_and_stays_on_the_scale() {
+        let row = |name: &str, share, reference| ForestRow {
+            label: Label { name: name.to_owned(), note: String::new() },
+            share,
+            of: "3/5".to_owned(),
+            reference,
+        };
+        let rows = [
+            row("good", Some((0.6, [0.23, 1.2])), false),
+            row("none", None, false),
+            row("mark", Some((0.0, [-0.1, 0.43])), true),
+        ];
+        let svg = forest(&Forest { label: "win rates", rows: &rows });
+        for part in ["60\u{a0}%", "23–120", "class=\"subject\"", "class=\"mark\"", "3/5"] {
+            assert!(svg.contains(part), "{part} in {svg}");
+        }
+        assert_eq!((svg.matches("class=\"none\"").count(), svg.matches("<circle").count()), (1, 2));
+        // The ends of intervals past the scale are drawn at its ends.
+        assert!(svg.contains("L350 15") && svg.contains("M150 71"), "{svg}");
+        assert!(!svg.contains("NaN"));
+    }
+}

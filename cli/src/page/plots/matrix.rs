@@ -1,0 +1,74 @@
+//! Correlations of measures, each pair once.
+
+use super::canvas::{Anchor, Canvas};
+use super::step;
+
+/// Pixels of the names, and of a cell.
+const LEFT: f64 = 128.0;
+const CELL: [f64; 2] = [74.0, 46.0];
+const FOOT: f64 = 24.0;
+
+/// What a matrix shows.
+pub(crate) struct Matrix<'a> {
+    /// What it is, in words.
+    pub(crate) label: &'a str,
+    /// The measures.
+    pub(crate) names: &'a [String],
+    /// By row and column below the diagonal: the coefficient, -1 to 1, and what is said under it; `None` is missing.
+    pub(crate) cells: &'a [Vec<Option<(f64, String)>>],
+}
+
+/// Draws what is below the diagonal. Cost: O(cells).
+pub(crate) fn matrix(matrix: &Matrix<'_>) -> String {
+    let count = matrix.names.len();
+    let sides = count.saturating_sub(1) as f64;
+    let mut canvas =
+        Canvas::new("matrix", LEFT + sides * CELL[0] + 8.0, sides * CELL[1] + FOOT, matrix.label);
+    for row in 1..count {
+        let top = (row - 1) as f64 * CELL[1];
+        canvas.text(LEFT - 8.0, top + CELL[1] / 2.0 + 4.0, Anchor::End, "", &matrix.names[row]);
+        for column in 0..row {
+            let left = LEFT + column as f64 * CELL[0];
+            let place = [left + 0.5, top + 0.5, CELL[0] - 1.0, CELL[1] - 1.0];
+            let pair = format!("{} and {}", matrix.names[row], matrix.names[column]);
+            match matrix.cells[row][column].as_ref().filter(|(value, _)| value.is_finite()) {
+                None => canvas.missing(place, &format!("{pair}: no value")),
+                Some((value, note)) => {
+                    canvas.open(
+                        &format!("d{}", step(*value, -1.0, 1.0)),
+                        &format!("{pair}: {value:+.3}, {note}"),
+                    );
+                    canvas.rect(place);
+                    let middle = left + CELL[0] / 2.0;
+                    canvas.text(middle, top + 20.0, Anchor::Middle, "", &format!("{value:+.2}"));
+                    canvas.text(middle, top + 36.0, Anchor::Middle, "small", note);
+                    canvas.close();
+                }
+            }
+        }
+    }
+    for (column, name) in matrix.names.iter().take(count.saturating_sub(1)).enumerate() {
+        let middle = LEFT + (column as f64 + 0.5) * CELL[0];
+        canvas.text(middle, sides * CELL[1] + 15.0, Anchor::Middle, "", name);
+    }
+    canvas.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_pair_is_told_once() {
+        let names = ["win", "steps", "distance"].map(str::to_owned);
+        let cell = |value: f64| Some((value, "p < 0.001".to_owned()));
+        let cells = [vec![], vec![cell(-0.28)], vec![None, cell(f64::NAN)]];
+        let svg = matrix(&Matrix { label: "correlations", names: &names, cells: &cells });
+        assert!(
+            svg.contains(">-0.28<") && svg.contains("class=\"d4\"") && svg.contains("p &lt; 0.001"),
+            "{svg}"
+        );
+        assert_eq!(svg.matches("class=\"none\"").count(), 2);
+        assert!(!svg.contains("NaN"));
+    }
+}

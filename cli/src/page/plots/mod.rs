@@ -1,0 +1,64 @@
+//! Plots as SVG inside a page: pure functions of plain numbers, the same bytes for the same numbers.
+//!
+//! Colours are classes that `plots.css` gives a light and a dark meaning: `q0` to `q10` from little to much, in one hue whose
+//! lightness alone tells them apart, so that every eye can; `d0` to `d10` from blue over neutral to orange, for what may be
+//! negative. Every value is written in words too. What is missing is grey and hatched, never a colour of the scale.
+
+mod canvas;
+mod forest;
+mod heat_map;
+mod matrix;
+mod violin;
+
+pub(crate) use forest::{Forest, ForestRow, forest};
+pub(crate) use heat_map::{HeatMap, heat_map};
+pub(crate) use matrix::{Matrix, matrix};
+pub(crate) use violin::{Violin, Violins, violins};
+
+/// What stands beside a row of a plot: two lines, the second perhaps empty.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Label {
+    /// What it is called.
+    pub(crate) name: String,
+    /// What sets it apart from others of that name.
+    pub(crate) note: String,
+}
+
+/// The step of a scale that a value stands on: 0 at `low` and below, 10 at `high` and above.
+fn step(value: f64, low: f64, high: f64) -> usize {
+    let part = if high > low { (value - low) / (high - low) } else { 0.5 };
+    (part.clamp(0.0, 1.0) * 10.0).round() as usize
+}
+
+/// A text of at most so many letters: its middle is left out if it is longer, for models differ in their first and last letters.
+fn shortened(text: &str, letters: usize) -> String {
+    let all: Vec<char> = text.chars().collect();
+    if all.len() <= letters {
+        return text.to_owned();
+    }
+    let (head, tail) = (letters / 2, letters - letters / 2 - 1);
+    let part = |letters: &[char]| letters.iter().collect::<String>();
+    format!("{}…{}", part(&all[..head]), part(&all[all.len() - tail..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_stay_on_the_scale() {
+        let check = |value: f64, expect: usize| assert_eq!(step(value, 0.0, 2.0), expect);
+        check(-1.0, 0);
+        check(0.0, 0);
+        check(1.0, 5);
+        check(2.0, 10);
+        check(7.0, 10);
+        assert_eq!(step(3.0, 3.0, 3.0), 5, "a scale without length");
+    }
+
+    #[test]
+    fn long_names_keep_both_ends() {
+        assert_eq!(shortened("random", 8), "random");
+        assert_eq!(shortened("large-model-thinking", 9), "larg…king");
+    }
+}

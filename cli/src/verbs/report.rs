@@ -1,0 +1,92 @@
+//! `arcade report`: what do the results of evaluations say?
+
+use crate::console::Console;
+use crate::evaluation_report::{Results, write_evaluation_report};
+use crate::failure::{Answer, Failure};
+use crate::verbs::evaluate::failure;
+use crate::verbs::release::in_pool;
+use crate::verbs::verify;
+use evaluation::study::Study;
+use evaluation::{Evaluation, EvaluationError};
+use serde_json::{Value, json};
+use snapshots::Draft;
+use std::path::PathBuf;
+
+/// Compares the results of evaluations: tables, plots and one page.
+///
+/// Every number is computed again from the logs, whose episodes are played again. DIR gets report.html (one file, for any
+/// browser), report.md, report.json, and every table as tables/*.csv and tables/*.tex.
+///
+/// Example: arcade report results/random results/mcts-100 --out report
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Results folders, as `arcade evaluate` writes them
+    #[arg(value_name = "RESULTS", required = true)]
+    results: Vec<PathBuf>,
+    /// Folder for the report, absent or empty
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Levels of which the page shows each player's first episode step by step; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    replays: usize,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    // Who names a folder that is taken learns it before the work.
+    let draft = Draft::create(&args.out).map_err(verify::failure)?;
+    let open = |folder: &PathBuf| Evaluation::open(folder);
+    let evaluations = args.results.iter().map(open).collect::<Result<Vec<_>, EvaluationError>>();
+    let evaluations = evaluations.map_err(failure)?;
+    let study = in_pool(args.jobs, || Study::read(&args.results))?.map_err(failure)?;
+    if study.episodes.is_empty() {
+        return Err(Failure::malformed(
+            "no episode was played yet in these results; `arcade evaluate … --resume` plays them",
+        ));
+    }
+    let results = Results { study: &study, evaluations: &evaluations, replays: args.replays };
+    let files = write_evaluation_report(draft, &results)?;
+    console.document(&summary(args, &study, &files))?;
+    for row in &study.leaderboard {
+        let rate = row.scores.win_rate.map_or("–".to_owned(), |rate| {
+            let [value, low, high] = [rate.value, rate.low, rate.high].map(|share| 100.0 * share);
+            format!("{value:.0} % ({low:.0} to {high:.0})")
+        });
+        let (player, wins, episodes) =
+            (study.players[row.player].label(), row.scores.wins, row.scores.episodes);
+        console.say(format_args!("{player}: {wins} of {episodes} won, {rate}"));
+    }
+    study.notes.iter().for_each(|note| console.remark(note));
+    console.say(format_args!("report in {}", args.out.join("report.html").display()));
+    Ok(true)
+}
+
+fn summary(args: &Args, study: &Study, files: &[String]) -> Value {
+    let players: Vec<Value> = study
+        .leaderboard
+        .iter()
+        .map(|row| {
+            let player = &study.players[row.player];
+            json!({
+                "player": player,
+                "reference": player.is_reference(),
+                "scores": row.scores,
+                "win_rate_by_game": row.by_game,
+                "choices": row.choices,
+                "spending": row.spending,
+                "broken_off": row.broken_off,
+            })
+        })
+        .collect();
+    let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
+    json!({
+        "report": args.out,
+        "files": files,
+        "episodes": study.episodes.len(),
+        "ended": ended,
+        "players": players,
+        "notes": study.notes,
+    })
+}
