@@ -14,6 +14,9 @@ const TEMPLATE: &str = include_str!("page.html");
 const PARTS: [(&str, &str); 2] =
     [("page.css", include_str!("page.css")), ("replay.js", include_str!("replay.js"))];
 
+/// Bytes of the page, about: replays fill what the plots leave.
+const BYTES: usize = 12_000_000;
+
 /// All that the template shows.
 #[derive(Serialize)]
 struct Page<'a> {
@@ -30,8 +33,9 @@ struct Page<'a> {
 
 /// The page. The same results give the same bytes.
 pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Result<String, Failure> {
-    let replays = Replays::of(results.evaluations, results.replays)?;
     let (sections, tab_rules) = sections::all(results.study, tables);
+    let room = BYTES.saturating_sub(sections.iter().map(Section::bytes).sum());
+    let replays = Replays::of(results.evaluations, results.replays, room)?;
     let page = Page {
         title: &told.title,
         subtitle: &told.subtitle,

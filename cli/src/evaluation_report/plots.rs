@@ -64,6 +64,11 @@ impl Heats {
         Heats { measures, scopes: scopes.collect(), panels: panels.collect() }
     }
 
+    /// What they take of the page.
+    pub(super) fn bytes(&self) -> usize {
+        self.panels.iter().flat_map(|panel| &panel.svgs).map(String::len).sum()
+    }
+
     /// The style rules by which a choice shows its panel.
     pub(super) fn rules(&self) -> String {
         let mut text = String::new();

@@ -57,6 +57,11 @@ impl Section {
             tables: Vec::new(),
         }
     }
+
+    /// What its heat maps, by far the largest part, take of the page.
+    pub(super) fn bytes(&self) -> usize {
+        self.heats.as_ref().map_or(0, Heats::bytes)
+    }
 }
 
 /// All questions, and the style rules of the heat maps.
@@ -89,10 +94,10 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut pairs = Section::new(
         "pairs",
         "Players against each other",
-        "Every pair on the levels that both played. With few episodes on a level hardly anything can be significant there: the tests over \
-         games and over all levels have the power.",
+        "Every pair on the levels that both played. With few episodes on a level hardly anything can be significant there: the \
+         last table of this section says what could be seen.",
     );
-    pairs.tables = of(&["pairs-overall", "pairs-by-game", "pairs-by-level"]);
+    pairs.tables = of(&["pairs-overall", "pairs-by-game", "pairs-by-level", "power"]);
 
     let mut modes = Section::new("modes", "Zero-shot against contextual", "");
     modes.tables = of(&["modes-overall", "modes-by-game", "modes-by-level"]);

@@ -32,8 +32,8 @@ impl Told {
         let mut counted = vec![episodes(study), common(study, levels)];
         counted.extend(answers(study));
         counted.push(
-            "Intervals are for 95 %. A dash is a value that is not known, never 0. What each section tells, with its formulas, is in \
-             docs/report.md."
+            "Intervals are for 95 %. A dash is a value that is not known, never 0. What each section tells is in docs/report.md, what \
+             each number is in docs/metrics.md."
                 .to_owned(),
         );
         Told { title, subtitle: subtitle(evaluations), counted, warnings: study.notes.clone() }
@@ -110,7 +110,7 @@ fn episodes(study: &Study) -> String {
 /// On which levels the players can be compared.
 fn common(study: &Study, levels: u64) -> String {
     let played = |player: usize| -> BTreeSet<(usize, usize)> {
-        let ended = study.of_player(player).filter(|episode| episode.metrics.counts());
+        let ended = study.on(player, None, None).iter().filter(|episode| episode.metrics.counts());
         ended.map(|episode| (episode.game, episode.metrics.level)).collect()
     };
     let all =

@@ -15,8 +15,6 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use talk::{Talk, talks};
 
-/// Bytes of all replays together, about.
-const BYTES: usize = 9_000_000;
 /// Of a longer episode, the first and the last decisions are shown.
 const FIRST: usize = 200;
 const LAST: usize = 100;
@@ -99,9 +97,9 @@ struct Candidate<'a> {
 
 impl Replays {
     /// The first run of `levels` levels for each player, the same levels for all as far as they were played: the first level of
-    /// each game in turn, then the second. Players with words come first where there is no room for all. Cost: O(steps) of play
-    /// and drawing for each.
-    pub(super) fn of(evaluations: &[Evaluation], levels: usize) -> Result<Replays, Failure> {
+    /// each game in turn, then the second. Players with words come first where there is no room, in bytes, for all. Cost: O(steps)
+    /// of play and drawing for each.
+    pub(super) fn of(evaluations: &[Evaluation], levels: usize, room: usize) -> Result<Replays, Failure> {
         let (players, mut left_out) = (candidates(evaluations, levels), 0);
         let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();
         let mut shown: Vec<Vec<Replay>> = players.iter().map(|_| Vec::new()).collect();
@@ -110,7 +108,7 @@ impl Replays {
         for at in 0..most {
             for ((_, candidates), shown) in players.iter().zip(&mut shown) {
                 let Some(candidate) = candidates.get(at) else { continue };
-                if bytes >= BYTES {
+                if bytes >= room {
                     left_out += 1;
                     continue;
                 }
@@ -156,7 +154,7 @@ fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Can
     let mut wanted: BTreeSet<(usize, &str)> = BTreeSet::new();
     for evaluation in evaluations {
         for subject in &evaluation.subjects {
-            wanted.extend(subject.levels.iter().enumerate().map(|(place, _)| (place, subject.id.as_str())));
+            wanted.extend(subject.levels.iter().map(|level| (level.number, subject.id.as_str())));
         }
     }
     let wanted: Vec<(usize, &str)> = wanted.into_iter().take(levels).collect();
@@ -166,8 +164,7 @@ fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Can
         let key = (entrant.mode.is_none(), evaluation::study::Player::from(entrant).label());
         let player = players.entry(key).or_default();
         for task in evaluation.tasks() {
-            let place = task.subject.levels.iter().position(|level| level.number == task.level.number);
-            let key = (place.unwrap_or_default(), task.subject.id.as_str());
+            let key = (task.level.number, task.subject.id.as_str());
             if wanted.contains(&key) {
                 player.entry(key).or_insert(Candidate { evaluation, task });
             }
