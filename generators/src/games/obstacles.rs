@@ -113,7 +113,7 @@ fn collapse(draft: &mut Draft, _: &mut Sampler) {
     let arch = draft.place(Role::Archway, SpriteClass::Immovable, Body::Spot, &[]);
     let rubble = draft.spawn(Role::Rubble, SpriteClass::Immovable, Body::Solid, &[]);
     draft.rule(Phase::Meet, arch, &[AVATAR], Effect::SpawnBehind { stype: rubble });
-    let clause = format!("{} closes the way behind whoever enters {}", draft.say(rubble), draft.one(arch));
+    let clause = format!("the way back from {} is closed by {}", draft.one(arch), draft.say(rubble));
     draft.tell(clause);
 }
 

@@ -70,7 +70,7 @@ impl GameOrder {
     pub fn criteria_by_default() -> Criteria {
         Criteria {
             budget: 400_000,
-            idle_plays: 24,
+            idle_plays: 72,
             ablation_calls: 50_000,
             random_wins: 0.075,
             skill_wins: 0.5,

@@ -102,7 +102,7 @@ fn hunter(draft: &mut Draft, sampler: &mut Sampler, friend: Part) {
 fn caught(draft: &mut Draft, friend: Part) {
     draft.scored(Phase::Take, friend, &[AVATAR], Effect::KillSprite, 3);
     draft.win_without(&[friend]);
-    draft.goal = format!("catch every {} and take it to safety", draft.say(friend));
+    draft.goal = format!("catch every {} to save it", draft.say(friend));
 }
 
 fn catch(draft: &mut Draft, sampler: &mut Sampler) {
