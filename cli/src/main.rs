@@ -42,7 +42,7 @@ enum Verb {
     Validate(verbs::validate::Args),
     Generate(verbs::generate::Args),
     Run(verbs::run::Args),
-    Evaluate(verbs::evaluate::Args),
+    Evaluate(Box<verbs::evaluate::Args>),
     ServePlayer(verbs::serve_player::Args),
     Report(verbs::report::Args),
     Play(verbs::play::Args),

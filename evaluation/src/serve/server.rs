@@ -177,19 +177,19 @@ async fn complete(
     let answered = tokio::task::spawn_blocking(move || completion(&player, &body)).await;
     match answered {
         Ok(Ok(document)) => Json(document).into_response(),
-        Ok(Err(refusal)) => refusal,
+        Ok(Err(refusal)) => *refusal,
         Err(_) => refusal(StatusCode::INTERNAL_SERVER_ERROR, "player_failed", "the player has failed"),
     }
 }
 
-fn completion(player: &PromptPlayer, body: &[u8]) -> Result<Value, Response> {
-    let bad = |code, message: &str| refusal(StatusCode::BAD_REQUEST, code, message);
+fn completion(player: &PromptPlayer, body: &[u8]) -> Result<Value, Box<Response>> {
+    let bad = |code, message: &str| Box::new(refusal(StatusCode::BAD_REQUEST, code, message));
     let request: Request =
         serde_json::from_slice(body).map_err(|error| bad("invalid_json", &error.to_string()))?;
     let name = player.to_string();
     if request.model != name {
         let message = format!("the model `{}` does not exist; this server has `{name}`", request.model);
-        return Err(refusal(StatusCode::NOT_FOUND, "model_not_found", &message));
+        return Err(Box::new(refusal(StatusCode::NOT_FOUND, "model_not_found", &message)));
     }
     if request.stream || request.n.is_some_and(|n| n != 1) {
         return Err(bad(

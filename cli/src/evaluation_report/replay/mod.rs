@@ -149,6 +149,9 @@ fn note(levels: usize, left_out: u64) -> String {
     note
 }
 
+/// A player's episodes by level and game.
+type OnLevels<'a> = BTreeMap<(usize, &'a str), Candidate<'a>>;
+
 /// By player, models first: the episodes that may be shown.
 fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Candidate<'_>>)> {
     let mut wanted: BTreeSet<(usize, &str)> = BTreeSet::new();
@@ -158,7 +161,7 @@ fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Can
         }
     }
     let wanted: Vec<(usize, &str)> = wanted.into_iter().take(levels).collect();
-    let mut players: BTreeMap<(bool, String), BTreeMap<(usize, &str), Candidate<'_>>> = BTreeMap::new();
+    let mut players: BTreeMap<(bool, String), OnLevels<'_>> = BTreeMap::new();
     for evaluation in evaluations {
         let entrant = &evaluation.settings.entrant;
         let key = (entrant.mode.is_none(), evaluation::study::Player::from(entrant).label());

@@ -83,7 +83,7 @@ enum Asked {
     Replay(Replay),
     Human(PromptSettings),
     Prompted(PromptPlayer, PromptSettings),
-    Process(Process),
+    Process(Box<Process>),
     Model(Box<model::Asked>),
 }
 
@@ -240,7 +240,9 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
         return Ok(Asked::Human(args.model.prompt.settings()?));
     }
     if let Some(command) = player.strip_prefix("cmd:") {
-        return process(command, args.model.timeout).map(Asked::Process).map_err(Failure::malformed);
+        return process(command, args.model.timeout)
+            .map(|process| Asked::Process(Box::new(process)))
+            .map_err(Failure::malformed);
     }
     if player == "reflex" || player.starts_with("planner:") {
         let player: PromptPlayer = player.parse().map_err(Failure::malformed)?;
