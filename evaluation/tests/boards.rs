@@ -59,7 +59,12 @@ fn tells_everything(subject: &Subject, legend: &Legend, seen: &Observation) {
         let is_here = seen.avatar.as_ref().is_some_and(|avatar| (avatar.column, avatar.row) == place);
         let entry =
             |name: &String| legend.entry(name).unwrap_or_else(|| panic!("{id}: {name} is not in the legend"));
-        let others = all.iter().filter(|name| !own(name) && entry(name).standing != Standing::Floor);
+        // What is in the observation and drawn nowhere (`invisible=`) is shown to nobody.
+        let game = &subject.game;
+        let seen =
+            |name: &str| !game.sprite_type(name).is_some_and(|stype| subject.analysis.facts(stype).hidden);
+        let others =
+            all.iter().filter(|name| !own(name) && seen(name) && entry(name).standing != Standing::Floor);
         let others: Vec<&str> = others.map(String::as_str).collect();
         // All states of the avatar are one to the reader of a board.
         let (below, top) = if is_here { read.split_at(read.len() - 1) } else { (&read[..], &[][..]) };
