@@ -10,7 +10,7 @@ use crate::levels::grid::Grid;
 use crate::levels::tests::{game_in, public_folder, workspace};
 use crate::{Generator, Variation};
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
-use engine::{Analysis, Game, Level, Outcome, Seed, State};
+use engine::{Action, Analysis, Game, Level, Outcome, Seed, State};
 use std::collections::{BTreeMap, VecDeque};
 
 /// A game of pushing crates; `sprites`, `mapping` and `rules` say where they go.
@@ -175,14 +175,15 @@ fn solutions_win_and_levels_vary() {
 fn a_level_starts_where_it_is_asked_to_on_the_way() {
     let game = sink();
     let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
-    let ticks = |way: (f64, f64), index: u64| {
+    let analysis = Analysis::of(&game);
+    let pushes = |way: (f64, f64), index: u64| {
         let puzzle = PuzzleConfig { things: Some(3), floor_plans: 40, way: Some(way) };
         let variation = PuzzleVariation::new(&game, config.clone(), puzzle).unwrap();
         let solved = variation.create_solved(Seed::from_text("way").child("level", index)).unwrap();
-        solved.solution.unwrap().len()
+        pushes_among(&analysis, &solved.level, &solved.solution.unwrap())
     };
     for index in 0..4 {
-        let [short, half, whole] = [(0.0, 0.2), (0.5, 0.5), (1.0, 1.0)].map(|way| ticks(way, index));
+        let [short, half, whole] = [(0.0, 0.2), (0.5, 0.5), (1.0, 1.0)].map(|way| pushes(way, index));
         assert!(short < half && half < whole, "{short}, {half}, {whole}");
     }
     let backwards = PuzzleConfig { way: Some((0.5, 0.2)), ..PuzzleConfig::default() };
@@ -191,14 +192,20 @@ fn a_level_starts_where_it_is_asked_to_on_the_way() {
 
 /// Fewest ticks, proved, with the pushes among them.
 fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
-    let game = analysis.game();
-    let mut state = game.start(level, Seed::from_text("proof"));
+    let state = analysis.game().start(level, Seed::from_text("proof"));
     let pushes = Pushes::of(analysis, level);
     let Answer::Won { actions, shortest: true } =
         a_star(analysis, &pushes, &state, SearchLimits::calls(10_000_000)).answer
     else {
         panic!("not proved\n{level}")
     };
+    (actions.len(), pushes_among(analysis, level, &actions))
+}
+
+/// How many of these actions push something.
+fn pushes_among(analysis: &Analysis, level: &Level, actions: &[Action]) -> usize {
+    let game = analysis.game();
+    let mut state = game.start(level, Seed::from_text("proof"));
     let things = |state: &State| {
         let pushed = analysis.pushables().iter().flat_map(|pushable| state.rects(pushable.stype));
         let mut places: Vec<(i32, i32)> = pushed.map(|rect| (rect.x, rect.y)).collect();
@@ -206,12 +213,12 @@ fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
         places
     };
     let mut count = 0;
-    for &action in &actions {
+    for &action in actions {
         let before = things(&state);
         game.step(&mut state, action);
         count += usize::from(things(&state) != before);
     }
-    (actions.len(), count)
+    count
 }
 
 fn median(mut numbers: Vec<usize>) -> usize {
