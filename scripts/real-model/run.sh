@@ -8,7 +8,7 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 folder=${1:-real-model}
 arcade=${ARCADE:-arcade}
-games=${GAMES:-button-mice,quiet-jars,first-ice}
+games=${GAMES:-foxglove-round,quiet-jars,first-ice}
 levels=${LEVELS:-0,1}
 runs=${RUNS:-2}
 steps=${STEPS:-40}
@@ -39,11 +39,12 @@ for player in random mcts:100; do
         --player "$player" --out "$folder/results/$player" --resume
 done
 
-# One request at a time: the server has one slot, whose cache then holds what the prompts of an episode start with.
+# One request at a time: the server has one slot, whose cache then holds what the prompts of an episode start with. The
+# history leaves room in the context for an answer, and for a tokenizer that counts a tenth more than ours.
 for mode in zero-shot contextual; do
     "$arcade" evaluate corpus --games "$games" --levels "$levels" --runs "$runs" --max-steps "$steps" \
         --model openai:smollm2-135m-instruct --base-url "http://127.0.0.1:$port/v1" --mode "$mode" \
-        --history-tokens 4000 --max-output-tokens 40 --temperature 0.7 --concurrency 1 \
+        --history-tokens $((context * 4 / 5)) --max-output-tokens 40 --temperature 0.7 --reasks 0 --concurrency 1 \
         --out "$folder/results/smollm2-$mode" --resume
 done
 
