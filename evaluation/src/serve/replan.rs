@@ -8,7 +8,7 @@ use super::shown::Shown;
 use agents::{Budget, Planner, PlannerSpec};
 use engine::analysis::Time;
 use engine::syntax::{Description, MappingLine, parse};
-use engine::{Action, Analysis, Direction, Game, Level, Seed};
+use engine::{Action, Analysis, Direction, Game, Level, Seed, State};
 use std::collections::BTreeMap;
 
 /// Forward-model calls of a decision, where the planner's name does not say.
@@ -46,31 +46,28 @@ const SHOWN_ENDINGS: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpr
 /// # Errors
 /// The prompt does not show a position of a game that can be planned on: what is missing.
 pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Action, Unanswerable> {
-    let refuse =
-        |why: String| Err(Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")));
-    let Some(vgdl) = shown.vgdl else {
-        return refuse("it needs the rules as VGDL (`rules = \"vgdl\"`)".to_owned());
-    };
-    let (description, _) = parse(vgdl);
-    let game = match Game::compile(&description) {
-        Ok(game) => game,
-        Err(problems) => return refuse(format!("its VGDL does not compile: {problems}")),
-    };
-    if let Err(why) = is_shown(&Analysis::of(&game), shown) {
-        return refuse(why);
-    }
-    let position = match Position::of(description, shown) {
-        Ok(position) => position,
-        Err(why) => return refuse(why),
-    };
-    let Position { game, level } = position;
-    let facing = shown.you.and_then(|you| you.facing).and_then(direction);
-    let held = shown.held.iter().flatten();
-    let held: Vec<_> = held.filter_map(|(name, amount)| Some((game.sprite_type(name)?, *amount))).collect();
-    let state = game.start_as(&level, seed.child("unused", 0), facing, &held);
+    let (game, state) = position(shown, seed.child("unused", 0))
+        .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))?;
     let (action, _) =
         spec.player(seed.child("planner", 0)).plan(&game, &state, spec.budget().unwrap_or(BUDGET));
     if shown.actions.contains(&action) { Ok(action) } else { Ok(Action::Nil) }
+}
+
+/// The position that a prompt shows, in a game that plays like its game; or why there is none. The seed decides nothing.
+fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
+    let Some(vgdl) = shown.vgdl else {
+        return Err("it needs the rules as VGDL (`rules = \"vgdl\"`)".to_owned());
+    };
+    let (description, _) = parse(vgdl);
+    let game =
+        Game::compile(&description).map_err(|problems| format!("its VGDL does not compile: {problems}"))?;
+    is_shown(&Analysis::of(&game), shown)?;
+    let Position { game, level } = Position::of(description, shown)?;
+    let facing = shown.you.and_then(|you| you.facing).and_then(direction);
+    let held = shown.held.iter().flatten();
+    let held: Vec<_> = held.filter_map(|(name, amount)| Some((game.sprite_type(name)?, *amount))).collect();
+    let state = game.start_as(&level, seed, facing, &held);
+    Ok((game, state))
 }
 
 /// Whether a board, what the avatar holds and where it faces are all that there is to know in a game; if not, why.
@@ -175,5 +172,66 @@ fn direction(facing: Action) -> Option<Direction> {
         Action::Down => Some(Direction::DOWN),
         Action::Right => Some(Direction::RIGHT),
         Action::Nil | Action::Use => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::encoding;
+    use crate::legend::Legend;
+    use crate::prompt::{PromptSettings, Prompter, Rules};
+    use crate::subject::{Subject, SubjectFacts};
+    use crate::turn::{Turn, choices};
+    use std::path::Path;
+
+    /// What is told of a state, ticks and score left out.
+    fn seen(legend: &Legend, game: &Game, state: &State) -> impl PartialEq + std::fmt::Debug + use<> {
+        let seen = game.observe(state);
+        let board = (encoding::grid(&seen, legend), encoding::stacks(&seen, legend));
+        let avatar = seen.avatar.map(|avatar| (avatar.name, avatar.column, avatar.row, avatar.facing));
+        let resources: Vec<_> = seen.resources.into_iter().filter(|(_, amount)| *amount != 0).collect();
+        (seen.outcome, avatar, resources, board)
+    }
+
+    /// Positions of corpus games that can be planned on play on like the states that were shown.
+    #[test]
+    fn positions_play_on_like_what_was_shown() {
+        let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };
+        for name in ["dyepot-newt", "osier-way", "quiet-jars"] {
+            let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);
+            let text = |file: &str| std::fs::read_to_string(folder.join(file)).unwrap();
+            let levels = [(0, text("lvl0.txt"), None)];
+            let subject = Subject::read(name, &text("game.vgdl"), &levels, SubjectFacts::default()).unwrap();
+            let prompter = Prompter::new(&subject, settings.clone()).unwrap();
+            let own = &subject.game;
+            let (mut compared, mut draws) = (0, Seed::from_text(name).sampler());
+            for walk in 0..8 {
+                let mut state = own.start(&subject.levels[0].level, Seed::from_text("walk"));
+                for _ in 0..walk * 9 {
+                    let action = *draws.choose(own.actions(&state));
+                    own.step(&mut state, action);
+                }
+                if state.is_over() {
+                    continue;
+                }
+                let (observation, actions) = (own.observe(&state), choices(own, &state));
+                let (subject, observation, actions) = (&subject, &observation, &actions);
+                let turn =
+                    Turn { subject, level: 0, number: 0, limit: 9, observation, before: None, actions };
+                let messages = prompter.prompt(&turn, &[], &[]).messages;
+                let shown = Shown::of(&messages).unwrap();
+                let (game, mut copy) = position(&shown, Seed::from_text("copy")).unwrap();
+                for _ in 0..60 {
+                    let action = *draws.choose(actions);
+                    own.step(&mut state, action);
+                    game.step(&mut copy, action);
+                    let legend = prompter.legend();
+                    assert_eq!(seen(legend, &game, &copy), seen(legend, own, &state), "{name}, walk {walk}");
+                    compared += 1;
+                }
+            }
+            assert!(compared > 200, "{name}: {compared}");
+        }
     }
 }
