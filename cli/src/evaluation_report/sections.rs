@@ -124,7 +124,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     correlations.tables = of(&["correlations"]);
 
     let mut answers = Section::new("answers", "Answers, failures and times", "");
-    answers.tables = of(&["answers", "broken-off", "times"]);
+    answers.tables = of(&["answers", "times"]);
 
     (vec![leaders, levels, games, kinds, pairs, modes, aids, walked, correlations, answers], rules)
 }

@@ -8,8 +8,8 @@ use statistics::quantile;
 const LEFT: f64 = 44.0;
 const TOP: f64 = 10.0;
 const PLANE: f64 = 190.0;
-const PLACE: f64 = 132.0;
-const FOOT: f64 = 40.0;
+const PLACE: f64 = 104.0;
+const FOOT: f64 = 54.0;
 /// Half the width of the widest violin.
 const HALF: f64 = 46.0;
 /// Places at which a density is taken.
@@ -60,9 +60,11 @@ pub(crate) fn violins(plot: &Violins<'_>) -> String {
             continue;
         }
         let quartiles = [0.25, 0.5, 0.75].map(|part| at_share(&sorted, part));
-        let told = format!("median {}, n = {}", words::short(quartiles[1]), sorted.len());
-        canvas.text(middle, foot + 33.0, Anchor::Middle, "soft", &told);
-        canvas.open(if at == 0 { "first" } else { "second" }, &format!("{name}: {told}"));
+        let (median, count) =
+            (format!("median {}", words::short(quartiles[1])), format!("n = {}", sorted.len()));
+        canvas.text(middle, foot + 33.0, Anchor::Middle, "soft", &median);
+        canvas.text(middle, foot + 48.0, Anchor::Middle, "soft", &count);
+        canvas.open(if at == 0 { "first" } else { "second" }, &format!("{name}: {median}, {count}"));
         canvas.area(&outline(&sorted, plot.scale, middle, up), "body");
         if sorted.len() <= DOTS {
             sorted.iter().for_each(|&value| canvas.dot(middle, up(value), 2.2, "point"));
