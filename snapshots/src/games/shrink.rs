@@ -105,51 +105,10 @@ fn ends_alike(game: &Game, level: &Level, episode: &Episode) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recipe::Board;
     use engine::{Action, Seed};
-    use generators::games::GameVariation;
-    use generators::levels::{ConstructiveLevels, LevelConfig};
-    use generators::{Generator, Variation};
-    use validators::Report;
-
-    /// A level on which nothing was played but an episode of doing nothing.
-    fn idled(game: &Game, seed: Seed) -> Option<FoundLevel> {
-        let Board { columns, rows } = Board::default();
-        let config = LevelConfig { columns, rows, ..LevelConfig::default() };
-        let level = ConstructiveLevels::new(game, config).ok()?.generate(seed).ok()?;
-        let (mut episode, mut state) = Episode::begin(game, &level, seed);
-        while !state.is_over() && episode.actions.len() < 20 {
-            episode.play(game, &mut state, Action::Nil);
-        }
-        let report = Report { judgements: Vec::new(), witness: Some(episode) };
-        Some(FoundLevel { level, report, difficulty: 0.0, candidate: 0, seed })
-    }
 
     #[test]
-    fn a_rule_that_nothing_runs_is_taken_away_and_the_rest_plays_alike() {
-        let variation = GameVariation::default();
-        let seed = Seed::from_text("shrink");
-        let candidate =
-            |genome: &GameGenome| Candidate::generated(genome.build().ok()?, "constructive", 0).ok();
-        let mut shrank = 0;
-        for number in 0..8 {
-            let genome = variation.create(seed.child("game", number)).unwrap();
-            let first = candidate(&genome).unwrap();
-            let Some(level) = idled(&first.game, seed.child("level", number)) else { continue };
-            let levels = [level];
-            let played = Played::of(&levels);
-            let uses = played.executions(&first.game);
-            let Some(smaller) = shrunk(&genome, &first, &levels, candidate) else { continue };
-            assert!(played.alike(&first.game, &smaller.game, &uses), "{}", smaller.title);
-            let kept: BTreeSet<String> = rules(&smaller.game).collect();
-            let gone = uses.iter().filter(|(rule, _)| !kept.contains(*rule));
-            shrank += usize::from(gone.clone().any(|(_, uses)| uses.is_empty()));
-        }
-        assert!(shrank >= 2, "{shrank} games have lost a rule that nothing ran");
-    }
-
-    #[test]
-    fn a_rule_that_decides_an_episode_is_kept() {
+    fn what_nothing_runs_can_go_and_what_decides_an_episode_stays() {
         let source = "BasicGame\n  SpriteSet\n    gem > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > gem\n  InteractionSet\n    avatar wall > stepBack\n    gem avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=gem win=True\n    Timeout limit=60 win=False\n";
         let game = Game::from_source(source).unwrap();
         let level = "wwwwww\nwA  gw\nwwwwww\n";
