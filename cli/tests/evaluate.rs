@@ -234,6 +234,7 @@ fn dry_runs_ask_nothing_and_say_what_it_would_take() {
     let forecast = json(&run(home.path(), &asking(&server.base_url(), &["--dry-run"]), 0));
     assert_eq!((&forecast["episodes"], &forecast["requests"]), (&2.into(), &24.into()));
     assert!(forecast["input_tokens"].as_u64().unwrap() > 24 * 300);
+    assert_eq!(forecast["power"].as_array().unwrap().len(), 3);
     assert!(server.asked().is_empty() && !home.path().join("results").exists());
 }
 

@@ -14,7 +14,7 @@ use evaluation::player::{Contestant, Replay};
 use evaluation::prompt::PromptSettings;
 use evaluation::run::{self, FORMAT, Left, Progress, SETTINGS_FILE, Tally, Task};
 use evaluation::serve::{PromptPlayer, Prompted};
-use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject};
+use evaluation::{Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
 use human::Human;
 use indicatif::ProgressBar;
 use model::{ModelArgs, Prompters};
@@ -135,22 +135,26 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     told(console, &folder, &evaluation.settings.entrant, &tally, &ready)
 }
 
-/// Says what it would take.
+/// Says what it would take, and what it could show.
 fn forecast(asked: &Asked, settings: &Settings, subjects: &[Subject], console: &Console) -> Answer {
     let tasks = run::tasks(settings, subjects);
-    match asked {
+    let (mut document, text) = match asked {
         Asked::Model(model) => {
             let forecast = model.forecast(&tasks)?;
-            console.document(&forecast)?;
-            console.say(forecast);
+            (json!(forecast), forecast.to_string())
         }
         _ => {
-            let episodes = tasks.len();
-            console.document(&json!({ "episodes": episodes, "max_steps": settings.max_steps }))?;
-            console
-                .say(format_args!("{episodes} episodes of at most {} steps, at no cost", settings.max_steps));
+            let (episodes, steps) = (tasks.len(), settings.max_steps);
+            let text = format!("{episodes} episodes of at most {steps} steps, at no cost");
+            (json!({ "episodes": episodes, "max_steps": steps }), text)
         }
-    }
+    };
+    let levels: u64 = subjects.iter().map(|subject| subject.levels.len() as u64).sum();
+    let power = study::power(settings.runs, levels.div_ceil(subjects.len() as u64), levels);
+    document["power"] = json!(power);
+    console.document(&document)?;
+    console.say(text);
+    console.say(format_args!("\n{}", study::power_table(&power).to_markdown().trim_end()));
     Ok(true)
 }
 
