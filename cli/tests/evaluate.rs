@@ -264,6 +264,12 @@ fn malformed_questions_are_told() {
         let told = refusal(args);
         assert!(told.contains(words), "{args:?}: {told}");
     }
+    // Nothing is written before a key is there.
+    let mut keyless = arcade(home.path());
+    keyless.args(["evaluate", "hailglass", "--model", "openai:m", "--out", "k"]).env_remove("OPENAI_API_KEY");
+    let told = keyless.output().unwrap();
+    assert_eq!(told.status.code(), Some(2));
+    assert!(text(&told.stderr).contains("OPENAI_API_KEY is not set") && !home.path().join("k").exists());
     // Another question than the one that the folder holds.
     run(home.path(), &["evaluate", "hailglass", "--levels", "0", "--player", "random", "--out", "r"], 0);
     let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];

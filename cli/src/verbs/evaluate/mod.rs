@@ -121,13 +121,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return forecast(&asked, &settings, &subjects.games, console);
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
+    let ready = asked.ready(args, &subjects.games)?;
     let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
         Evaluation::resume(&folder, &settings)
     } else {
         Evaluation::create(&folder, settings, subjects.games)
     };
     let evaluation = evaluation.map_err(failure)?;
-    let ready = asked.ready(args, &evaluation)?;
+    ready.charge_past(&evaluation)?;
     let bar = Bar::new(console, evaluation.tasks().len() as u64);
     let contestant = |task: &Task<'_>| Ok::<_, Halt>(ready.contestant(task));
     let tally = in_pool(ready.threads(args), || evaluation.run(contestant, &bar))?.map_err(failure)?;
@@ -187,16 +188,16 @@ impl Asked {
         Ok(Entrant { name, mode: None, aids, details })
     }
 
-    fn ready(self, args: &Args, evaluation: &Evaluation) -> Result<Ready, Failure> {
+    fn ready(self, args: &Args, subjects: &[Subject]) -> Result<Ready, Failure> {
         Ok(match self {
             Asked::Planner(spec) => Ready::Planner(spec, Budget(args.budget)),
             Asked::Replay(replay) => Ready::Replay(replay),
-            Asked::Human(prompts) => Ready::Human(model::prompters(&evaluation.subjects, &prompts)?),
+            Asked::Human(prompts) => Ready::Human(model::prompters(subjects, &prompts)?),
             Asked::Prompted(player, prompts) => {
-                Ready::Prompted(player, model::prompters(&evaluation.subjects, &prompts)?)
+                Ready::Prompted(player, model::prompters(subjects, &prompts)?)
             }
             Asked::Process(process) => Ready::Process(process.command().to_owned(), args.model.timeout),
-            Asked::Model(model) => Ready::Model(Box::new(model.connect(evaluation)?)),
+            Asked::Model(model) => Ready::Model(Box::new(model.connect(subjects)?)),
         })
     }
 }
@@ -219,6 +220,16 @@ impl Ready {
             }
             Ready::Model(model) => model.contestant(task),
         }
+    }
+
+    /// Charges what earlier runs of the evaluation have spent.
+    fn charge_past(&self, evaluation: &Evaluation) -> Result<(), Failure> {
+        if let Ready::Model(model) = self {
+            for task in evaluation.tasks() {
+                model.caps.charge_past(&evaluation.events(&task).map_err(failure)?);
+            }
+        }
+        Ok(())
     }
 
     /// Episodes at a time. Those of models wait most of the time.

@@ -6,7 +6,7 @@ use crate::verbs::evaluate::failure;
 use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
 use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};
 use evaluation::run::Task;
-use evaluation::{Entrant, Evaluation, Observed, Subject};
+use evaluation::{Entrant, Observed, Subject};
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -332,15 +332,12 @@ impl Asked {
         Prompter::new(subject, self.prompts.clone()).map_err(failure)
     }
 
-    /// Connects; what earlier runs of the evaluation have spent is charged.
-    pub(crate) fn connect(&self, evaluation: &Evaluation) -> Result<Ready, Failure> {
+    /// Connects, as far as that goes without a request: a missing key is told before anything is written.
+    pub(crate) fn connect(&self, subjects: &[Subject]) -> Result<Ready, Failure> {
         let connection = client::connect(&self.options).map_err(failure)?;
-        for task in evaluation.tasks() {
-            connection.caps.charge_past(&evaluation.events(&task).map_err(failure)?);
-        }
         Ok(Ready {
             model: Arc::from(connection.model),
-            prompters: prompters(&evaluation.subjects, &self.prompts)?,
+            prompters: prompters(subjects, &self.prompts)?,
             decoding: connection.settings.decoding,
             reasks: self.reasks,
             caps: connection.caps,
