@@ -264,6 +264,8 @@ fn malformed_questions_are_told() {
         let told = refusal(args);
         assert!(told.contains(words), "{args:?}: {told}");
     }
+    std::fs::write(home.path().join("alone.vgdl"), "BasicGame\n").unwrap();
+    assert!(refusal(&["alone.vgdl", "--player", "random"]).contains("put lvl0.txt"));
     // Nothing is written before a key is there.
     let mut keyless = arcade(home.path());
     keyless.args(["evaluate", "hailglass", "--model", "openai:m", "--out", "k"]).env_remove("OPENAI_API_KEY");

@@ -71,7 +71,10 @@ fn of_input(input: &GameInput, choice: &Choice<'_>) -> Result<Option<Subject>, F
     };
     let named = input.levels()?;
     if named.is_empty() {
-        return Err(Failure::malformed(format!("{}: the game has no levels", input.source.name)));
+        return Err(Failure::malformed(format!(
+            "{}: the game has no levels; put lvl0.txt and so on beside a game.vgdl, and name the folder",
+            input.source.name
+        )));
     }
     let wanted = named.iter().enumerate().filter(|(number, _)| choice.wants(*number));
     let levels: Vec<_> = wanted.map(|(number, level)| (number, level.text.clone(), None)).collect();
