@@ -3,6 +3,8 @@
 
 const MULTIPLIER: u64 = 0x5_DEEC_E66D;
 const MASK: u64 = (1 << 48) - 1;
+/// Bits of a draw of [`Chance::float`].
+pub(crate) const DRAW: u32 = 24;
 
 /// Eight bytes of state; part of every [`State`](crate::State).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,7 +21,8 @@ impl Chance {
         self.0
     }
 
-    fn next(&mut self, bits: u32) -> i32 {
+    /// One draw, of at most 31 bits.
+    pub(crate) fn next(&mut self, bits: u32) -> i32 {
         self.0 = self.0.wrapping_mul(MULTIPLIER).wrapping_add(0xB) & MASK;
         (self.0 >> (48 - bits)) as i32
     }
@@ -43,7 +46,7 @@ impl Chance {
 
     /// Uniform in [0, 1) with 24 bits: one draw.
     pub fn float(&mut self) -> f32 {
-        self.next(24) as f32 / (1 << 24) as f32
+        self.next(DRAW) as f32 / (1 << DRAW) as f32
     }
 
     /// Uniform in [0, 1) with 53 bits: two draws.

@@ -346,7 +346,8 @@ impl State {
             (group.loose, group.big, group.off) = (0, 0, 0);
         }
         state.covered.fill(0);
-        (state.big, state.loose_bits, state.big_bits, state.vast, state.left_behind) = (0, 0, 0, 0, 0);
+        (state.big, state.off, state.loose_bits) = (0, 0, 0);
+        (state.big_bits, state.vast, state.left_behind) = (0, 0, 0);
         state.empty_contacts(&rules.contacts);
         let slots: Vec<Slot> =
             (0..rules.types.len() as u16).flat_map(|t| self.slots(SpriteType(t))).collect();

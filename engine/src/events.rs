@@ -17,10 +17,12 @@ impl Step<'_> {
                 return;
             }
         }
-        for &(stype, effect) in &self.rules.edge {
-            self.edge_pass(stype, effect, watch);
-            if self.stopped.is_some() {
-                return;
+        if self.state.off != 0 || self.rules.undeclared_at_edge {
+            for &(stype, effect) in &self.rules.edge {
+                self.edge_pass(stype, effect, watch);
+                if self.stopped.is_some() {
+                    return;
+                }
             }
         }
         let rules = self.rules;

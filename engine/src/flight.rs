@@ -27,33 +27,42 @@ pub(crate) struct Flight {
 /// where numbers overflow.
 const FARTHEST: i32 = 1 << 16;
 
-/// A sprite in flight as it is in a tick.
-fn flown(sprite: &Sprite, tick: i32) -> Sprite {
+/// Where a sprite in flight is in a tick.
+fn flown(sprite: &Sprite, tick: i32) -> Rect {
     let Sprite { rect, last, .. } = *sprite;
-    let (dx, dy) = (rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
     let ticks = tick.wrapping_sub(sprite.moved_at);
-    let along = |at: i32, by: i32| at.wrapping_add(by.wrapping_mul(ticks));
-    let rect = rect.at(along(rect.x, dx), along(rect.y, dy));
-    let last = last.at(rect.x.wrapping_sub(dx), rect.y.wrapping_sub(dy));
-    Sprite { rect, last, moved_at: tick, ..*sprite }
+    let along = |at: i32, last: i32| at.wrapping_add(at.wrapping_sub(last).wrapping_mul(ticks));
+    rect.at(along(rect.x, last.x), along(rect.y, last.y))
+}
+
+/// Makes a sprite in flight as it is in a tick. Returns how far it moves in one.
+fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
+    let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.last.x), sprite.rect.y.wrapping_sub(sprite.last.y));
+    sprite.rect = flown(sprite, tick);
+    (sprite.last.x, sprite.last.y) = (sprite.rect.x.wrapping_sub(dx), sprite.rect.y.wrapping_sub(dy));
+    sprite.moved_at = tick;
+    (dx, dy)
 }
 
 impl State {
     /// Where a sprite is, in flight or not; in the event phase and between steps.
     pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
-        if sprite.rest == mark::FLYING { flown(sprite, self.tick).rect } else { sprite.rect }
+        if sprite.rest == mark::FLYING { flown(sprite, self.tick) } else { sprite.rect }
     }
 
     /// A sprite as it is now, in flight or not; in the event phase and between steps.
     pub(crate) fn present(&self, slot: Slot) -> Sprite {
-        let sprite = self.sprite(slot);
-        if sprite.rest == mark::FLYING { flown(sprite, self.tick) } else { *sprite }
+        let mut sprite = *self.sprite(slot);
+        if sprite.rest == mark::FLYING {
+            fly_to(&mut sprite, self.tick);
+        }
+        sprite
     }
 
     /// Ends a flight: the sprite is as it would be after its update in `tick`.
     fn land(&mut self, rules: &Rules, slot: Slot, tick: i32) {
         let sprite = &mut self.sprites[usize::from(slot)];
-        *sprite = flown(sprite, tick);
+        fly_to(sprite, tick);
         sprite.rest = mark::TRIED;
         sprite.set(flag::MOVED, true);
         self.groups[sprite.stype.index()].asleep -= 1;
@@ -90,10 +99,8 @@ impl State {
         if !self.rests.is_empty() {
             self.touch(slot);
         }
-        let sprite = &mut self.sprites[usize::from(slot)];
-        let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.last.x), sprite.rect.y.wrapping_sub(sprite.last.y));
-        *sprite = flown(sprite, self.tick);
-        let moves = self.enter_lane(rules, slot, (dx, dy));
+        let by = fly_to(&mut self.sprites[usize::from(slot)], self.tick);
+        let moves = self.enter_next_lane(rules, slot, by).unwrap_or_else(|| self.enter_lane(rules, slot, by));
         if !self.rests.is_empty() {
             self.touch(slot);
         }

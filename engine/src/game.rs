@@ -2,13 +2,14 @@
 
 use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use crate::ontology::sprites::Mover;
 use crate::ontology::terminations::Termination;
 use crate::ontology::traits::Traits;
 use crate::rest::Foresight;
-use crate::state::{State, memory};
+use crate::state::{Sprite, State, memory};
 use crate::syntax::Description;
 use crate::{Digest, causes};
 use serde::{Deserialize, Serialize};
@@ -163,6 +164,8 @@ pub(crate) struct TypeInfo {
     pub(crate) resource_limit: i32,
     /// A leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
     pub(crate) leaf: bool,
+    /// A termination may count its sprites.
+    pub(crate) counted: bool,
     /// Lacks a parameter without which the reference dies of making such a sprite.
     pub(crate) incomplete: bool,
     /// Messages that the reference logs when it makes the first sprite: parameters that the class does not have.
@@ -297,6 +300,8 @@ pub(crate) struct Rules {
     /// What terminations say of the flag that lets counters end the game: `canEnd=`.
     pub(crate) can_end: bool,
     pub(crate) types: Vec<TypeInfo>,
+    /// By type: its sprites as they are made.
+    pub(crate) models: Vec<Sprite>,
     /// Drawing order; updates go through it backwards.
     pub(crate) order: Vec<SpriteType>,
     /// Types whose update does something, in update order.
@@ -306,9 +311,10 @@ pub(crate) struct Rules {
     /// Level characters that stand for an undeclared sprite: the reference dies of a level that uses one.
     pub(crate) unusable: BTreeSet<char>,
     pub(crate) effects: Vec<EffectInfo>,
-    /// Edge-of-screen passes, repeats expanded: the type and the effect. An undeclared type is what the reference dies
-    /// of in the first tick.
+    /// Edge-of-screen passes, repeats expanded: the type and the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,
+    /// One of them is about an undeclared type: the reference dies of it in the first tick.
+    pub(crate) undeclared_at_edge: bool,
     pub(crate) passes: Vec<Pass>,
     /// Which passes can do something, by what stands together.
     pub(crate) contacts: Contacts,
@@ -438,6 +444,12 @@ impl Game {
     /// The class of a type; none for bare grouping nodes.
     pub fn class(&self, stype: SpriteType) -> Option<SpriteClass> {
         self.0.types[stype.index()].class
+    }
+
+    /// Where new sprites of a type face, written, inherited or by their class; [`Direction::NONE`] for what faces nowhere,
+    /// [`Direction::NIL`] for what draws it.
+    pub fn orientation(&self, stype: SpriteType) -> Direction {
+        self.0.types[stype.index()].traits.orientation
     }
 
     /// Whether chance plays no part: the same actions always give the same episode.

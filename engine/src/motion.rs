@@ -102,7 +102,13 @@ impl Step<'_> {
             return None;
         }
         let rect = sprite.rect;
-        let shift = |component: f64| (component * f64::from(amount)) as i32;
+        // Most directions are those of the grid.
+        let shift = |component: f64| match component {
+            0.0 => 0,
+            1.0 => amount,
+            -1.0 => amount.saturating_neg(),
+            _ => (component * f64::from(amount)) as i32,
+        };
         Some(rect.at(rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y))))
     }
 

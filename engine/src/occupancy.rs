@@ -1,7 +1,7 @@
 //! Who is where: each cell of the board, and of a ring around it, has a chain of the sprites whose top-left corner lies
 //! in it, sprites of no rule left out. Kept as sprites move, so asking who overlaps a rectangle costs what stands there.
 
-use crate::contacts::Contacts;
+use crate::contacts::{Contacts, Kind};
 use crate::game::Rules;
 use crate::geometry::Rect;
 use crate::span::Span;
@@ -71,24 +71,33 @@ impl State {
         Located { column, row, flags: flags & flag::LYING }
     }
 
-    /// Where a rectangle is that comes from `old`, if that filled one cell of the board at most and this is as far along in
-    /// that cell, the next one or the one before: most moves on the grid are such, and nothing else is to be looked at.
+    /// Where a rectangle is that comes from `old`. What lies on the board, and is no larger than a cell, is looked for along
+    /// the axes only along which it went.
     #[inline(always)]
-    fn next_cell(&self, from: Located, old: Rect, rect: Rect) -> Option<Located> {
-        let block = self.block;
-        let by = |from: i32, to: i32| match to.wrapping_sub(from) {
-            0 => Some(0),
-            by if by == block => Some(1),
-            by if by == -block => Some(-1),
-            _ => None,
-        };
-        if from.flags != 0 || (old.w, old.h) != (rect.w, rect.h) {
-            return None;
+    fn locate_moved(&self, from: Located, old: Rect, rect: Rect) -> Located {
+        if from.flags & (flag::BIG | flag::OFF) != 0 || (old.w, old.h) != (rect.w, rect.h) {
+            return self.locate(rect, from.column, from.row);
         }
-        let (column, row) = (from.column + by(old.x, rect.x)?, from.row + by(old.y, rect.y)?);
-        let inside = |cell: i16, cells: i32| cell > 0 && i32::from(cell) <= cells;
-        let to = Located { column, row, flags: 0 };
-        (inside(column, self.columns) && inside(row, self.rows)).then_some(to)
+        let mut to = from;
+        if rect.x != old.x {
+            let Some((column, wide)) = near(rect.x, rect.w, from.column, self.block, self.columns) else {
+                return self.locate_afar(rect);
+            };
+            to.column = column;
+            to.flags = to.flags & !flag::RIGHT
+                | bit(wide, flag::RIGHT)
+                | bit(wide && i32::from(column) == self.columns, flag::OFF);
+        }
+        if rect.y != old.y {
+            let Some((row, tall)) = near(rect.y, rect.h, from.row, self.block, self.rows) else {
+                return self.locate_afar(rect);
+            };
+            to.row = row;
+            to.flags = to.flags & !flag::BELOW
+                | bit(tall, flag::BELOW)
+                | bit(tall && i32::from(row) == self.rows, flag::OFF);
+        }
+        to
     }
 
     /// Where any rectangle is.
@@ -153,6 +162,42 @@ impl State {
         lane.map_or_else(|| self.moves_within(self.sprite(slot), dx, dy), |(_, moves)| moves)
     }
 
+    /// The same for one that is in two cells now, and goes on to the second of them and the one after that, as most do.
+    #[inline(always)]
+    pub(crate) fn enter_next_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> Option<i32> {
+        let (block, stride) = (self.block, (self.columns + 2) as usize);
+        let sprite = &mut self.sprites[usize::from(slot)];
+        let before = sprite.row as usize * stride + sprite.column as usize;
+        let (by, at, size, low, cells, unit) = match sprite.flags & flag::LYING {
+            flag::RIGHT if dy == 0 => (dx, sprite.rect.x, sprite.rect.w, &mut sprite.column, self.columns, 1),
+            flag::BELOW if dx == 0 => (dy, sprite.rect.y, sprite.rect.h, &mut sprite.row, self.rows, stride),
+            _ => return None,
+        };
+        let next = i32::from(*low) + by.signum();
+        let offset = at - (next - 1) * block;
+        let room = if by > 0 { 2 * block - size - offset } else { offset };
+        let ahead = if by > 0 { offset < block } else { offset + size > block };
+        let inside = offset >= 0 && offset + size <= 2 * block;
+        if by == 0 || !ahead || !inside || next < 1 || next >= cells {
+            return None;
+        }
+        *low = next as i16;
+        let kind = &rules.contacts.kinds[sprite.stype.index()];
+        if kind.own != 0 {
+            let (after, gone, new) = if by > 0 {
+                (before + unit, before, before + 2 * unit)
+            } else {
+                (before - unit, before + unit, before - unit)
+            };
+            self.unlink(slot, before);
+            self.link(slot, after);
+            self.depart(&rules.contacts, kind, gone);
+            self.arrive(&rules.contacts, kind, new);
+        }
+        let by = by.abs();
+        Some(if room < by { 0 } else { room / by })
+    }
+
     /// The two cells of [`State::enter_lane`], if both are on the board, and for how many moves the sprite stays in them.
     #[inline(always)]
     fn lane(&self, rect: Rect, exact: Located, dx: i32, dy: i32) -> Option<(Located, i32)> {
@@ -207,14 +252,19 @@ impl State {
         (sprite.column, sprite.row) = (to.column, to.row);
         sprite.flags = sprite.flags & !flag::LYING | to.flags;
         let stype = sprite.stype.index();
-        self.lie(&rules.contacts, stype, 0, to.flags);
+        if to.flags != 0 {
+            self.lie(&rules.contacts, stype, 0, to.flags);
+        }
         let kind = &rules.contacts.kinds[stype];
         if kind.own == 0 {
             return;
         }
         self.link(slot, cell);
-        for cell in self.span(cell, to.flags).cells() {
-            self.arrive(&rules.contacts, kind, cell);
+        self.arrive(&rules.contacts, kind, cell);
+        if to.flags & (flag::RIGHT | flag::BELOW) != 0 {
+            for cell in self.span(cell, to.flags).cells().skip(1) {
+                self.arrive(&rules.contacts, kind, cell);
+            }
         }
         if to.flags & flag::BIG != 0 {
             self.cover(kind, slot);
@@ -224,15 +274,20 @@ impl State {
     pub(crate) fn leave_cell(&mut self, rules: &Rules, slot: Slot) {
         let sprite = self.sprite(slot);
         let (cell, stype, flags) = (self.cell_of(sprite), sprite.stype.index(), sprite.flags);
-        self.sprites[usize::from(slot)].flags &= !flag::LYING;
-        self.lie(&rules.contacts, stype, flags, 0);
+        if flags & flag::LYING != 0 {
+            self.sprites[usize::from(slot)].flags &= !flag::LYING;
+            self.lie(&rules.contacts, stype, flags, 0);
+        }
         let kind = &rules.contacts.kinds[stype];
         if kind.own == 0 {
             return;
         }
         self.unlink(slot, cell);
-        for cell in self.span(cell, flags).cells() {
-            self.depart(&rules.contacts, kind, cell);
+        self.depart(&rules.contacts, kind, cell);
+        if flags & (flag::RIGHT | flag::BELOW) != 0 {
+            for cell in self.span(cell, flags).cells().skip(1) {
+                self.depart(&rules.contacts, kind, cell);
+            }
         }
         self.left_behind += u32::from(flags & flag::BIG != 0);
     }
@@ -243,6 +298,7 @@ impl State {
     pub(crate) fn relocate(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let (old, before) = (sprite.rect, sprite.flags);
+        let from = Located { column: sprite.column, row: sprite.row, flags: before & flag::LYING };
         let resized = (old.w, old.h) != (rect.w, rect.h);
         sprite.flags |= flag::STALE | flag::MOVED | bit(resized, flag::CHANGED);
         sprite.rect = rect;
@@ -252,8 +308,7 @@ impl State {
         if before & flag::MOVED == 0 {
             self.moved.push(slot);
         }
-        let from = self.located(slot);
-        let to = self.next_cell(from, old, rect).unwrap_or_else(|| self.locate(rect, from.column, from.row));
+        let to = self.locate_moved(from, old, rect);
         self.enter_other(rules, slot, from, to);
     }
 
@@ -304,37 +359,69 @@ impl State {
             self.unlink(slot, before);
             self.link(slot, after);
         }
-        if (from.flags | to.flags) & (flag::RIGHT | flag::BELOW) == 0 {
-            if before != after {
-                self.depart(&rules.contacts, kind, before);
-                self.arrive(&rules.contacts, kind, after);
-            }
-            return;
-        }
-        let unit = match to.flags & (flag::RIGHT | flag::BELOW) {
-            _ if from.flags != to.flags => 0,
-            flag::RIGHT => 1,
-            flag::BELOW => (self.columns + 2) as usize,
-            _ => 0,
-        };
-        let one = |cell: usize| self.span(cell, 0);
-        let (gone, new) = if unit != 0 && after == before + unit {
-            // Two cells, and two cells one further on.
-            (one(before), one(after + unit))
-        } else if unit != 0 && before == after + unit {
-            (one(before + unit), one(after))
+        let contacts = &rules.contacts;
+        let stride = (self.columns + 2) as usize;
+        let changed = from.flags ^ to.flags;
+        let (unit, across, reach) = if from.row == to.row && changed & flag::BELOW == 0 {
+            (1, if to.flags & flag::BELOW != 0 { stride } else { 0 }, flag::RIGHT)
+        } else if from.column == to.column && changed & flag::RIGHT == 0 {
+            (stride, usize::from(to.flags & flag::RIGHT != 0), flag::BELOW)
         } else {
-            self.span(before, from.flags).apart(
-                self.span(after, to.flags),
-                i32::from(to.column) - i32::from(from.column),
-                i32::from(to.row) - i32::from(from.row),
-            )
+            return self.shift_across(contacts, kind, (before, from), (after, to));
         };
+        // Along one axis: one or two cells before and after, and as many beside them if it is in two rows or columns.
+        let ends = |cell: usize, flags: u32| (cell, if flags & reach != 0 { cell + unit } else { cell });
+        let (old, new) = (ends(before, from.flags), ends(after, to.flags));
+        if old.0 != new.0 && old.0 != new.1 {
+            self.depart_beside(contacts, kind, old.0, across);
+        }
+        if old.1 != old.0 && old.1 != new.0 && old.1 != new.1 {
+            self.depart_beside(contacts, kind, old.1, across);
+        }
+        if new.0 != old.0 && new.0 != old.1 {
+            self.arrive_beside(contacts, kind, new.0, across);
+        }
+        if new.1 != new.0 && new.1 != old.0 && new.1 != old.1 {
+            self.arrive_beside(contacts, kind, new.1, across);
+        }
+    }
+
+    /// Departs from a cell, and from the one so far from it if that is another one.
+    #[inline(always)]
+    fn depart_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
+        self.depart(contacts, kind, cell);
+        if across != 0 {
+            self.depart(contacts, kind, cell + across);
+        }
+    }
+
+    #[inline(always)]
+    fn arrive_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
+        self.arrive(contacts, kind, cell);
+        if across != 0 {
+            self.arrive(contacts, kind, cell + across);
+        }
+    }
+
+    /// The rest of [`State::shift`], for moves along both axes.
+    #[inline(never)]
+    fn shift_across(
+        &mut self,
+        contacts: &Contacts,
+        kind: &Kind,
+        (before, from): (usize, Located),
+        (after, to): (usize, Located),
+    ) {
+        let (gone, new) = self.span(before, from.flags).apart(
+            self.span(after, to.flags),
+            i32::from(to.column) - i32::from(from.column),
+            i32::from(to.row) - i32::from(from.row),
+        );
         for cell in gone.cells() {
-            self.depart(&rules.contacts, kind, cell);
+            self.depart(contacts, kind, cell);
         }
         for cell in new.cells() {
-            self.arrive(&rules.contacts, kind, cell);
+            self.arrive(contacts, kind, cell);
         }
     }
 
@@ -375,9 +462,15 @@ impl State {
     /// Counts how the sprites of a type lie.
     #[inline]
     fn lie(&mut self, contacts: &Contacts, stype: usize, from: u32, to: u32) {
-        let on = |flags: u32, bits: u32| u16::from(flags & bits != 0);
+        if (from ^ to) & flag::OFF != 0 {
+            let group = &mut self.groups[stype];
+            if to & flag::OFF != 0 {
+                (group.off, self.off) = (group.off + 1, self.off + 1);
+            } else {
+                (group.off, self.off) = (group.off - 1, self.off - 1);
+            }
+        }
         let group = &mut self.groups[stype];
-        group.off = group.off + on(to, flag::OFF) - on(from, flag::OFF);
         match (from & flag::LOOSE != 0, to & flag::LOOSE != 0) {
             (false, true) => {
                 group.loose += 1;

@@ -68,9 +68,9 @@ macro_rules! state_fields {
 }
 
 state_fields! {
-    scalars tick score chance avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big loose_bits big_bits next_due census_changed jumps vast left_behind sideways;
-    buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers obstacles replaced counters;
-    scratch touched
+    scalars tick score chance avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
+    buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
+    scratch touched ways
 }
 
 fn put_scalar<T: Bytes>(value: &T, base: &T, to: &mut Vec<u8>) {

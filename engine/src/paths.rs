@@ -3,6 +3,7 @@
 use crate::game::Rules;
 use crate::geometry::Direction;
 use crate::state::{Slot, State};
+use std::sync::{Arc, OnceLock};
 
 /// Marks of cells, the ring around the board included: one that paths may lead through,
 const OPEN: u8 = 0;
@@ -55,64 +56,94 @@ impl Heap {
     }
 }
 
+/// The ways of one level: which cells paths go around, which does not change in an episode, and the paths that were asked
+/// for. All states of the level share them; who asks first does not matter for any answer.
+#[derive(Debug)]
+pub(crate) struct Ways {
+    /// By cell: [`OPEN`] or [`CLOSED`].
+    cells: Vec<u8>,
+    /// What a step ahead adds to a cell, modulo the size of numbers, and the number of that step.
+    ahead: Vec<(u8, usize)>,
+    /// By the cell where paths start: the first steps, once they were asked for; empty for boards with too many cells.
+    known: Vec<OnceLock<Box<[u8]>>>,
+}
+
+/// Cells of a board whose paths are kept: a byte for each pair of cells.
+const MAX_KEPT: usize = 1 << 11;
+
+const WAYS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
+
+impl Ways {
+    fn first(&self, start: usize, goal: usize) -> Option<Direction> {
+        let step = match self.known.get(start) {
+            Some(known) => known.get_or_init(|| self.search(start, None))[goal],
+            None => self.search(start, Some(goal))[goal],
+        };
+        WAYS.get(usize::from(step).wrapping_sub(1)).copied()
+    }
+
+    /// For each cell, the first step of the way there, as a number above [`OPEN`]; up to when the goal is reached, or all.
+    fn search(&self, start: usize, goal: Option<usize>) -> Box<[u8]> {
+        let mut first = self.cells.clone();
+        first[start] = START;
+        let mut frontier = Heap::default();
+        frontier.push((0, start as u32));
+        while let Some((cost, cell)) = frontier.pop() {
+            let cell = cell as usize;
+            let here = first[cell];
+            for &(way, ahead) in &self.ahead {
+                let next = cell.wrapping_add(ahead);
+                if first[next] != OPEN {
+                    continue;
+                }
+                first[next] = if here == START { way } else { here };
+                if goal == Some(next) {
+                    return first.into();
+                }
+                frontier.push((cost + 1, next as u32));
+            }
+        }
+        first.into()
+    }
+}
+
 impl State {
     /// Notes which cells hold an obstacle now, at the start: they stay obstacles. Hidden sprites are not seen. An avatar
     /// with three actions makes all paths of the episode go left and right only, whatever becomes of it.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
-        let mut ways = vec![CLOSED; State::cell_count(self.columns, self.rows)];
+        let mut cells = vec![CLOSED; State::cell_count(self.columns, self.rows)];
         for row in 0..self.rows {
             for column in 0..self.columns {
-                ways[self.cell(column + 1, row + 1)] = OPEN;
+                cells[self.cell(column + 1, row + 1)] = OPEN;
             }
         }
         for &stype in rules.obstacles.iter().filter(|stype| !rules.types[stype.index()].traits.hidden) {
             for slot in self.slots(stype) {
                 let rect = self.sprite(slot).rect;
                 let (column, row) = (rect.x / self.block, rect.y / self.block);
-                ways[self.cell(column + 1, row + 1)] = CLOSED;
+                cells[self.cell(column + 1, row + 1)] = CLOSED;
             }
         }
-        self.obstacles = ways;
-        self.sideways = self.avatar_actions(rules) == 3;
+        let stride = (self.columns + 2) as usize;
+        let mut ahead = vec![(1, stride.wrapping_neg()), (2, stride), (3, 1usize.wrapping_neg()), (4, 1)];
+        if self.avatar_actions(rules) == 3 {
+            ahead.drain(..2);
+        }
+        let kept = if cells.len() <= MAX_KEPT { cells.len() } else { 0 };
+        let known = (0..kept).map(|_| OnceLock::new()).collect();
+        self.ways = Some(Arc::new(Ways { cells, ahead, known }));
     }
 
-    /// The first step of the path between two pixels, None if there is none, or none to go; and how many cells were looked
-    /// at.
+    /// The first step of the path between two pixels, None if there is none, or none to go; and how much work that is.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
-        if start == goal || self.obstacles[start] == CLOSED || self.obstacles[goal] == CLOSED {
+        let Some(ways) = self.ways.as_deref() else { return (None, 1) };
+        if start == goal || ways.cells[start] == CLOSED || ways.cells[goal] == CLOSED {
             return (None, 1);
         }
-        const WAYS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
-        let stride = (self.columns + 2) as usize;
-        // The number of each, and what it adds to a cell, modulo the size of numbers.
-        let ahead = [(1, stride.wrapping_neg()), (2, stride), (3, 1usize.wrapping_neg()), (4, 1)];
-        let ahead = if self.sideways { &ahead[2..] } else { &ahead[..] };
-        // For each reached cell, the first step of the way there, as a number above [`OPEN`].
-        let mut first = self.obstacles.clone();
-        first[start] = START;
-        // To make that table is work too.
-        let mut looked = (self.columns * self.rows) as usize / 8;
-        let mut frontier = Heap::default();
-        frontier.push((0, start as u32));
-        while let Some((cost, cell)) = frontier.pop() {
-            let cell = cell as usize;
-            let here = first[cell];
-            for &(way, ahead) in ahead {
-                looked += 1;
-                let next = cell.wrapping_add(ahead);
-                if first[next] != OPEN {
-                    continue;
-                }
-                let step = if here == START { way } else { here };
-                if next == goal {
-                    return (Some(WAYS[usize::from(step) - 1]), looked);
-                }
-                first[next] = step;
-                frontier.push((cost + 1, next as u32));
-            }
-        }
-        (None, looked)
+        // Work must not depend on what was asked for before.
+        let share = if ways.known.is_empty() { 1 } else { 8 };
+        (ways.first(start, goal), ways.cells.len() / share)
     }
 
     /// The reference multiplies by the reciprocal of the block, which for some sizes falls short of the cell.

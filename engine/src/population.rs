@@ -1,6 +1,6 @@
 //! Operations on sprites that the ontology is written in: those that make, kill and release them.
 
-use crate::game::{Limit, SpriteType};
+use crate::game::{Limit, SpriteType, TypeInfo};
 use crate::geometry::Rect;
 use crate::limits::MAX_SPRITES;
 use crate::ontology::class::SpriteClass;
@@ -8,6 +8,49 @@ use crate::ontology::sprites;
 use crate::rest::mark;
 use crate::state::{NONE, Slot, Sprite, flag};
 use crate::step::Step;
+
+/// A sprite of a type as it is made, but for what is decided then: rectangles, creation number and age.
+pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
+    let (traits, is_avatar) = (&info.traits, info.class.is_some_and(SpriteClass::is_avatar));
+    let flags = [
+        (flag::AVATAR, traits.is_avatar),
+        (flag::FROM_AVATAR, traits.is_from_avatar),
+        (flag::ON_GROUND, traits.on_ground),
+        (flag::FIRST_TICK, traits.is_first_tick),
+        (flag::ORIENTED, traits.is_oriented),
+        // Sprites of avatar classes are updated, and age, only as the player's.
+        (flag::FROZEN, info.order.is_none() || is_avatar),
+        (flag::BRISK, traits.cooldown <= 1 && traits.last_move == 0 && !is_avatar),
+    ];
+    Sprite {
+        rect: Rect::default(),
+        last: Rect::default(),
+        orientation: traits.orientation,
+        speed: traits.speed,
+        id: 0,
+        moved_at: traits.last_move,
+        health: traits.health,
+        max_health: traits.max_health,
+        time_to_live: traits.time_to_live,
+        count: traits.age,
+        start: traits.start,
+        spawns: match info.class {
+            Some(SpriteClass::OngoingTurningAvatar) => SpriteType(0),
+            _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
+        },
+        extra: NONE,
+        stype,
+        rest: mark::NOTHING,
+        flags: flags.into_iter().fold(0, |all, (bit, on)| if on { all | bit } else { all }),
+        heading: sprites::NO_HEADING,
+        next: NONE,
+        previous: NONE,
+        cell_next: NONE,
+        cell_previous: NONE,
+        column: 0,
+        row: 0,
+    }
+}
 
 impl Step<'_> {
     /// Whether the sprite's class is an avatar's; what the sprite passes for is [`flag::AVATAR`].
@@ -45,7 +88,8 @@ impl Step<'_> {
     }
 
     fn make(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
-        let info = self.rules.types.get(stype.index());
+        let rules = self.rules;
+        let info = rules.types.get(stype.index());
         let Some((info, class)) = info.and_then(|info| Some((info, info.class?))) else {
             self.stop(Limit::NoType);
             return None;
@@ -53,71 +97,40 @@ impl Step<'_> {
         if info.incomplete {
             self.stop(Limit::UnfitSprite);
         }
-        let traits = &info.traits;
         let block = self.state.block;
-        let scaled = |factor: f64| (f64::from(block) * factor) as i32;
-        let rect = Rect { x, y, w: scaled(traits.width_factor), h: scaled(traits.height_factor) };
+        let mut sprite = rules.models[stype.index()];
+        let size = |factor: f64| if factor == 1.0 { block } else { (f64::from(block) * factor) as i32 };
+        let (w, h) = (size(info.traits.width_factor), size(info.traits.height_factor));
+        sprite.rect = Rect { x, y, w, h };
+        sprite.last = sprite.rect;
+        sprite.id = self.state.next_id;
         let first = std::mem::replace(&mut self.state.templates[stype.index()], 1) == 0;
-        self.state.memory_is_stale |= first;
-        if !first && rect.h == 0 {
+        if first {
+            self.state.memory_is_stale = true;
+            self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
+            // A copy of the first one has forgotten what it leaves behind, and leaves what has the number 0: wall.
+            if class == SpriteClass::OngoingTurningAvatar {
+                sprite.spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
+            }
+        } else if h == 0 {
             self.stop(Limit::FlatSprite);
         }
-        if first {
-            self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
+        // Whether it is still to be updated in this tick: then its age will be 1 at that update.
+        let mut due = false;
+        if !sprite.is(flag::FROZEN) {
+            let order = info.order.map_or(-1, i32::from);
+            if order == self.updating {
+                self.stop(Limit::SpawnIntoUpdatedType);
+                return None;
+            }
+            due = order < self.updating;
+            sprite.moved_at = (self.state.tick - i32::from(due)).wrapping_sub(sprite.moved_at);
         }
-        // Sprites of avatar classes are updated, and age, only as the player's.
-        let order = info.order.map(i32::from).filter(|_| !class.is_avatar());
-        // Still to be updated in this tick: then its age will be 1 at that update.
-        let due = order.is_some_and(|order| order < self.updating);
-        let flags = [
-            (flag::AVATAR, traits.is_avatar),
-            (flag::FROM_AVATAR, traits.is_from_avatar),
-            (flag::ON_GROUND, traits.on_ground),
-            (flag::FIRST_TICK, traits.is_first_tick),
-            (flag::ORIENTED, traits.is_oriented),
-            (flag::FROZEN, order.is_none()),
-            (flag::BRISK, traits.cooldown <= 1 && traits.last_move == 0 && !class.is_avatar()),
-        ];
-        let flags = flags.into_iter().fold(0, |all, (bit, on)| if on { all | bit } else { all });
-        let sprite = Sprite {
-            rect,
+        if first && !due {
             // The first sprite of a type keeps the unscaled size until its first update.
-            last: if first && !due { Rect { x, y, w: block, h: block } } else { rect },
-            orientation: traits.orientation,
-            speed: traits.speed,
-            id: self.state.next_id,
-            moved_at: match order {
-                None => traits.last_move,
-                Some(_) => (self.state.tick - i32::from(due)).wrapping_sub(traits.last_move),
-            },
-            health: traits.health,
-            max_health: traits.max_health,
-            time_to_live: traits.time_to_live,
-            count: traits.age,
-            start: traits.start,
-            spawns: match class {
-                // A copy of the first one has forgotten what it leaves behind, and leaves what has the number 0: wall.
-                SpriteClass::OngoingTurningAvatar if !first => SpriteType(0),
-                SpriteClass::OngoingTurningAvatar => traits.spawn_behind.unwrap_or(SpriteType(0)),
-                _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
-            },
-            extra: NONE,
-            stype,
-            rest: mark::NOTHING,
-            flags,
-            heading: sprites::NO_HEADING,
-            next: NONE,
-            previous: NONE,
-            cell_next: NONE,
-            cell_previous: NONE,
-            column: 0,
-            row: 0,
-        };
-        if order.is_some_and(|order| order == self.updating) {
-            self.stop(Limit::SpawnIntoUpdatedType);
-            return None;
+            (sprite.last.w, sprite.last.h) = (block, block);
         }
-        let Some(slot) = self.state.admit(self.rules, sprite) else {
+        let Some(slot) = self.state.admit(rules, &sprite) else {
             self.stop(Limit::Sprites);
             return None;
         };

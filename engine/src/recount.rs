@@ -62,9 +62,16 @@ impl State {
     /// Which types share cells, and which rules are possible therefore.
     fn recount_contacts(&self, game: &Game) -> Result<(), String> {
         let fresh = self.contacts_from_scratch(&game.0);
-        let kept = (&self.masks, &self.together, &self.meets, &self.reasons, &self.possible, self.big);
-        let counted =
-            (&fresh.masks, &fresh.together, &fresh.meets, &fresh.reasons, &fresh.possible, fresh.big);
+        let kept =
+            (&self.masks, &self.together, &self.meets, &self.reasons, &self.possible, (self.big, self.off));
+        let counted = (
+            &fresh.masks,
+            &fresh.together,
+            &fresh.meets,
+            &fresh.reasons,
+            &fresh.possible,
+            (fresh.big, fresh.off),
+        );
         if kept != counted {
             return Err(format!("contacts: counted {counted:?}, kept {kept:?}"));
         }

@@ -12,7 +12,9 @@ use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::limits::MAX_SLOTS;
 use crate::ontology::class::SpriteClass;
+use crate::paths::Ways;
 use crate::rest::Rest;
+use std::sync::Arc;
 
 /// An index into the sprites of a state.
 pub(crate) type Slot = u16;
@@ -242,6 +244,8 @@ pub struct State {
     pub(crate) sprite_hash: u128,
     /// How many sprites are larger than a cell.
     pub(crate) big: u32,
+    /// How many are not wholly on the screen.
+    pub(crate) off: u32,
     /// The bits of the types with sprites that cover more than one cell.
     pub(crate) loose_bits: u64,
     /// The bits of the types with sprites that are larger than a cell.
@@ -298,10 +302,8 @@ pub struct State {
     pub(crate) touched: Vec<u32>,
     /// Planned time effects, the next one last (`spec/03` §6.2).
     pub(crate) timers: Vec<Timer>,
-    /// By cell: whether path finding goes around it (`paths.rs`); empty without `obs=`.
-    pub(crate) obstacles: Vec<u8>,
-    /// Paths go left and right only.
-    pub(crate) sideways: bool,
+    /// What paths go around (`paths.rs`); none without `obs=`. All states of a level share it.
+    pub(crate) ways: Option<Arc<Ways>>,
     /// Entries of the lists of BomberRandomMissiles that updateSpawnType has replaced, sorted by holder and place.
     pub(crate) replaced: Vec<Replaced>,
     /// The game's counters.
@@ -311,7 +313,7 @@ pub struct State {
 }
 
 macro_rules! clone_fields {
-    ($to:ident, $from:ident; copy $($scalar:ident)*; buffers $($buffer:ident)*; empty $($empty:ident)*) => {
+    ($to:ident, $from:ident; copy $($scalar:ident)*; buffers $($buffer:ident)*; empty $($empty:ident)*; shared $($shared:ident)*) => {
         impl Clone for State {
             fn clone(&self) -> State {
                 let $from = self;
@@ -319,6 +321,7 @@ macro_rules! clone_fields {
                     $($scalar: $from.$scalar,)*
                     $($buffer: $from.$buffer.clone(),)*
                     $($empty: vec![0; $from.$empty.len()],)*
+                    $($shared: $from.$shared.clone(),)*
                 }
             }
 
@@ -328,15 +331,20 @@ macro_rules! clone_fields {
                 $($to.$buffer.clone_from(&$from.$buffer);)*
                 // These hold nothing but zeros between steps.
                 $($to.$empty.resize($from.$empty.len(), 0);)*
+                // Counting who shares it is not free, and seldom needed.
+                $(if $to.$shared.as_ref().map(Arc::as_ptr) != $from.$shared.as_ref().map(Arc::as_ptr) {
+                    $to.$shared.clone_from(&$from.$shared);
+                })*
             }
         }
     };
 }
 
 clone_fields! { to, from;
-    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big loose_bits big_bits next_due census_changed jumps vast left_behind sideways;
-    buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers obstacles replaced counters;
-    empty touched
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
+    buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
+    empty touched;
+    shared ways
 }
 
 impl State {
@@ -411,7 +419,6 @@ impl State {
             + bytes(&self.stamps)
             + bytes(&self.flights)
             + bytes(&self.timers)
-            + bytes(&self.obstacles)
     }
 
     /// Pixels of a cell.
@@ -524,7 +531,7 @@ impl State {
     pub(crate) fn release(&mut self, rules: &Rules, slot: Slot) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
         self.leave_cell(rules, slot);
-        self.census_changed = true;
+        self.census_changed |= rules.types[stype.index()].counted;
         let group = &mut self.groups[stype.index()];
         group.count -= 1;
         if flags & flag::DISABLED != 0 {
@@ -655,34 +662,38 @@ impl State {
     }
 
     /// Takes a slot for `sprite`, at the end of its type's chain; None if there are no more.
-    pub(crate) fn admit(&mut self, rules: &Rules, sprite: Sprite) -> Option<Slot> {
+    pub(crate) fn admit(&mut self, rules: &Rules, sprite: &Sprite) -> Option<Slot> {
+        let group = &mut self.groups[sprite.stype.index()];
         let slot = match self.free {
             NONE => {
                 let slot =
                     Slot::try_from(self.sprites.len()).ok().filter(|&slot| usize::from(slot) < MAX_SLOTS)?;
-                self.sprites.push(sprite);
+                self.sprites.push(*sprite);
                 self.shares.push(Share::default());
                 slot
             }
-            slot => {
-                let old = self.sprites[usize::from(slot)];
-                self.free = old.next;
-                self.sprites[usize::from(slot)] = sprite;
-                self.sprites[usize::from(slot)].set(flag::STALE, old.is(flag::STALE));
-                slot
-            }
+            slot => slot,
         };
-        let group = &mut self.groups[sprite.stype.index()];
         let tail = std::mem::replace(&mut group.tail, slot);
         group.count += 1;
-        self.census_changed = true;
         if tail == NONE {
             group.head = slot;
         } else {
             self.sprites[usize::from(tail)].next = slot;
         }
-        let sprite = self.edit(slot);
-        (sprite.next, sprite.previous) = (NONE, tail);
+        self.census_changed |= rules.types[sprite.stype.index()].counted;
+        let place = &mut self.sprites[usize::from(slot)];
+        if self.free == slot {
+            self.free = place.next;
+        }
+        // One that went in this tick may be among the stale.
+        let stale = place.is(flag::STALE);
+        *place = *sprite;
+        place.previous = tail;
+        place.flags |= flag::STALE | flag::CHANGED;
+        if !stale {
+            self.stale.push(slot);
+        }
         self.enter_cell(rules, slot);
         Some(slot)
     }

@@ -7,7 +7,8 @@ use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::level::Level;
 use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
-use crate::ontology::sprites::{Habit, npcs, producers};
+use crate::ontology::sprites::{Habit, Mover, npcs, producers};
+use crate::ontology::traits::Traits;
 use crate::ontology::{avatars, sprites};
 use crate::rest::mark;
 use crate::state::{Group, NONE, Slot, State, Timer, flag};
@@ -104,6 +105,7 @@ impl Game {
             memory_hash: 0,
             memory_is_stale: true,
             big: 0,
+            off: 0,
             loose_bits: 0,
             big_bits: 0,
             sprites: Vec::new(),
@@ -135,8 +137,7 @@ impl Game {
             census_changed: true,
             touched: Vec::new(),
             timers: Vec::new(),
-            obstacles: Vec::new(),
-            sideways: false,
+            ways: None,
             counters: vec![0; rules.counters],
             replaced: Vec::new(),
             jumps: chance,
@@ -258,28 +259,33 @@ impl<'a> Step<'a> {
     /// those that moved since can tell the difference, and nothing reads another's last rectangle before the events.
     fn settle_moved(&mut self) {
         let State { sprites, moved, stale, .. } = &mut *self.state;
-        let mut kept = 0;
-        for at in 0..moved.len() {
-            let slot = moved[at];
+        let mut frozen = false;
+        for &slot in &*moved {
             let sprite = &mut sprites[usize::from(slot)];
-            let back = sprite.last == sprite.rect;
-            if !back && !sprite.is(flag::STALE) {
-                sprite.flags |= flag::STALE;
-                stale.push(slot);
-            }
-            if back || !sprite.is(flag::FROZEN) {
-                if (sprite.last.w, sprite.last.h) != (sprite.rect.w, sprite.rect.h) {
-                    sprite.flags |= flag::CHANGED;
+            let mut flags = sprite.flags & !flag::MOVED;
+            if sprite.last != sprite.rect {
+                if flags & flag::STALE == 0 {
+                    flags |= flag::STALE;
+                    stale.push(slot);
                 }
-                sprite.last = sprite.rect;
-                sprite.flags &= !flag::MOVED;
-            } else {
-                // It goes on as having moved, and its share of the hash with the tick.
-                moved[kept] = slot;
-                kept += 1;
+                if flags & flag::FROZEN == 0 {
+                    if (sprite.last.w, sprite.last.h) != (sprite.rect.w, sprite.rect.h) {
+                        flags |= flag::CHANGED;
+                    }
+                    sprite.last = sprite.rect;
+                } else {
+                    // It goes on as having moved, and its share of the hash with the tick.
+                    flags |= flag::MOVED;
+                    frozen = true;
+                }
             }
+            sprite.flags = flags;
         }
-        moved.truncate(kept);
+        if frozen {
+            moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
+        } else {
+            moved.clear();
+        }
     }
 
     fn update(&mut self, action: Action) {
@@ -310,51 +316,57 @@ impl<'a> Step<'a> {
             if asleep == count {
                 continue;
             }
-            let info = &rules.types[mover.stype.index()];
+            let traits = &rules.types[mover.stype.index()].traits;
             let mut slot = head;
-            let foreseen = self.flies && mover.flies;
             while slot != NONE {
-                let at = slot;
+                if mover.habit == Habit::Draws {
+                    slot = producers::pass_over(self.state, traits, mover.threshold, slot);
+                    if slot == NONE {
+                        break;
+                    }
+                }
                 let sprite = self.state.sprite(slot);
-                if sprite.rest & mark::ASLEEP != 0 {
-                    slot = sprite.next;
-                    continue;
-                }
-                match mover.habit {
-                    Habit::Moves if sprites::stays(sprite, &info.traits, self.state) => {
-                        slot = sprite.next;
-                        continue;
+                let idle = match mover.habit {
+                    Habit::Moves => {
+                        mover.foreseen && sprite.rest & mark::ASLEEP != 0
+                            || sprites::stays(sprite, traits, self.state)
                     }
-                    Habit::Draws => {
-                        if let Some(drawn) = producers::idle(sprite, &info.traits, self.state) {
-                            slot = sprite.next;
-                            self.state.chance = drawn;
-                            continue;
+                    Habit::Wanders => {
+                        let waits = sprites::waits(sprite, traits, self.state);
+                        if waits {
+                            npcs::random_move(self, slot, traits.cons);
                         }
+                        waits
                     }
-                    Habit::Wanders if sprites::waits(sprite, &info.traits, self.state) => {
-                        slot = sprite.next;
-                        npcs::random_move(self, at, info.traits.cons);
-                        continue;
+                    Habit::Draws => false,
+                    Habit::Other => mover.foreseen && sprite.rest & mark::ASLEEP != 0,
+                };
+                if !idle {
+                    self.update_one(slot, mover, traits);
+                    if self.stopped.is_some() {
+                        return;
                     }
-                    _ => {}
                 }
-                self.updating_id = sprite.id;
-                if info.traits.oriented_image {
-                    self.turn_picture(slot);
-                }
-                sprites::update(self, slot, mover.class);
-                if self.stopped.is_some() {
-                    return;
-                }
-                let sprite = &mut self.state.sprites[usize::from(slot)];
-                let tried = foreseen && sprite.rect != sprite.last;
-                sprite.rest = if tried { mark::TRIED } else { mark::NOTHING };
-                self.tried |= tried;
-                slot = sprite.next;
+                slot = self.state.sprite(slot).next;
             }
         }
         self.updating = -1;
+    }
+
+    #[inline(always)]
+    fn update_one(&mut self, slot: Slot, mover: &Mover, traits: &Traits) {
+        self.updating_id = self.state.sprite(slot).id;
+        if traits.oriented_image {
+            self.turn_picture(slot);
+        }
+        match mover.habit {
+            Habit::Moves => sprites::base(self, slot),
+            _ => sprites::update(self, slot, mover.class),
+        }
+        let sprite = &mut self.state.sprites[usize::from(slot)];
+        let tried = mover.foreseen && self.flies && sprite.rect != sprite.last;
+        sprite.rest = if tried { mark::TRIED } else { mark::NOTHING };
+        self.tried |= tried;
     }
 
     /// The reference looks for the picture of a sprite's orientation before each update, and throws if there is none.

@@ -22,6 +22,7 @@ use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites::{self as behaviour, Mover};
 use crate::ontology::terminations::{Condition, Decision, Termination};
+use crate::population::model;
 use crate::rest::foresight;
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
@@ -71,7 +72,7 @@ fn compile_with(
 ) -> Result<Rules, Diagnostics> {
     let header = Header::of(description, &mut problems);
     let setting = Setting { policy, counters: header.counters };
-    let (types, order) = sprites::types(description, policy, &mut problems);
+    let (mut types, order) = sprites::types(description, policy, &mut problems);
     let names = Names { types: &types };
     let (mapping, unusable) = mapping(description, names, &mut problems);
     let mut program = interactions::program(description, names, setting, &mut problems);
@@ -97,18 +98,25 @@ fn compile_with(
     }
 
     let speeds_change = program.effects.iter().any(|info| info.effect.gives_speed());
+    let counted: Vec<SpriteType> = terminations.iter().flat_map(Termination::counts).copied().collect();
+    let counted = |info: &TypeInfo| info.tree.iter().any(|stype| counted.contains(stype));
+    let counted: BTreeSet<SpriteType> =
+        types.iter().filter(|info| counted(info)).flat_map(|info| info.tree.iter().copied()).collect();
+    counted.iter().for_each(|stype| types[stype.index()].counted = true);
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
     let foresight = foresight(&types, &program.passes, &program.effects);
     let mover = |&stype: &SpriteType| {
         let info = &types[stype.index()];
-        let class = info.class.filter(|&class| !behaviour::is_idle(class, &info.traits, speeds_change))?;
+        let idle = |&class: &SpriteClass| behaviour::is_idle(class, &info.traits, speeds_change);
+        let class = info.class.filter(|class| !idle(class))?;
         Some(Mover {
             stype,
             class,
             order: i32::from(info.order?),
             habit: behaviour::habit(class, &info.traits),
-            flies: foresight[stype.index()].flies,
+            foreseen: foresight[stype.index()].flies,
+            threshold: behaviour::producers::threshold(info.traits.prob),
         })
     };
     let movers = order.iter().rev().filter_map(mover).collect();
@@ -135,6 +143,7 @@ fn compile_with(
         counters: header.counters,
         can_end,
         movers,
+        models: (0..).zip(&types).map(|(at, info)| model(SpriteType(at), info)).collect(),
         order,
         mapping,
         unusable,
@@ -142,6 +151,7 @@ fn compile_with(
         first_differs: types.iter().any(|info| info.first_differs),
         remembering: program.remembering(&types),
         effects: program.effects,
+        undeclared_at_edge: program.edge.iter().any(|&(stype, _)| stype == SpriteType::NONE),
         edge: program.edge,
         any_rests: foresight.iter().any(|of_type| of_type.rests),
         any_flies: foresight.iter().any(|of_type| of_type.flies),

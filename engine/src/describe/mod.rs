@@ -58,6 +58,14 @@ impl Guide {
             kind: kind::kind(&analysis.taxonomy()),
         }
     }
+
+    /// What wins, as one sentence.
+    pub fn goal(&self) -> String {
+        let mut ways = self.winning.iter().map(|way| way.trim_end_matches('.'));
+        let Some(first) = ways.next() else { return "Nothing wins.".to_owned() };
+        let others = ways.map(|way| format!(", or {}", way.strip_prefix("You win ").unwrap_or(way)));
+        format!("{first}{}.", others.collect::<String>())
+    }
 }
 
 impl fmt::Display for Guide {

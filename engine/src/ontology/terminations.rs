@@ -68,6 +68,17 @@ impl Termination {
         }
     }
 
+    /// The types whose families it counts.
+    pub(crate) fn counts(&self) -> &[SpriteType] {
+        match &self.condition {
+            Condition::SpriteCounter { stype, .. }
+            | Condition::SpriteCounterMore { stype, .. }
+            | Condition::MultiSpriteCounterSubTypes { stype, .. } => std::slice::from_ref(stype),
+            Condition::MultiSpriteCounter { stypes, .. } | Condition::StopCounter { stypes, .. } => stypes,
+            Condition::Timeout { .. } => &[],
+        }
+    }
+
     /// Whether the game ends by it now.
     pub(crate) fn holds(&self, rules: &Rules, state: &State) -> bool {
         let sum =

@@ -43,7 +43,7 @@ pub(crate) fn draws(class: SpriteClass) -> bool {
 pub(crate) fn stays(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
     let stands = || sprite.speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
     sprite.time_to_live < 0
-        && (traits.is_static || traits.only_active || waits(sprite, traits, state) || stands())
+        && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, state))
 }
 
 /// Whether a sprite does not move by itself because it has moved not long ago.
@@ -61,8 +61,10 @@ pub(crate) struct Mover {
     /// Place in the update order.
     pub(crate) order: i32,
     pub(crate) habit: Habit,
-    /// Its sprites may fly.
-    pub(crate) flies: bool,
+    /// Its sprites may fly or rest.
+    pub(crate) foreseen: bool,
+    /// Producers: the draws with which they make something, see [`producers::threshold`].
+    pub(crate) threshold: i32,
 }
 
 /// How the updates of a type begin.
@@ -137,7 +139,8 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
 }
 
 /// The update of every sprite that does not replace it: passive movement, then the time to live.
-fn base(step: &mut Step<'_>, slot: Slot) {
+#[inline]
+pub(crate) fn base(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
     let time_to_live = step.state.sprite(slot).time_to_live;
     if time_to_live > 0 {

@@ -1,12 +1,12 @@
 //! Sprites that make sprites (`spec/02` §8).
 
 use super::{base, stays};
-use crate::chance::Chance;
+use crate::chance::DRAW;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::ontology::traits::Traits;
-use crate::state::{Slot, Sprite, State};
+use crate::state::{NONE, Slot, State};
 use crate::step::Step;
 
 /// SpawnPoint and Bomber: a draw in every update; a sprite when the tick and the draw allow it.
@@ -21,17 +21,34 @@ pub(super) fn multi_sprite(step: &mut Step<'_>, slot: Slot) {
     produce(step, slot, stypes);
 }
 
-/// If all that a SpawnPoint or a Bomber does in this tick is to draw, as most do in most ticks: the chance after that.
-#[inline]
-pub(crate) fn idle(sprite: &Sprite, traits: &Traits, state: &State) -> Option<Chance> {
-    let lives = traits.total <= 0 || sprite.count < traits.total;
-    if !lives || sprite.start == -1 || !stays(sprite, traits, state) {
-        return None;
-    }
+/// The draws of a producer, as numbers of [`DRAW`] bits, that are below its probability: those less than this.
+pub(crate) fn threshold(prob: f64) -> i32 {
+    // Exact, as scaling by a power of two is. No draw is at or above what is no number.
+    let scaled = (prob * f64::from(1 << DRAW)).ceil();
+    if scaled.is_nan() { i32::MAX } else { scaled as i32 }
+}
+
+/// Passes over SpawnPoints and Bombers, from `slot` on, that only draw in this tick, as most do in most ticks. Returns the
+/// first one that does more.
+pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = state.chance;
-    let draw = f64::from(chance.float());
-    let waits = || traits.cooldown != 1 && sprite.start.wrapping_add(state.tick) % traits.cooldown != 0;
-    (draw >= traits.prob || waits()).then_some(chance)
+    while slot != NONE {
+        let sprite = state.sprite(slot);
+        let lives = traits.total <= 0 || sprite.count < traits.total;
+        if !lives || sprite.start == -1 || !stays(sprite, traits, state) {
+            break;
+        }
+        let mut drawn = chance;
+        let misses = drawn.next(DRAW) >= threshold;
+        let waits = || traits.cooldown != 1 && sprite.start.wrapping_add(state.tick) % traits.cooldown != 0;
+        if !misses && !waits() {
+            break;
+        }
+        chance = drawn;
+        slot = sprite.next;
+    }
+    state.chance = chance;
+    slot
 }
 
 fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
@@ -81,4 +98,42 @@ pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
         step.state.edit(slot).spawns = stype;
     }
     spawn_point(step, slot);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::threshold;
+    use crate::chance::{Chance, DRAW};
+
+    #[test]
+    fn thresholds_are_probabilities() {
+        let probabilities = [
+            f64::NAN,
+            f64::NEG_INFINITY,
+            -0.1,
+            0.0,
+            1e-300,
+            0.01,
+            0.5,
+            0.999_999_99,
+            1.0,
+            7.0,
+            f64::INFINITY,
+        ];
+        for prob in probabilities.into_iter().chain([1.0, 2.0, 3.0].map(|draws| draws / f64::from(1 << DRAW)))
+        {
+            for seed in 0..2000 {
+                let (mut one, mut two) = (Chance::from_java(seed), Chance::from_java(seed));
+                assert_eq!(
+                    f64::from(one.float()) >= prob,
+                    two.next(DRAW) >= threshold(prob),
+                    "{prob}, {seed}"
+                );
+            }
+            for draw in [0, 1, 2, 3, (1 << DRAW) - 1] {
+                let float = draw as f32 / (1 << DRAW) as f32;
+                assert_eq!(f64::from(float) >= prob, draw >= threshold(prob), "{prob}, {draw}");
+            }
+        }
+    }
 }
