@@ -4,20 +4,19 @@
 //! Who has read about games knows what a `key` is for; who plays the twin has to find out. The names `wall` and `avatar`
 //! stay, as the engine knows them by these.
 
-use engine::syntax::{MappingLine, SpriteLine, Trivia};
+use super::surface::{self, Symbols};
+use engine::syntax::SpriteLine;
 use engine::{Description, Sampler, Seed};
 use std::collections::BTreeMap;
 
 /// Level characters of masked games.
 const SYMBOLS: &str = "abcdefghijklmnopqrstuvwxyzBCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
-/// Names that the engine gives a meaning to.
-const RESERVED: [&str; 2] = ["wall", "avatar"];
 
 /// A game without its fiction, and how its levels are written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Masked {
     description: Description,
-    symbols: BTreeMap<char, char>,
+    symbols: Symbols,
 }
 
 impl Masked {
@@ -27,15 +26,11 @@ impl Masked {
     pub fn of(description: &Description, seed: Seed) -> Masked {
         let mut sampler = seed.child("masked", 0).sampler();
         let mask = Mask::draw(description, &mut sampler);
-        let mut masked = description.renamed(&mask.names);
-        masked.header.trivia = Trivia::default();
-        mask.sprites(&mut masked.sprites);
-        mask.mapping(&mut masked.mapping);
-        masked.interactions.iter_mut().for_each(|line| line.trivia = Trivia::default());
-        masked.terminations.iter_mut().for_each(|line| line.trivia = Trivia::default());
-        masked.parameters.iter_mut().for_each(|line| line.trivia = Trivia::default());
-        masked.section_trivia = Default::default();
-        masked.tail = Vec::new();
+        let mut masked = surface::undressed(description, &mask.names);
+        mask.recolor(&mut masked.sprites);
+        mask.symbols.write(&mut masked);
+        // In the order of their characters, which is not that of their parts.
+        masked.mapping.sort_by_key(|line| line.symbol);
         Masked { description: masked, symbols: mask.symbols }
     }
 
@@ -46,32 +41,22 @@ impl Masked {
 
     /// A level of the game, as the twin writes it. Characters that mean nothing become blanks.
     pub fn level(&self, text: &str) -> String {
-        let symbol = |c: char| match self.symbols.get(&c) {
-            Some(&masked) => masked,
-            None if c.is_whitespace() => c,
-            None => ' ',
-        };
-        text.chars().map(symbol).collect()
+        self.symbols.level(text)
     }
 }
 
 /// What becomes of what.
 struct Mask {
     names: BTreeMap<String, String>,
-    symbols: BTreeMap<char, char>,
+    symbols: Symbols,
     colors: BTreeMap<String, String>,
 }
 
 impl Mask {
     fn draw(description: &Description, sampler: &mut Sampler) -> Mask {
-        let lines = description.sprite_lines();
-        let mut own: Vec<&str> = Vec::new();
+        let own = surface::own_names(description);
         let mut colors: Vec<&str> = Vec::new();
-        for (_, line) in &lines {
-            let name = line.name.text.as_str();
-            if !RESERVED.contains(&name) && !own.contains(&name) {
-                own.push(name);
-            }
+        for (_, line) in description.sprite_lines() {
             for param in line.params.iter().filter(|param| param.key.text == "color") {
                 if !colors.contains(&param.value.text.as_str()) {
                     colors.push(&param.value.text);
@@ -84,51 +69,27 @@ impl Mask {
         let mut shuffled = colors.clone();
         sampler.shuffle(&mut shuffled);
         let colors = colors.iter().zip(shuffled).map(|(from, to)| ((*from).to_owned(), to.to_owned()));
-        // What the engine maps by itself gets a character too, if the game does not say otherwise.
-        let known = ['w', 'A'].into_iter();
-        let mut used: Vec<char> = description.mapping.iter().map(|line| line.symbol).collect();
-        used.extend(known.filter(|&symbol| builtin(symbol, description).is_some()));
+        let used = surface::symbols(description);
         let mut pool: Vec<char> = SYMBOLS.chars().collect();
         sampler.shuffle(&mut pool);
+        let silent = || surface::silent(description).map(|(symbol, _)| (symbol, symbol));
+        pool.retain(|&symbol| !silent().any(|(kept, _)| kept == symbol));
         // A game with more characters than the pool keeps the last ones.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
-        Mask { names: names.collect(), symbols: symbols.collect(), colors: colors.collect() }
+        let symbols = symbols.chain(silent());
+        Mask { names: names.collect(), symbols: Symbols(symbols.collect()), colors: colors.collect() }
     }
 
-    fn sprites(&self, lines: &mut [SpriteLine]) {
+    fn recolor(&self, lines: &mut [SpriteLine]) {
         for line in lines {
-            line.trivia = Trivia::default();
-            line.params.retain(|param| param.key.text != "img");
             for param in line.params.iter_mut().filter(|param| param.key.text == "color") {
                 if let Some(color) = self.colors.get(&param.value.text) {
                     param.value.text.clone_from(color);
                 }
             }
-            self.sprites(&mut line.children);
+            self.recolor(&mut line.children);
         }
     }
-
-    fn mapping(&self, lines: &mut Vec<MappingLine>) {
-        let mapped: Vec<char> = lines.iter().map(|line| line.symbol).collect();
-        for line in lines.iter_mut() {
-            line.trivia = Trivia::default();
-            line.symbol = self.symbols[&line.symbol];
-        }
-        for (&symbol, &masked) in self.symbols.iter().filter(|(symbol, _)| !mapped.contains(symbol)) {
-            let name = if symbol == 'w' { "wall" } else { "avatar" };
-            lines.push(MappingLine { symbol: masked, names: vec![name.into()], ..MappingLine::default() });
-        }
-        // In the order of their characters, which is not that of their parts.
-        lines.sort_by_key(|line| line.symbol);
-    }
-}
-
-/// What a character stands for in this game though it has no line.
-fn builtin(symbol: char, description: &Description) -> Option<&'static str> {
-    let name = if symbol == 'w' { "wall" } else { "avatar" };
-    let declared = description.sprite_lines().iter().any(|(_, line)| line.name.text == name);
-    let mapped = description.mapping.iter().any(|line| line.symbol == symbol);
-    (declared && !mapped).then_some(name)
 }
 
 #[cfg(test)]
@@ -138,8 +99,6 @@ mod tests {
     use crate::games::ConstructiveGames;
     use crate::levels::{ConstructiveLevels, LevelConfig};
     use engine::{Game, syntax};
-    use std::fs;
-    use std::path::Path;
 
     fn seed() -> Seed {
         Seed::from_text("masks")
@@ -152,24 +111,10 @@ mod tests {
         let game = Game::compile(source).unwrap();
         let text = syntax::print(masked.description());
         let twin = Game::from_source(&text).unwrap_or_else(|problems| panic!("{name}: {problems}\n{text}"));
-        for (number, level) in levels.iter().enumerate() {
-            let seed = seed().child("level", number as u64);
-            let own = game.level(level).unwrap_or_else(|problems| panic!("{name}: {problems}"));
-            let other =
-                twin.level(&masked.level(level)).unwrap_or_else(|problems| panic!("{name}: {problems}"));
-            let (mut one, mut two) = (game.start(&own, seed), twin.start(&other, seed));
-            let mut sampler = seed.sampler();
-            for _ in 0..150 {
-                assert_eq!(one.state_hash(), two.state_hash(), "{name}");
-                assert_eq!(game.actions(&one), twin.actions(&two), "{name}");
-                let action = *sampler.choose(game.actions(&one));
-                assert_eq!(game.step(&mut one, action), twin.step(&mut two, action), "{name}");
-                assert_eq!(one.score(), two.score(), "{name}");
-            }
-        }
+        surface::checks::play_alike(name, &game, &twin, levels, |level| masked.level(level));
         for (_, line) in source.sprite_lines() {
             let word = line.name.text.as_str();
-            let kept = RESERVED.contains(&word)
+            let kept = surface::RESERVED.contains(&word)
                 || text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').all(|w| w != word);
             assert!(kept || word.len() < 3, "{name}: {word} is told\n{text}");
         }
@@ -178,16 +123,9 @@ mod tests {
 
     #[test]
     fn masked_games_play_alike() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora");
-        let mut seen = 0;
-        for entry in fs::read_dir(folder).unwrap().flatten() {
-            let Ok(source) = fs::read_to_string(entry.path().join("game.vgdl")) else { continue };
-            let level = |at: u32| fs::read_to_string(entry.path().join(format!("lvl{at}.txt"))).ok();
-            let levels: Vec<String> = (0..5).filter_map(level).collect();
-            plays_alike(&entry.file_name().to_string_lossy(), &syntax::parse(&source).0, &levels);
-            seen += 1;
+        for (name, source, levels) in surface::checks::corpus() {
+            plays_alike(&name, &syntax::parse(&source).0, &levels);
         }
-        assert!(seen >= 20, "{seen} games");
     }
 
     #[test]

@@ -10,6 +10,11 @@ const SPARE: &str = "123456789*+=%&@?!^~$";
 ///
 /// `.`, `w` and `A` are for floor, wall and hero in every game.
 pub(crate) fn symbol(name: &str, taken: &[char]) -> char {
+    free_symbol(name, taken).expect("a game has fewer types than there are characters")
+}
+
+/// The same; none if no letter of the name and no sign is free.
+pub(crate) fn free_symbol(name: &str, taken: &[char]) -> Option<char> {
     let small = name.chars().map(|letter| letter.to_ascii_lowercase());
     let large = name.chars().map(|letter| letter.to_ascii_uppercase());
     let reserved = ['.', 'w', 'A'];
@@ -17,7 +22,6 @@ pub(crate) fn symbol(name: &str, taken: &[char]) -> char {
     candidates
         .find(|symbol| !taken.contains(symbol) && !reserved.contains(symbol))
         .or_else(|| SPARE.chars().find(|symbol| !taken.contains(symbol)))
-        .expect("a game has fewer types than there are characters")
 }
 
 /// The colours of VGDL, those that stand out from floors first.

@@ -9,7 +9,6 @@ macro_rules! roles {
 
         impl Role {
             /// All of them.
-            #[cfg(test)]
             pub(crate) const ALL: &[Role] = &[$(Role::$role),*];
         }
 

@@ -18,6 +18,8 @@ const OUTSIDE: u8 = 0;
 pub struct Likeness {
     /// By character: the first character that places the same sprites.
     class: [u8; 128],
+    /// By character: what it places, as a number that does not depend on characters.
+    rank: [u8; 128],
     /// By character: how much the cell counts where two levels differ.
     weight: [u32; 128],
     /// By character: it gives a board its shape, as walls do.
@@ -48,18 +50,26 @@ impl Likeness {
             let same = (b' '..=symbol).find(|&other| places(other) == places(symbol));
             same.unwrap_or(symbol)
         });
+        let mut placements = symbols.map(places);
+        let ranked = placements.clone();
+        placements.sort_unstable();
+        let mut placements = placements.to_vec();
+        placements.dedup();
+        let rank = symbols
+            .map(|symbol| placements.partition_point(|placed| *placed < ranked[usize::from(symbol)]) as u8);
         let weight = symbols.map(|symbol| match () {
             () if symbol == OUTSIDE || structure[usize::from(symbol)] => 1,
             () if is_ground(symbol) => 0,
             () => 2,
         });
-        Likeness { class, weight, structure }
+        Likeness { class, rank, weight, structure }
     }
 
     /// The same for levels that are the same up to the eight symmetries of the board, and up to characters that place the same
-    /// sprites; different for all others. Cost: O(cells).
+    /// sprites, in this game or in one that differs by names and characters only; different for all others. Cost: O(cells).
     pub fn digest(&self, level: &Level) -> Digest {
-        let (grid, cells) = self.classes(level);
+        let (grid, mut cells) = self.classes(level);
+        cells.iter_mut().for_each(|cell| *cell = self.rank[usize::from(*cell)]);
         let image = |symmetry| {
             let (grid, cells) = image(grid, &cells, symmetry);
             let sides = [grid.columns as u32, grid.rows as u32].map(u32::to_le_bytes);

@@ -2,7 +2,7 @@
 //! that it names.
 
 use crate::game_measures::{ClassFamily, EffectFamily};
-use engine::{Analysis, Clauses, Game, InteractionClause, Party, Term, Terms, TypeClause};
+use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term, Terms, TypeClause};
 use std::fmt::Write;
 
 /// How much a label tells.
@@ -37,6 +37,8 @@ pub(super) struct RuleGraph {
     pub(super) nodes: Vec<Node>,
     /// How many of the nodes are types.
     pub(super) types: usize,
+    /// The types of the game that these are.
+    pub(super) stypes: Vec<SpriteType>,
 }
 
 /// Weights: what is a frame in nearly every game (what stops at walls and at the edge of the screen, what a character
@@ -106,7 +108,12 @@ impl RuleGraph {
                 sets.push(set);
             }
         }
-        for set in sets {
+        // What a character places besides more is left out: `w` and `A` place a wall and an avatar alone in every game that
+        // gives them no other meaning, so that another choice of characters would be another form.
+        let within = |set: &[usize], other: &[usize]| {
+            set.len() < other.len() && set.iter().all(|at| other.contains(at))
+        };
+        for set in sets.iter().filter(|set| !sets.iter().any(|other| within(set, other))) {
             let label = || format!("places {}", set.len());
             let edges = set.iter().map(|&at| ("placed".to_owned(), at)).collect();
             nodes.push(Node { labels: [label(), label(), label()], weight: FRAME, edges });
@@ -116,7 +123,7 @@ impl RuleGraph {
             let labels = Grain::ALL.map(spelled);
             nodes.push(Node { labels, weight: FRAME, edges: edges(&clauses.header, false) });
         }
-        RuleGraph { nodes, types }
+        RuleGraph { nodes, types, stypes: kept.iter().map(|clause| clause.stype).collect() }
     }
 }
 

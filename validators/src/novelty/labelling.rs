@@ -14,8 +14,23 @@ use super::graph::{Grain, RuleGraph};
 /// texts. Different rules never get the same one.
 const MOST: usize = 200;
 
+/// The text that all graphs have that are the same but for names and order, with the types in the order in which it calls them.
+#[derive(Clone, Debug)]
+pub(super) struct Labelled {
+    pub(super) text: String,
+    /// Types of the graph.
+    pub(super) order: Vec<usize>,
+}
+
+impl Labelled {
+    /// The one with the smaller text; of equal texts the first.
+    fn min(self, other: Labelled) -> Labelled {
+        if other.text < self.text { other } else { self }
+    }
+}
+
 /// The canonical text of a graph. Cost: about 20 µs a node; [`MOST`] times that at worst.
-pub(super) fn canonical(graph: &RuleGraph) -> String {
+pub(super) fn canonical(graph: &RuleGraph) -> Labelled {
     let neighbours = Neighbours::of(graph);
     let first = graph.nodes.iter().map(|node| colour(node.labels[Grain::Fine as usize].as_bytes())).collect();
     let mut labelling = Labelling { graph, neighbours, left: MOST };
@@ -31,7 +46,7 @@ struct Labelling<'a> {
 
 impl Labelling<'_> {
     /// The smallest text below these colours.
-    fn smallest(&mut self, colours: &[Colour]) -> String {
+    fn smallest(&mut self, colours: &[Colour]) -> Labelled {
         let alike = self.alike(colours);
         let Some((&first, others)) = alike.split_first() else { return self.write(colours) };
         let mut best = self.smallest(&self.single_out(colours, first));
@@ -42,10 +57,10 @@ impl Labelling<'_> {
             }
             let started = self.single_out(colours, other);
             let quick = self.first_text(started.clone());
-            let known = seen.get_or_insert_with(|| best.clone());
+            let known = seen.get_or_insert_with(|| best.text.clone());
             // The same text by another choice: the rules can be mapped onto themselves so that the one takes the place of
             // the other.
-            if quick == *known {
+            if quick.text == *known {
                 continue;
             }
             best = best.min(quick).min(self.smallest(&started));
@@ -75,14 +90,14 @@ impl Labelling<'_> {
     }
 
     /// The text that comes about if always the first of those that look alike is singled out.
-    fn first_text(&mut self, mut colours: Vec<Colour>) -> String {
+    fn first_text(&mut self, mut colours: Vec<Colour>) -> Labelled {
         while let Some(&first) = self.alike(&colours).first() {
             colours = self.single_out(&colours, first);
         }
         self.write(&colours)
     }
 
-    fn write(&mut self, colours: &[Colour]) -> String {
+    fn write(&mut self, colours: &[Colour]) -> Labelled {
         self.left = self.left.saturating_sub(1);
         let mut order: Vec<usize> = (0..self.graph.types).collect();
         order.sort_by_key(|&at| colours[at]);
@@ -91,7 +106,7 @@ impl Labelling<'_> {
         let (mut types, rules) = self.lines(&place);
         // With their colours, which tell what was singled out: equal texts are then equal choice by choice.
         types.iter_mut().zip(&order).for_each(|(line, &at)| *line = format!("{:016x} {line}", colours[at]));
-        types.join("\n") + "\n\n" + &rules.join("\n")
+        Labelled { text: types.join("\n") + "\n\n" + &rules.join("\n"), order }
     }
 
     /// The nodes as text, types called by their places: the types in this order, the others sorted.

@@ -6,7 +6,7 @@ mod graph;
 mod kernel;
 mod labelling;
 
-use engine::{Digest, Game};
+use engine::{Digest, Game, SpriteType};
 use graph::RuleGraph;
 use kernel::Features;
 
@@ -32,7 +32,7 @@ impl GameForm {
     /// The form of a game. Cost: about a millisecond, no forward-model calls.
     pub fn of(game: &Game) -> GameForm {
         let graph = RuleGraph::of(game);
-        let digest = Digest::of(labelling::canonical(&graph).as_bytes());
+        let digest = Digest::of(labelling::canonical(&graph).text.as_bytes());
         GameForm { digest, features: Features::of(&graph) }
     }
 
@@ -58,6 +58,14 @@ impl GameForm {
 /// inequality holds. Cost: O(rules).
 pub fn distance(one: &GameForm, two: &GameForm) -> f64 {
     one.features.distance(&two.features)
+}
+
+/// The types of a game in an order that names and order in the file do not decide: in games with equal forms, types at the same
+/// place are the same type in another dress. (Types that can be exchanged without changing the rules may trade places.) Types
+/// that no rule and no character names are left out. Cost: as for [`GameForm::of`].
+pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
+    let graph = RuleGraph::of(game);
+    labelling::canonical(&graph).order.into_iter().map(|at| graph.stypes[at]).collect()
 }
 
 #[cfg(test)]
@@ -119,5 +127,33 @@ mod tests {
         assert_eq!(ring.nearest([&chain, &pairs, &ring, &ring]), Some((2, 0.0)));
         assert_eq!(ring.nearest([]), None);
         assert!(ring.is_near(&ring) && distance(&ring, &pairs) > 0.0);
+    }
+    /// Whatever the types are called and wherever they stand, the same one has the same place.
+    #[test]
+    fn types_have_places_of_their_own() {
+        let game = |names: [&str; 3], order: [usize; 3]| {
+            let classes = ["Immovable", "RandomNPC", "Door"];
+            let sprites: String =
+                order.iter().map(|&at| format!("    {} > {}\n", names[at], classes[at])).collect();
+            let source = format!(
+                "BasicGame\n  SpriteSet\n{sprites}    avatar > MovingAvatar\n  LevelMapping\n    a > {}\n    b > {}\n    c > {}\n  InteractionSet\n    {} avatar > killSprite\n    avatar {} > killSprite\n  TerminationSet\n    SpriteCounter stype={} win=True\n    SpriteCounter stype=avatar\n",
+                names[0], names[1], names[2], names[0], names[1], names[0]
+            );
+            Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"))
+        };
+        let (one, two) = (game(["gem", "imp", "gate"], [0, 1, 2]), game(["orc", "cup", "well"], [2, 0, 1]));
+        assert_eq!(GameForm::of(&one).digest(), GameForm::of(&two).digest());
+        let names = |game: &Game| {
+            let name = |stype: SpriteType| game.name(stype).to_owned();
+            canonical_types(game).into_iter().map(name).collect::<Vec<String>>()
+        };
+        let dress = |name: String| match name.as_str() {
+            "gem" => "orc".to_owned(),
+            "imp" => "cup".to_owned(),
+            "gate" => "well".to_owned(),
+            _ => name,
+        };
+        assert_eq!(names(&one).into_iter().map(dress).collect::<Vec<String>>(), names(&two));
+        assert_eq!(names(&one).len(), 4);
     }
 }

@@ -1,0 +1,510 @@
+//! A game in a fresh fiction: the same rules under names, characters, colours and words that nobody has read of.
+//!
+//! Who has learnt a game by heart knows what its `conch` is for. Retold, it has to be read again: what its types are called
+//! follows from what the rules make of them (`casting.rs`), and from a fiction and words that are drawn.
+
+use super::casting;
+use super::english::{capital, one, plural, series, spaced};
+use super::kind::Kind;
+use super::palette;
+use super::role::Role;
+use super::surface::{self, RESERVED, Symbols};
+use super::theme::Theme;
+use crate::GenerateError;
+use engine::analysis::{Analysis, Genre, Role as Use};
+use engine::describe::Guide;
+use engine::syntax::{MappingLine, SpriteLine};
+use engine::{Description, Game, Sampler, Seed, SpriteType};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Names that a clause of a summary tells at most.
+const TOLD: usize = 4;
+/// Titles that are drawn before a plain one is taken.
+const TITLES: usize = 32;
+/// What tells types apart when a fiction has no more words for their part.
+const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
+
+/// A game in a fresh fiction, and how its levels are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Retold {
+    /// The rules. Lines are in the order of the game, so that the two play alike, state hashes included.
+    pub description: Description,
+    /// Title in the new fiction.
+    pub title: String,
+    /// Who the player is, what there is to do and what to beware of, in one sentence.
+    pub summary: String,
+    /// How to win, in one sentence.
+    pub goal: String,
+    /// The fiction, such as `fiction/harbour`.
+    pub fiction: &'static str,
+    symbols: Symbols,
+}
+
+impl Retold {
+    /// Tells a game anew: sprite types get words of one fiction by what they are for, level characters, colours, title and
+    /// texts follow. No name of the game is used again, `wall` and `avatar` apart, as the engine knows them by these;
+    /// pictures and comments go. Pure; cost: about that of analysing the game twice.
+    ///
+    /// # Errors
+    /// [`GenerateError::Unsuitable`], whatever the seed: the game does not compile under other names (it was loaded with the
+    /// reference's recovery from faults), or it uses up all characters.
+    pub fn of(game: &Game, seed: Seed) -> Result<Retold, GenerateError> {
+        let analysis = Analysis::of(game);
+        let old = Old::of(game.description());
+        let mut sampler = seed.child("retold", 0).sampler();
+        let theme = old.theme(&mut sampler);
+        let mut casting = Casting { analysis: &analysis, theme, old: &old, sampler, cast: BTreeMap::new() };
+        casting.lines(&game.description().sprites);
+        let Casting { mut sampler, cast, .. } = casting;
+        let named = cast.iter().filter(|(name, _)| !RESERVED.contains(&name.as_str()));
+        let names = named.map(|(name, part)| (name.clone(), part.word.clone())).collect();
+        let mut description = surface::undressed(game.description(), &names);
+        recolor(&mut description.sprites, theme, &cast, &names_back(&names));
+        let symbols = symbols(&analysis, &cast)?;
+        symbols.write(&mut description);
+        let retold = Game::compile(&description).map_err(|problems| {
+            GenerateError::Unsuitable(format!("it does not compile under other names: {problems}"))
+        })?;
+        let analysis = Analysis::of(&retold);
+        let hero = hero(&analysis);
+        let title = title(&analysis, theme, &hero, &old, &mut sampler);
+        let summary = summary(&analysis, theme, &hero);
+        let summary = if old.is_told(&summary) { format!("{}.", capital(&one(&hero))) } else { summary };
+        Ok(Retold { goal: goal(&analysis), title, summary, fiction: theme.name, symbols, description })
+    }
+
+    /// A level of the game, in the new characters. Characters that mean nothing become blanks.
+    pub fn level(&self, text: &str) -> String {
+        self.symbols.level(text)
+    }
+}
+
+/// The names that must not be used again, by their words: without capitals and the ending of the plural.
+struct Old(BTreeSet<String>);
+
+impl Old {
+    fn of(description: &Description) -> Old {
+        let parameters = description.parameters.iter().map(|line| line.name.text.as_str());
+        let names = surface::own_names(description).into_iter().chain(parameters);
+        Old(names.flat_map(|name| words(name).chain([stem(name)])).collect())
+    }
+
+    /// Whether one of them is in a text.
+    fn is_told(&self, text: &str) -> bool {
+        words(text).any(|word| self.0.contains(&word)) || self.0.contains(&stem(text))
+    }
+
+    /// A fiction, one with few of these words rather than one with many.
+    fn theme(&self, sampler: &mut Sampler) -> &'static Theme {
+        let shared = |theme: &Theme| {
+            let words = Role::ALL.iter().flat_map(|&role| theme.words(role));
+            words.filter(|word| self.is_told(word)).count()
+        };
+        let weight = |theme: &&Theme| {
+            let shared = u32::try_from(shared(theme)).unwrap_or(u32::MAX);
+            if self.is_told(theme.place) { 0 } else { 64 / (1 + shared.saturating_mul(shared)) }
+        };
+        let weights: Vec<u32> = Theme::ALL.iter().map(weight).collect();
+        let drawn = sampler.weighted(&weights);
+        Theme::ALL[drawn.unwrap_or_else(|| sampler.below(Theme::ALL.len()))]
+    }
+}
+
+/// The words of a name or text, as they are compared.
+fn words(text: &str) -> impl Iterator<Item = String> {
+    let spaced = spaced(text);
+    let words: Vec<String> =
+        spaced.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| word.len() > 2).map(stem).collect();
+    words.into_iter()
+}
+
+fn stem(word: &str) -> String {
+    let word = word.to_ascii_lowercase();
+    word.strip_suffix('s').filter(|stem| stem.len() > 2).unwrap_or(&word).to_owned()
+}
+
+/// What a type is called from now on, and as what.
+struct Part {
+    word: String,
+    role: Role,
+}
+
+/// Gives every type of a SpriteSet a word.
+struct Casting<'a> {
+    analysis: &'a Analysis,
+    theme: &'static Theme,
+    old: &'a Old,
+    sampler: Sampler,
+    /// By old name.
+    cast: BTreeMap<String, Part>,
+}
+
+impl Casting<'_> {
+    fn lines(&mut self, lines: &[SpriteLine]) {
+        for line in lines {
+            let name = line.name.text.as_str();
+            if !self.cast.contains_key(name) {
+                let part = self.part(line);
+                self.cast.insert(name.to_owned(), part);
+            }
+            self.lines(&line.children);
+        }
+    }
+
+    fn part(&mut self, line: &SpriteLine) -> Part {
+        let name = line.name.text.as_str();
+        let parts =
+            self.of_name(name).map_or(&[Role::Rubble][..], |stype| casting::parts(self.analysis, stype));
+        let role = parts[0];
+        if RESERVED.contains(&name) {
+            return Part { word: name.to_owned(), role };
+        }
+        if !line.children.is_empty() {
+            let member =
+                self.of_name(first_leaf(line)).map_or(Use::Neutral, |stype| self.analysis.role(stype));
+            let words = casting::group(member).to_vec();
+            return Part { word: self.word(words), role };
+        }
+        for &role in parts {
+            let words = self.free(self.theme.words(role));
+            if !words.is_empty() {
+                return Part { word: (*self.sampler.choose(&words)).to_owned(), role };
+            }
+        }
+        Part { word: self.word(self.theme.words(role)), role }
+    }
+
+    fn of_name(&self, name: &str) -> Option<SpriteType> {
+        self.analysis.game().sprite_type(name)
+    }
+
+    /// One of these words, with an adjective or a number if all are in use.
+    fn word(&mut self, words: Vec<&'static str>) -> String {
+        let free = self.free(words.clone());
+        if !free.is_empty() {
+            return (*self.sampler.choose(&free)).to_owned();
+        }
+        let told = |word: &&&'static str| !self.old.is_told(word);
+        let word = words.iter().find(told).copied().unwrap_or("thing");
+        let qualified = ADJECTIVES.iter().map(|adjective| format!("{adjective}{}", capital(word)));
+        let numbered = (2..).map(|number: u32| format!("{word}{number}"));
+        let fits = |word: &String| !self.is_taken(word) && !self.old.is_told(word);
+        let numbered_fits = |word: &String| !self.is_taken(word) && !self.old.0.contains(&stem(word));
+        let found = qualified.into_iter().find(fits).or_else(|| numbered.into_iter().find(numbered_fits));
+        found.expect("there is no end of numbers")
+    }
+
+    fn free(&self, mut words: Vec<&'static str>) -> Vec<&'static str> {
+        words.retain(|word| !self.is_taken(word) && !self.old.is_told(word));
+        words
+    }
+
+    fn is_taken(&self, word: &str) -> bool {
+        self.cast.values().any(|part| part.word == word)
+    }
+}
+
+/// The first line below a group that is no group.
+fn first_leaf(line: &SpriteLine) -> &str {
+    let mut line = line;
+    while let Some(child) = line.children.first() {
+        line = child;
+    }
+    &line.name.text
+}
+
+fn names_back(names: &BTreeMap<String, String>) -> BTreeMap<&str, &str> {
+    names.iter().map(|(old, new)| (new.as_str(), old.as_str())).collect()
+}
+
+/// Colours of the fiction, where the game has colours.
+fn recolor(
+    lines: &mut [SpriteLine],
+    theme: &Theme,
+    cast: &BTreeMap<String, Part>,
+    back: &BTreeMap<&str, &str>,
+) {
+    fn walk(lines: &mut [SpriteLine], color: &mut impl FnMut(&str) -> &'static str) {
+        for line in lines {
+            for param in line.params.iter_mut().filter(|param| param.key.text == "color") {
+                param.value.text = color(&line.name.text).to_owned();
+            }
+            walk(&mut line.children, color);
+        }
+    }
+    let mut taken = Vec::new();
+    walk(lines, &mut |name| {
+        let old = back.get(name).copied().unwrap_or(name);
+        let role = cast.get(old).map_or(Role::Rubble, |part| part.role);
+        let own = palette::color(role, theme, &taken);
+        // Of several floors or walls, the first is in the colour of the fiction.
+        let color = if taken.contains(&own) { palette::color(Role::Rubble, theme, &taken) } else { own };
+        taken.push(color);
+        color
+    });
+}
+
+/// New level characters: `.`, `w` and `A` for the first characters that place nothing but floor, a wall, and an avatar, as in
+/// generated games; for the others a letter of the name of what they place.
+fn symbols(analysis: &Analysis, cast: &BTreeMap<String, Part>) -> Result<Symbols, GenerateError> {
+    let description = analysis.game().description();
+    let lines = description.mapping.iter().map(|line: &MappingLine| {
+        (line.symbol, line.names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>())
+    });
+    let builtin = ['w', 'A']
+        .into_iter()
+        .filter_map(|symbol| Some((symbol, vec![surface::builtin(symbol, description)?])));
+    let lines: Vec<(char, Vec<&str>)> = lines.chain(builtin).collect();
+    let uses = |name: &&str| analysis.game().sprite_type(name).map(|stype| analysis.role(stype));
+    let last = |names: &[&str]| names.last().and_then(&uses);
+    let needed = |symbol: char, name: &str| {
+        let stype = analysis.game().sprite_type(name);
+        stype.is_some_and(|stype| analysis.facts(stype).symbols.contains(&(symbol as u8)))
+    };
+    let silent = surface::silent(description).filter(|&(symbol, name)| needed(symbol, name));
+    let mut symbols: BTreeMap<char, char> = silent.map(|(symbol, _)| (symbol, symbol)).collect();
+    let mut taken: Vec<char> = symbols.values().copied().collect();
+    let mut settle = |new: char, fits: &dyn Fn(&[&str]) -> bool| {
+        let found = lines.iter().find(|(old, names)| !symbols.contains_key(old) && fits(names));
+        if let Some((old, _)) = found.filter(|_| !taken.contains(&new)) {
+            symbols.insert(*old, new);
+            taken.push(new);
+        }
+    };
+    settle('.', &|names| !names.is_empty() && names.iter().all(|name| uses(name) == Some(Use::Floor)));
+    settle('w', &|names| names.last() == Some(&"wall"));
+    settle('A', &|names| names.iter().any(|name| uses(name) == Some(Use::Avatar)));
+    settle('w', &|names| last(names) == Some(Use::Wall));
+    for (old, names) in &lines {
+        if symbols.contains_key(old) {
+            continue;
+        }
+        let word = names.last().and_then(|name| cast.get(*name)).map_or("x", |part| part.word.as_str());
+        // Another one than before, if there is another.
+        let avoided: Vec<char> = taken.iter().copied().chain([*old]).collect();
+        let any = || ('!'..='~').find(|symbol| *symbol != '#' && !taken.contains(symbol));
+        let new = palette::free_symbol(word, &avoided).or_else(any);
+        let new = new
+            .ok_or_else(|| GenerateError::Unsuitable("its LevelMapping uses up all characters".to_owned()))?;
+        symbols.insert(*old, new);
+        taken.push(new);
+    }
+    Ok(Symbols(symbols))
+}
+
+fn hero(analysis: &Analysis) -> String {
+    let avatar = analysis.start_avatar().or(analysis.avatars().first());
+    avatar.map_or_else(|| "stranger".to_owned(), |avatar| spaced(analysis.game().name(avatar.stype)))
+}
+
+fn title(analysis: &Analysis, theme: &Theme, hero: &str, old: &Old, sampler: &mut Sampler) -> String {
+    let kind = match analysis.taxonomy().genres.first() {
+        Some(Genre::Platformer | Genre::Escape) => Kind::Escape,
+        Some(Genre::Race | Genre::Crossing) => Kind::Crossing,
+        Some(Genre::Puzzle) => Kind::BoxPuzzle,
+        Some(Genre::Shooter | Genre::Hunt) => Kind::Shooter,
+        Some(Genre::Collect) => Kind::CollectAndAvoid,
+        Some(Genre::Adventure) => Kind::KeyAndDoor,
+        Some(Genre::Guide) => Kind::Herding,
+        Some(Genre::Defence) => Kind::Defence,
+        Some(Genre::Survive) => Kind::Survival,
+        None => Kind::Tending,
+    };
+    let hero = super::english::headline(hero);
+    let mut titles = (0..TITLES).map(|_| {
+        let deed = kind.deed(sampler);
+        theme.title(&hero, deed, sampler)
+    });
+    titles.find(|title| !old.is_told(title)).unwrap_or_else(|| format!("The {hero}"))
+}
+
+/// Who is where, what there is to do, and what to beware of.
+fn summary(analysis: &Analysis, theme: &Theme, hero: &str) -> String {
+    let game = analysis.game();
+    let types = |fits: &dyn Fn(SpriteType, Use) -> bool| -> Vec<String> {
+        let there = game.sprite_types().filter(|&stype| {
+            let facts = analysis.facts(stype);
+            facts.possible && facts.concrete && fits(stype, analysis.role(stype))
+        });
+        there.map(|stype| spaced(game.name(stype))).take(TOLD).collect()
+    };
+    let many = |names: Vec<String>| names.iter().map(|name| plural(name)).collect::<Vec<_>>();
+    let single = |names: Vec<String>| names.iter().map(|name| format!("the {name}")).collect::<Vec<_>>();
+    let caught = |stype| casting::is_caught(analysis, stype);
+    let dangerous = |stype| casting::is_dangerous(analysis, stype);
+    let must_go = |stype| analysis.aims().remove.contains(&stype);
+    let prey = |stype, part| part == Use::Prey || (part == Use::Enemy && must_go(stype));
+    let deeds = [
+        ("gather", many(types(&|_, part| part == Use::Collectable)), ""),
+        ("fetch", single(types(&|_, part| part == Use::Key)), ""),
+        ("push", many(types(&|_, part| part == Use::Pushable)), ""),
+        ("catch", many(types(&|stype, part| prey(stype, part) && caught(stype))), ""),
+        ("make an end of", many(types(&|stype, part| prey(stype, part) && !caught(stype))), ""),
+        ("get past", single(types(&|_, part| part == Use::Gate)), ""),
+        ("keep", single(types(&|_, part| part == Use::Ward)), " from harm"),
+        ("get to", single(types(&|_, part| part == Use::Exit)), ""),
+        (
+            "mind",
+            single(types(&|stype, part| part == Use::Enemy && !must_go(stype) && !dangerous(stype))),
+            "",
+        ),
+        ("beware of", single(types(&|stype, _| dangerous(stype))), ""),
+    ];
+    let told = deeds.into_iter().filter(|(_, names, _)| !names.is_empty());
+    let clause = |(deed, names, rest): (&str, Vec<String>, &str)| format!("{deed} {}{rest}", series(&names));
+    let mut clauses: Vec<String> = told.map(clause).collect();
+    if analysis.aims().survive.is_some() {
+        clauses.insert(0, "hold out".to_owned());
+    }
+    let start = format!("{} {}", capital(&one(hero)), theme.place);
+    if clauses.is_empty() { format!("{start}.") } else { format!("{start} has to {}.", clauses.join("; ")) }
+}
+
+/// What wins, in the words of the guide, with names as English writes them.
+fn goal(analysis: &Analysis) -> String {
+    let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
+    let word = |word: &str| {
+        let name = word.trim_end_matches([',', '.']);
+        if names.contains(&name) {
+            format!("{}{}", spaced(name), &word[name.len()..])
+        } else {
+            word.to_owned()
+        }
+    };
+    Guide::from_analysis(analysis).goal().split(' ').map(word).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::surface::checks;
+    use super::*;
+    use crate::Generator;
+    use crate::games::ConstructiveGames;
+    use crate::levels::{ConstructiveLevels, LevelConfig};
+    use engine::syntax;
+
+    fn seed() -> Seed {
+        Seed::from_text("retold")
+    }
+
+    fn game(source: &str) -> Game {
+        Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"))
+    }
+
+    /// Nothing that a text tells is a name of the game.
+    fn forgets(name: &str, game: &Game, retold: &Retold) {
+        let text = syntax::print(&retold.description);
+        let texts = [text.as_str(), &retold.title, &retold.summary, &retold.goal];
+        for old in surface::own_names(game.description()) {
+            let told = |text: &&str| {
+                text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == old)
+            };
+            assert!(old.len() < 3 || !texts.iter().any(told), "{name}: {old} is told\n{texts:?}");
+        }
+        assert!(!text.contains('#') && !text.contains("img="), "{name}\n{text}");
+        for sentence in [&retold.summary, &retold.goal] {
+            assert!(sentence.ends_with('.') && sentence.matches('.').count() == 1, "{name}: {sentence}");
+        }
+    }
+
+    fn check(name: &str, game: &Game, levels: &[String]) -> Retold {
+        let seed = seed().child(name, 0);
+        let retold = Retold::of(game, seed).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(retold, Retold::of(game, seed).unwrap());
+        let text = syntax::print(&retold.description);
+        let twin = Game::from_source(&text).unwrap_or_else(|problems| panic!("{name}: {problems}\n{text}"));
+        assert_eq!(twin.warnings().len(), game.warnings().len(), "{name}\n{text}");
+        checks::play_alike(name, game, &twin, levels, |level| retold.level(level));
+        forgets(name, game, &retold);
+        let colors = |description: &Description| {
+            let lines = description.sprite_lines().into_iter().flat_map(|(_, line)| &line.params);
+            let colors = lines.filter(|param| param.key.text == "color");
+            colors.map(|param| param.value.text.clone()).collect::<BTreeSet<String>>().len()
+        };
+        assert!(colors(&retold.description) >= colors(game.description()), "{name}\n{text}");
+        retold
+    }
+
+    #[test]
+    fn corpus_games_play_alike_under_other_names() {
+        let (mut kept, mut all) = (0, 0);
+        for (name, source, levels) in checks::corpus() {
+            let game = game(&source);
+            let retold = check(&name, &game, &levels);
+            // Another seed gives other names, but for the general ones.
+            let other = Retold::of(&game, seed().child(&name, 1)).unwrap();
+            let names = surface::own_names(&retold.description);
+            let others = surface::own_names(&other.description);
+            kept += names.iter().filter(|name| others.contains(name)).count();
+            all += names.len();
+        }
+        assert!(kept * 5 < all, "{kept} of {all} names are drawn again");
+    }
+
+    #[test]
+    fn generated_games_play_alike_under_other_names() {
+        for number in 0..40 {
+            let made = ConstructiveGames::default().generate(seed().child("game", number)).unwrap();
+            let game = Game::compile(&made.description).unwrap();
+            let levels = ConstructiveLevels::new(&game, LevelConfig::default()).unwrap();
+            let level = levels.generate(seed().child("level", number)).map(|level| vec![level.to_string()]);
+            check(&made.title, &game, &level.unwrap_or_default());
+        }
+    }
+
+    const ORCHARD: &str = "BasicGame # secret
+  SpriteSet
+    lawn > Immovable color=GREEN
+    wall > Immovable
+    fruit >
+      pear > Immovable color=YELLOW img=pear
+      plum > Immovable color=BLUE
+    snail > Chaser stype=picker
+    picker > MovingAvatar
+  LevelMapping
+    . > lawn
+    p > lawn pear
+    q > lawn plum
+    s > lawn snail
+    A > lawn picker
+  InteractionSet
+    picker wall > stepBack
+    fruit picker > killSprite scoreChange=1
+    picker snail > killSprite
+  TerminationSet
+    SpriteCounter stype=picker win=False
+    SpriteCounter stype=fruit win=True
+";
+
+    #[test]
+    fn texts_follow_from_the_rules() {
+        let game = game(ORCHARD);
+        let retold = Retold::of(&game, seed()).unwrap();
+        let twin = Game::compile(&retold.description).unwrap();
+        let name = |old: &str| spaced(twin.name(game.sprite_type(old).unwrap()));
+        let [hero, pear, plum, snail] = ["picker", "pear", "plum", "snail"].map(name);
+        let summary =
+            format!("has to gather {} and {}; beware of the {snail}.", plural(&pear), plural(&plum));
+        assert!(retold.summary.ends_with(&summary), "{}", retold.summary);
+        assert!(retold.summary.starts_with(&capital(&one(&hero))), "{}", retold.summary);
+        assert_eq!(retold.goal, format!("You win when no {pear} or {plum} is left."));
+        // The level keeps its floor, its avatar, and a wall that has no line of its own.
+        let level = retold.level("wwww\nwA.w\nwpsw\n");
+        assert!(level.starts_with("wwww\nwA.w\nw") && !level.contains(['p', 's']), "{level}");
+    }
+
+    /// As many types and characters as a game may have find a word and a character each.
+    #[test]
+    fn crowded_games_have_words_enough() {
+        let symbols: Vec<char> = ('!'..='~').filter(|c| !"#wA".contains(*c)).collect();
+        let sprites: String = (0..120).map(|number| format!("    p{number} > Immovable\n")).collect();
+        let mapping: String =
+            symbols.iter().enumerate().map(|(at, symbol)| format!("    {symbol} > p{at}\n")).collect();
+        let rules: String = (0..120).map(|number| format!("    p{number} avatar > killSprite\n")).collect();
+        let source = format!(
+            "BasicGame\n  SpriteSet\n{sprites}    avatar > MovingAvatar\n  LevelMapping\n{mapping}  InteractionSet\n    avatar wall > stepBack\n{rules}  TerminationSet\n    SpriteCounter stype=p1 win=True\n"
+        );
+        let row: String = symbols.iter().collect();
+        check("crowd", &game(&source), &[format!("A{row}w\n")]);
+    }
+}

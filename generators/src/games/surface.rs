@@ -1,0 +1,152 @@
+//! The surface of a game: names, level characters, pictures and comments. Who changes it leaves the rules as they are.
+
+use engine::Description;
+use engine::syntax::{MappingLine, SpriteLine, Trivia};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Names that the engine gives a meaning to: they stay.
+pub(super) const RESERVED: [&str; 2] = ["wall", "avatar"];
+
+/// The same rules with sprite types renamed, without comments and pictures. The order of all lines stays, so that the two
+/// play alike, state hashes included.
+pub(super) fn undressed(description: &Description, names: &BTreeMap<String, String>) -> Description {
+    let mut bare = description.renamed(names);
+    bare.header.trivia = Trivia::default();
+    undress(&mut bare.sprites);
+    bare.mapping.iter_mut().for_each(|line| line.trivia = Trivia::default());
+    bare.interactions.iter_mut().for_each(|line| line.trivia = Trivia::default());
+    bare.terminations.iter_mut().for_each(|line| line.trivia = Trivia::default());
+    bare.parameters.iter_mut().for_each(|line| line.trivia = Trivia::default());
+    bare.section_trivia = Default::default();
+    bare.tail = Vec::new();
+    bare
+}
+
+fn undress(lines: &mut [SpriteLine]) {
+    for line in lines {
+        line.trivia = Trivia::default();
+        line.params.retain(|param| param.key.text != "img");
+        undress(&mut line.children);
+    }
+}
+
+/// The names of the types that the file declares, each once, without those that stay.
+pub(super) fn own_names(description: &Description) -> Vec<&str> {
+    let (mut own, mut seen) = (Vec::new(), BTreeSet::new());
+    for (_, line) in description.sprite_lines() {
+        let name = line.name.text.as_str();
+        if !RESERVED.contains(&name) && seen.insert(name) {
+            own.push(name);
+        }
+    }
+    own
+}
+
+/// The characters that levels of a game can use: those of the LevelMapping in its order, then those that every game has,
+/// if this one declares the type and does not map them itself.
+pub(super) fn symbols(description: &Description) -> Vec<char> {
+    let own = description.mapping.iter().map(|line| line.symbol);
+    own.chain(['w', 'A'].into_iter().filter(|&symbol| builtin(symbol, description).is_some())).collect()
+}
+
+/// What a character stands for in this game though it has no line.
+pub(super) fn builtin(symbol: char, description: &Description) -> Option<&'static str> {
+    let name = unmapped(symbol, description)?;
+    let declared = description.sprite_lines().iter().any(|(_, line)| line.name.text == name);
+    declared.then_some(name)
+}
+
+/// Characters that place types which the file neither maps nor declares, with these: they stay as they are, because a line
+/// for them would be one rule more.
+pub(super) fn silent(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
+    let undeclared = |symbol: char| {
+        let name = unmapped(symbol, description)?;
+        builtin(symbol, description).is_none().then_some((symbol, name))
+    };
+    ['w', 'A'].into_iter().filter_map(undeclared)
+}
+
+/// What a character places in every game that does not map it.
+fn unmapped(symbol: char, description: &Description) -> Option<&'static str> {
+    let name = match symbol {
+        'w' => "wall",
+        'A' => "avatar",
+        _ => return None,
+    };
+    (!description.mapping.iter().any(|line| line.symbol == symbol)).then_some(name)
+}
+
+/// Other characters for levels.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Symbols(pub(super) BTreeMap<char, char>);
+
+impl Symbols {
+    /// A level in the new characters. Characters that mean nothing become blanks.
+    pub(super) fn level(&self, text: &str) -> String {
+        let symbol = |c: char| match self.0.get(&c) {
+            Some(&new) => new,
+            None if c.is_whitespace() => c,
+            None => ' ',
+        };
+        text.chars().map(symbol).collect()
+    }
+
+    /// Writes the LevelMapping of a game in the new characters; those that every game has get lines.
+    pub(super) fn write(&self, description: &mut Description) {
+        let lines = self.0.iter().filter_map(|(&symbol, &new)| {
+            let names = vec![builtin(symbol, description)?.into()];
+            Some(MappingLine { symbol: new, names, ..MappingLine::default() })
+        });
+        let more: Vec<MappingLine> = lines.collect();
+        for line in &mut description.mapping {
+            line.symbol = *self.0.get(&line.symbol).unwrap_or(&line.symbol);
+        }
+        description.mapping.extend(more);
+    }
+}
+
+/// What tests of changed surfaces share.
+#[cfg(test)]
+pub(super) mod checks {
+    use engine::{Game, Seed};
+    use std::fs;
+    use std::path::Path;
+
+    /// Every corpus game: name, text, levels.
+    pub(in super::super) fn corpus() -> Vec<(String, String, Vec<String>)> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora");
+        let mut games = Vec::new();
+        for entry in fs::read_dir(folder).unwrap().flatten() {
+            let Ok(source) = fs::read_to_string(entry.path().join("game.vgdl")) else { continue };
+            let level = |at: u32| fs::read_to_string(entry.path().join(format!("lvl{at}.txt"))).ok();
+            let levels = (0..5).filter_map(level).collect();
+            games.push((entry.file_name().to_string_lossy().into_owned(), source, levels));
+        }
+        assert!(games.len() >= 20, "{} games", games.len());
+        games
+    }
+
+    /// The same hashes, scores and outcomes under the same actions.
+    pub(in super::super) fn play_alike(
+        name: &str,
+        game: &Game,
+        twin: &Game,
+        levels: &[String],
+        translate: impl Fn(&str) -> String,
+    ) {
+        for (number, level) in levels.iter().enumerate() {
+            let seed = Seed::from_text(name).child("level", number as u64);
+            let own = game.level(level).unwrap_or_else(|problems| panic!("{name}: {problems}"));
+            let other = twin.level(&translate(level)).unwrap_or_else(|problems| panic!("{name}: {problems}"));
+            let (mut one, mut two) = (game.start(&own, seed), twin.start(&other, seed));
+            let mut sampler = seed.sampler();
+            for _ in 0..150 {
+                assert_eq!(one.state_hash(), two.state_hash(), "{name}");
+                assert_eq!(game.actions(&one), twin.actions(&two), "{name}");
+                let action = *sampler.choose(game.actions(&one));
+                assert_eq!(game.step(&mut one, action), twin.step(&mut two, action), "{name}");
+                assert_eq!(one.score(), two.score(), "{name}");
+            }
+        }
+    }
+}
