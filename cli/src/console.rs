@@ -63,7 +63,7 @@ impl Console {
             },
         );
         let style = ProgressStyle::with_template(
-            "{prefix:>12} [{wide_bar:.cyan}] {pos}/{len} {elapsed_precise} {msg}",
+            "{prefix:>12} [{wide_bar:.cyan}] {pos}/{len} {elapsed_precise}, {eta} left {msg}",
         );
         bar.set_style(style.expect("the template is well-formed").progress_chars("=> "));
         bar.set_prefix(what);

@@ -37,6 +37,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Verb {
     Release(verbs::release::Args),
+    Merge(verbs::merge::Args),
     Regenerate(verbs::regenerate::Args),
     Verify(verbs::verify::Args),
     Validate(verbs::validate::Args),
@@ -45,6 +46,8 @@ enum Verb {
     Evaluate(Box<verbs::evaluate::Args>),
     ServePlayer(verbs::serve_player::Args),
     Report(verbs::report::Args),
+    Diff(verbs::diff::Args),
+    Export(verbs::export::Args),
     Play(verbs::play::Args),
     Render(verbs::render::Args),
     Describe(verbs::describe::Args),
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
     let console = Console::new(cli.json, cli.quiet);
     let answer = match cli.verb {
         Verb::Release(args) => verbs::release::run(&args, &console),
+        Verb::Merge(args) => verbs::merge::run(&args, &console),
         Verb::Regenerate(args) => verbs::regenerate::run(&args, &console),
         Verb::Verify(args) => verbs::verify::run(&args, &console),
         Verb::Validate(args) => verbs::validate::run(&args, &console),
@@ -73,6 +77,8 @@ fn main() -> ExitCode {
         Verb::Evaluate(args) => verbs::evaluate::run(&args, &console),
         Verb::ServePlayer(args) => verbs::serve_player::run(&args, &console),
         Verb::Report(args) => verbs::report::run(&args, &console),
+        Verb::Diff(args) => verbs::diff::run(&args, &console),
+        Verb::Export(args) => verbs::export::run(&args, &console),
         Verb::Play(args) => verbs::play::run(&args, &console),
         Verb::Render(args) => verbs::render::run(&args, &console),
         Verb::Describe(args) => verbs::describe::run(&args, &console),

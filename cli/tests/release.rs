@@ -2,9 +2,9 @@
 
 mod arcade;
 
-use arcade::{arcade, run, text};
+use arcade::{arcade, copy_tree, files, run, text};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Stdio;
 use std::sync::LazyLock;
 use tempfile::TempDir;
@@ -16,34 +16,11 @@ static TINY: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
-/// Every file below a folder with its content, by path.
-fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut found = Vec::new();
-    let mut open = vec![folder.to_owned()];
-    while let Some(next) = open.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                open.push(path);
-            } else {
-                let name = path.strip_prefix(folder).unwrap().display().to_string();
-                found.push((name, fs::read(&path).unwrap()));
-            }
-        }
-    }
-    found.sort();
-    found
-}
-
 /// A copy of the shared mint, to be tampered with.
 fn copy() -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path().join("tiny");
-    for (name, content) in files(&TINY.path().join("tiny")) {
-        let path = root.join(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, content).unwrap();
-    }
+    copy_tree(&TINY.path().join("tiny"), &root);
     (folder, root)
 }
 
@@ -101,8 +78,7 @@ fn any_flipped_byte_is_named() {
 #[test]
 fn a_file_removed_added_or_linked_is_named() {
     let (folder, root) = copy();
-    let level =
-        files(&root).into_iter().map(|(name, _)| name).find(|name| name.ends_with("lvl0.txt")).unwrap();
+    let level = files(&root).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();
     let content = fs::read(root.join(&level)).unwrap();
 
     fs::remove_file(root.join(&level)).unwrap();

@@ -5,6 +5,7 @@
 //! ```text
 //! releases/2026-12.partial/.lock    held from creation until after the rename
 //! releases/2026-12.partial/tree/    becomes releases/2026-12
+//! releases/2026-12.partial/lots/    what is kept if the work is interrupted, for `Draft::resume`
 //! ```
 //!
 //! The lock is the operating system's ([`File::try_lock`]): it dies with its process, so a `.partial` whose lock
@@ -21,7 +22,7 @@ use std::path::{Path, PathBuf};
 use crate::error::SnapshotError;
 use crate::folder::{self, Limits};
 use crate::path::check_path;
-use lock::{LOCK, TREE};
+use lock::{LOCK, LOTS, TREE};
 
 /// A release folder in the making. Dropping it uncommitted removes what was written, as far as possible.
 ///
@@ -42,9 +43,22 @@ impl Draft {
     ///
     /// # Errors
     /// `out` is taken ([`Occupied`](SnapshotError::Occupied)), another process is writing it
-    /// ([`Busy`](SnapshotError::Busy)), `<out>.partial` is not ours to replace
+    /// ([`Busy`](SnapshotError::Busy)), an interrupted one has left work
+    /// ([`Interrupted`](SnapshotError::Interrupted)), `<out>.partial` is not ours to replace
     /// ([`Foreign`](SnapshotError::Foreign)), or the file system refuses.
     pub fn create(out: &Path) -> Result<Draft, SnapshotError> {
+        let draft = Draft::resume(out)?;
+        match fs::read_dir(draft.lots()).is_ok_and(|mut lots| lots.next().is_some()) {
+            true => Err(SnapshotError::Interrupted { path: draft.partial.clone() }),
+            false => Ok(draft),
+        }
+    }
+
+    /// As [`create`](Draft::create), but what an interrupted draft has put into [`lots`](Draft::lots) is still there.
+    ///
+    /// # Errors
+    /// As for `create`, but for what was interrupted.
+    pub fn resume(out: &Path) -> Result<Draft, SnapshotError> {
         let name = out.file_name().ok_or_else(|| SnapshotError::Nameless { path: out.to_path_buf() })?;
         let mut partial_name = OsString::from(name);
         partial_name.push(".partial");
@@ -106,7 +120,16 @@ impl Draft {
             return Err(occupied(source));
         }
         fs::rename(&tree, &self.out).map_err(occupied)?;
-        sync_folder(parent_of(&self.out))
+        sync_folder(parent_of(&self.out))?;
+        // What cannot be removed is in nobody's way but that of the next draft, which says so.
+        drop(remove_tree(&self.lots()));
+        Ok(())
+    }
+
+    /// A folder beside the draft, not created yet, whose content outlives a draft that is dropped or killed, and is removed
+    /// with one that is committed.
+    pub fn lots(&self) -> PathBuf {
+        self.partial.join(LOTS)
     }
 
     fn tree(&self) -> PathBuf {
@@ -117,7 +140,12 @@ impl Draft {
 impl Drop for Draft {
     /// After a commit only the lock is left to remove. The lock goes last, because it marks the folder as ours.
     fn drop(&mut self) {
-        let removed = remove_tree(&self.tree())
+        let removed = remove_tree(&self.tree());
+        // An empty folder is no work; one that is not stays, and the lock, which marks it as ours, with it.
+        if fs::remove_dir(self.lots()).is_err_and(|refused| refused.kind() != ErrorKind::NotFound) {
+            return;
+        }
+        let removed = removed
             .and_then(|()| fs::remove_file(self.partial.join(LOCK)))
             .and_then(|()| fs::remove_dir(&self.partial));
         // Nothing can be done here about a failure, and the next draft replaces what stays.

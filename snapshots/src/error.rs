@@ -33,6 +33,26 @@ pub enum SnapshotError {
         /// The folder.
         path: PathBuf,
     },
+    /// The work of an interrupted mint is there.
+    #[error("`{}` holds what an interrupted mint has made: go on with --resume, or remove it to begin anew", .path.display())]
+    Interrupted {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file of a shard is not the one that the shard lists.
+    #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .path.display())]
+    Altered {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that should hold the secret of a sealed release does not.
+    #[error("`{}` is not the secret of a sealed release: {source}", .path.display())]
+    NotASecret {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: serde_json::Error,
+    },
     /// Another process is writing there.
     #[error("another arcade is writing `{}`: wait for it or choose another --out", .path.display())]
     Busy {
@@ -75,8 +95,8 @@ pub enum SnapshotError {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// The folder has no manifest.
-    #[error("`{}` has no MANIFEST.json: name a snapshot folder", .path.display())]
+    /// The folder has no manifest, or the file is no archive.
+    #[error("`{}` has no MANIFEST.json: name a snapshot folder or its .tar.zst", .path.display())]
     NotASnapshot {
         /// The folder.
         path: PathBuf,
@@ -110,6 +130,56 @@ pub enum SnapshotError {
         path: PathBuf,
         /// What is wrong, naming the item.
         message: String,
+    },
+    /// A folder that is searched for releases holds too much.
+    #[error("`{}` holds more than {limit} files and folders: name the releases one by one", .path.display())]
+    Crowded {
+        /// The folder.
+        path: PathBuf,
+        /// The limit.
+        limit: usize,
+    },
+    /// A folder that is searched for releases has none.
+    #[error("`{}` holds no release: name a snapshot folder, its .tar.zst, or a folder of such", .path.display())]
+    NoRelease {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// An archive that is damaged before its manifest can be read.
+    #[error("`{}` is not a sound archive: {message}", .path.display())]
+    Archive {
+        /// The archive.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
+    /// A file to be written exists.
+    #[error("`{}` exists: choose another --out or remove it", .path.display())]
+    Taken {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A release that does not hold what its manifest says, where only a sound one will do.
+    #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.display())]
+    Unsound {
+        /// The release.
+        path: PathBuf,
+        /// Its first problem.
+        first: String,
+        /// How many more there are.
+        more: usize,
+    },
+    /// A file changed between two looks at it.
+    #[error("`{}` changed while it was read: let nothing write there and try again", .path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A path that has no room in a tar header.
+    #[error("`{path}` is too long a path for an archive: pass the folder on as it is")]
+    Untarable {
+        /// The path in the archive.
+        path: String,
     },
     /// A value, most likely the recipe, has no canonical JSON.
     #[error(transparent)]

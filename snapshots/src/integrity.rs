@@ -6,8 +6,9 @@ use std::path::Path;
 
 use crate::error::SnapshotError;
 use crate::folder::{self, Limits};
-use crate::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
 use crate::problem::{Flaw, Problem};
+use crate::sealed::HELD;
 
 /// The answer of [`check_integrity`].
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +48,8 @@ pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     Ok(Integrity { manifest, problems })
 }
 
-fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec<Problem>, SnapshotError> {
+/// What is wrong with a manifest that can be read: its text, its root, its checksum.
+pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec<Problem>, SnapshotError> {
     let problem = |flaw| Problem { path: MANIFEST_FILE.into(), flaw };
     let mut problems = Vec::new();
     if manifest.text()?.as_bytes() != bytes {
@@ -86,7 +88,14 @@ fn file_problems(root: &Path, manifest: &Manifest) -> Result<Vec<Problem>, Snaps
         };
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
-    let missing = awaited.into_keys().filter(|path| !named.contains(*path));
+    // A sealed release keeps back some of its files until it is revealed: all of them or none.
+    let is_held = |path: &str| manifest.kind == Kind::Sealed && path.starts_with(HELD);
+    let all_held = manifest
+        .items
+        .iter()
+        .filter(|item| is_held(&item.path))
+        .all(|item| awaited.contains_key(item.path.as_str()));
+    let missing = awaited.into_keys().filter(|path| !(named.contains(*path) || (all_held && is_held(path))));
     problems.extend(missing.map(|path| Problem { path: path.into(), flaw: Flaw::Missing }));
     Ok(problems)
 }

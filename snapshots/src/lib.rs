@@ -3,7 +3,8 @@
 //! A release folder holds files and one `MANIFEST.json`. The [`Manifest`] lists every file with its size and
 //! [`Digest`], and states the root of a [`merkle`] tree over them, so that one file can be proved without the
 //! rest and each release can name the root of the one before. A [`Draft`] writes a folder that is complete or
-//! absent; [`check_integrity`] reads one and reports every [`Problem`] at once.
+//! absent; [`check_integrity`] reads one and reports every [`Problem`] at once. [`archive`] makes it one file, [`proof`]
+//! proves a file or a game of it, [`chain`] follows the roots from release to release.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -41,12 +42,18 @@
 //! # }
 //! ```
 
+mod ancestry;
+pub mod archive;
 mod canary;
 pub mod canonical;
 pub mod card;
+pub mod chain;
+mod contents;
 mod corpus;
+pub mod diff;
 mod draft;
 mod error;
+pub mod export;
 mod figures;
 pub mod folder;
 pub mod games;
@@ -57,12 +64,18 @@ pub mod merkle;
 pub mod mint;
 mod path;
 mod problem;
+pub mod proof;
 mod recipe;
 mod regenerate;
+pub mod released;
+pub mod rungs;
+mod sealed;
 mod striving;
+pub mod twin;
 mod verify;
 mod witness;
 
+pub use ancestry::{AncestryError, follow};
 pub use canary::canary;
 pub use corpus::{Corpus, CorpusCard, CorpusGame, Intent};
 pub use draft::Draft;
@@ -71,8 +84,9 @@ pub use integrity::{Integrity, check_integrity};
 pub use manifest::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
 pub use path::{MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
-pub use recipe::{Board, MAX_RECIPE, Part, Recipe, RecipeError};
+pub use recipe::{Board, CorpusPart, GeneratedPart, Known, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
 pub use regenerate::{RegenerateError, Regenerated, regenerate};
+pub use sealed::{HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
 pub use verify::{Verification, Witnesses, verify};
 pub use witness::Witness;
 

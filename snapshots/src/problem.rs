@@ -71,6 +71,8 @@ pub enum Flaw {
     /// The manifest's text is not what this format writes for what it says (spaces, order, line ends, a field
     /// left out or a key twice): its meaning is intact, its bytes are not as minted.
     NotCanonical,
+    /// An entry of an archive, or the archive itself, is not as it is packed.
+    NotAsPacked(String),
     /// The stated checksum is not that of the stated root, lock file and sizes.
     WrongChecksum,
     /// The stated root is not the root over the manifest's own header and items.
@@ -109,6 +111,7 @@ impl fmt::Display for Flaw {
                 write!(f, "too large altogether ({size} bytes of at most {limit})")
             }
             Flaw::NotCanonical => write!(f, "not in canonical form (its text is not as minted)"),
+            Flaw::NotAsPacked(what) => write!(f, "not as packed ({what})"),
             Flaw::WrongChecksum => {
                 write!(f, "wrong checksum (the root, the lock file's digest or a size is not as minted)")
             }

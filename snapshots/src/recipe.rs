@@ -1,8 +1,12 @@
 //! A recipe: what a release is minted from, in a TOML file of `seeds/`.
 
+use crate::sealed::Secret;
 use engine::{Digest, Seed};
+use generators::levels::LevelConfig;
 use serde::{Deserialize, Serialize};
-use validators::{Criteria, CriteriaError};
+use std::collections::{BTreeMap, BTreeSet};
+use validators::game_measures::{AvatarKind, GoalKind};
+use validators::{Criteria, CriteriaError, Difficulty};
 
 /// Bytes of a recipe that are read.
 pub const MAX_RECIPE: usize = 1 << 16;
@@ -15,42 +19,151 @@ pub struct Recipe {
     pub name: String,
     /// What the release is, for its README.
     pub description: String,
-    /// The text that the seed comes from; public, so the release is open.
-    pub seed: String,
+    /// The text that the seed comes from: public, so the release is open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<String>,
+    /// BLAKE3(seed ‖ nonce) in its place: the release is sealed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commitment: Option<Digest>,
     /// Root digest of the release before.
     #[serde(default)]
     pub parent: Option<Digest>,
     /// New levels for corpus games.
     #[serde(default)]
-    pub corpus: Part,
+    pub corpus: CorpusPart,
     /// New games with levels.
     #[serde(default)]
-    pub generated: Part,
+    pub generated: GeneratedPart,
     /// How large the boards are.
     #[serde(default)]
     pub board: Board,
+    /// The share of all levels that has each difficulty; empty: as they come.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub difficulty: BTreeMap<Difficulty, f64>,
+    /// Which games there are.
+    #[serde(default)]
+    pub taxonomy: Taxonomy,
     /// What a level must show.
     #[serde(default)]
     pub criteria: Criteria,
+    /// What the releases before hold, which is not to be minted again: filled in from the parent.
+    #[serde(default, skip_serializing_if = "Known::is_empty")]
+    pub known: Known,
 }
 
-/// How much of one kind a release holds, and how hard the mint tries.
+/// New levels for corpus games, in a fresh fiction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Part {
+pub struct CorpusPart {
     /// Games.
     pub games: u32,
     /// Levels of each game, from the easiest to the hardest.
     pub levels: u32,
-    /// Games that are tried for one place, at most.
+    /// Sets of levels that are tried for one game, at most.
     pub game_tries: u32,
     /// Levels that are tried for one place, at most.
     pub level_tries: u32,
+    /// How many games are made for each that is taken.
+    pub candidates: f64,
+    /// What their levels must show, if that is something else: hand-made games are fewer than those that can be generated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub criteria: Option<Criteria>,
 }
 
-impl Default for Part {
-    fn default() -> Part {
-        Part { games: 0, levels: 3, game_tries: 20, level_tries: 12 }
+impl Default for CorpusPart {
+    fn default() -> CorpusPart {
+        CorpusPart { games: 0, levels: 3, game_tries: 8, level_tries: 12, candidates: 1.5, criteria: None }
+    }
+}
+
+/// New games.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GeneratedPart {
+    /// Games.
+    pub games: u32,
+    /// Levels of each game, from the easiest to the hardest.
+    pub levels: u32,
+    /// Games that are tried for one candidate, at most.
+    pub game_tries: u32,
+    /// Levels that are tried for one place, at most.
+    pub level_tries: u32,
+    /// How many games are made for each that is taken.
+    pub candidates: f64,
+    /// What share of the candidates comes from which generator.
+    pub mix: Mix,
+    /// Interactions that a game has at least.
+    pub least_interactions: usize,
+    /// Different interactions that the wins of its levels execute together, at least.
+    pub least_mechanics: usize,
+}
+
+impl Default for GeneratedPart {
+    fn default() -> GeneratedPart {
+        GeneratedPart {
+            games: 0,
+            levels: 3,
+            game_tries: 48,
+            level_tries: 12,
+            candidates: 1.25,
+            mix: Mix::default(),
+            least_interactions: 7,
+            least_mechanics: 3,
+        }
+    }
+}
+
+/// Weights of the generators of games.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mix {
+    /// Of games that are drawn.
+    #[serde(default)]
+    pub constructive: f64,
+    /// Of games that are searched for.
+    #[serde(default)]
+    pub search: f64,
+    /// Of games that are bred in archives.
+    #[serde(default)]
+    pub evolutionary: f64,
+}
+
+impl Default for Mix {
+    fn default() -> Mix {
+        Mix { constructive: 1.0, search: 0.0, evolutionary: 0.0 }
+    }
+}
+
+/// Quotas: which games a release holds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Taxonomy {
+    /// The least and the greatest share of games with each goal.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub goals: BTreeMap<GoalKind, (f64, f64)>,
+    /// The least and the greatest share of games with each avatar.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub avatars: BTreeMap<AvatarKind, (f64, f64)>,
+    /// The greatest share of games with the same goal and avatar.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crowd: Option<f64>,
+}
+
+/// What is not to be minted again.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Known {
+    /// Names of the releases, the oldest first.
+    pub releases: Vec<String>,
+    /// Canonical forms of their generated games.
+    pub rules: BTreeSet<Digest>,
+    /// Canonical items, rules and level, of their corpus games.
+    pub items: BTreeSet<Digest>,
+}
+
+impl Known {
+    fn is_empty(&self) -> bool {
+        *self == Known::default()
     }
 }
 
@@ -62,6 +175,13 @@ pub struct Board {
     pub columns: (usize, usize),
     /// Rows.
     pub rows: (usize, usize),
+}
+
+impl Board {
+    /// Levels of these sizes.
+    pub fn levels(&self) -> LevelConfig {
+        LevelConfig { columns: self.columns, rows: self.rows, ..LevelConfig::default() }
+    }
 }
 
 impl Default for Board {
@@ -87,6 +207,12 @@ pub enum RecipeError {
     /// A criterion out of its range.
     #[error("`criteria.{}` {}", .0.key, .0.message)]
     Criteria(#[from] CriteriaError),
+    /// A sealed release whose secret was not given.
+    #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
+    Sealed,
+    /// A secret that is not the one committed to.
+    #[error("the secret is not the one that the recipe's `commitment` was made from")]
+    OtherSecret,
     /// Longer than [`MAX_RECIPE`].
     #[error("the recipe is larger than {MAX_RECIPE} bytes")]
     TooLarge,
@@ -116,8 +242,21 @@ impl Recipe {
         if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
             return wrong("name", "takes 1 to 40 lower-case letters, digits and `-`".to_owned());
         }
-        if self.seed.trim().is_empty() || self.seed.len() > 200 {
-            return wrong("seed", "takes a text of 1 to 200 bytes".to_owned());
+        match (&self.seed, self.commitment) {
+            (Some(seed), None) if seed.trim().is_empty() || seed.len() > 200 => {
+                return wrong("seed", "takes a text of 1 to 200 bytes".to_owned());
+            }
+            (Some(_), Some(_)) => {
+                return wrong(
+                    "commitment",
+                    "and `seed` are both there: a seed is public or sealed".to_owned(),
+                );
+            }
+            (None, None) => {
+                let help = "is missing: give a text, or a `commitment` from `arcade release RECIPE --commit`";
+                return wrong("seed", help.to_owned());
+            }
+            _ => {}
         }
         if self.corpus.games + self.generated.games == 0 {
             return wrong(
@@ -125,24 +264,32 @@ impl Recipe {
                 "and `corpus.games` are both 0: there is nothing to mint".to_owned(),
             );
         }
-        for (part, [games, levels, game_tries, level_tries]) in [
-            (&self.corpus, ["corpus.games", "corpus.levels", "corpus.game_tries", "corpus.level_tries"]),
-            (
-                &self.generated,
-                ["generated.games", "generated.levels", "generated.game_tries", "generated.level_tries"],
-            ),
+        let (old, new) = (&self.corpus, &self.generated);
+        for (key, value, least, most) in [
+            ("corpus.games", old.games, 0, 10_000),
+            ("corpus.levels", old.levels, 1, 20),
+            ("corpus.game_tries", old.game_tries, 1, 10_000),
+            ("corpus.level_tries", old.level_tries, 1, 10_000),
+            ("generated.games", new.games, 0, 10_000),
+            ("generated.levels", new.levels, 1, 20),
+            ("generated.game_tries", new.game_tries, 1, 10_000),
+            ("generated.level_tries", new.level_tries, 1, 10_000),
         ] {
-            for (key, value, least, most) in [
-                (games, part.games, 0, 10_000),
-                (levels, part.levels, 1, 20),
-                (game_tries, part.game_tries, 1, 10_000),
-                (level_tries, part.level_tries, 1, 10_000),
-            ] {
-                if !(least..=most).contains(&value) {
-                    return wrong(key, format!("is {value}; it takes {least} to {most}"));
-                }
+            if !(least..=most).contains(&value) {
+                return wrong(key, format!("is {value}; it takes {least} to {most}"));
             }
         }
+        for (key, value) in [("corpus.candidates", old.candidates), ("generated.candidates", new.candidates)]
+        {
+            if !(1.0..=20.0).contains(&value) {
+                return wrong(key, format!("is {value}; it takes 1 to 20 for each game"));
+            }
+        }
+        let weights = [new.mix.constructive, new.mix.search, new.mix.evolutionary];
+        if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
+            return wrong("generated.mix", "takes weights, not all of them 0".to_owned());
+        }
+        self.check_selection()?;
         for (key, (least, most)) in [("board.columns", self.board.columns), ("board.rows", self.board.rows)] {
             if least < 5 || most < least || most > 100 {
                 return wrong(
@@ -151,19 +298,70 @@ impl Recipe {
                 );
             }
         }
-        self.criteria.check()?;
-        // What the cards show.
-        if let Some(missing) =
-            ["not-idle", "not-random", "winnable"].into_iter().find(|name| !self.criteria.asks(name))
-        {
-            return wrong("criteria.ask", format!("lacks `{missing}`, which every card shows"));
+        for criteria in [Some(&self.criteria), self.corpus.criteria.as_ref()].into_iter().flatten() {
+            criteria.check()?;
+            // What the cards show.
+            let shown = ["not-idle", "not-random", "winnable"];
+            if let Some(missing) = shown.into_iter().find(|name| !criteria.asks(name)) {
+                return wrong("criteria.ask", format!("lacks `{missing}`, which every card shows"));
+            }
         }
         Ok(())
     }
 
-    /// The seed that everything in the release comes from.
-    pub fn root_seed(&self) -> Seed {
-        Seed::from_text(&self.seed)
+    /// What games are chosen by.
+    fn check_selection(&self) -> Result<(), RecipeError> {
+        let wrong = |key, message: String| Err(RecipeError::Value { key, message });
+        if !self.difficulty.is_empty() {
+            let total: f64 = self.difficulty.values().sum();
+            if self.difficulty.values().any(|share| !(0.0..=1.0).contains(share))
+                || (total - 1.0).abs() > 1e-6
+            {
+                return wrong("difficulty", format!("adds up to {total}; it takes shares that add up to 1"));
+            }
+            let of_corpus = self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.asks("skill"));
+            if !(self.criteria.asks("skill") && of_corpus) {
+                let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
+                return wrong("difficulty", help.to_owned());
+            }
+        }
+        for (key, quotas) in [
+            ("taxonomy.goals", self.taxonomy.goals.values().collect::<Vec<_>>()),
+            ("taxonomy.avatars", self.taxonomy.avatars.values().collect()),
+        ] {
+            if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
+                return wrong(key, "takes pairs of shares from 0 to 1, the smaller first".to_owned());
+            }
+            if quotas.iter().map(|(least, _)| least).sum::<f64>() > 1.0 {
+                return wrong(key, "asks for more than all games together".to_owned());
+            }
+        }
+        match self.taxonomy.crowd {
+            Some(crowd) if !(crowd > 0.0 && crowd <= 1.0) => {
+                wrong("taxonomy.crowd", format!("is {crowd}; it takes a share above 0, up to 1"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The seed that everything in the release comes from; `secret` is that of a sealed one.
+    ///
+    /// # Errors
+    /// A sealed release without its secret, or with another one.
+    pub fn root_seed(&self, secret: Option<&Secret>) -> Result<Seed, RecipeError> {
+        match (&self.seed, self.commitment, secret) {
+            (Some(seed), ..) => Ok(Seed::from_text(seed)),
+            (None, Some(commitment), Some(secret)) if secret.commitment() == commitment => {
+                Ok(Seed::from_text(&secret.seed))
+            }
+            (None, _, Some(_)) => Err(RecipeError::OtherSecret),
+            (None, _, None) => Err(RecipeError::Sealed),
+        }
+    }
+
+    /// Levels of all games.
+    pub fn levels(&self) -> u32 {
+        self.corpus.games * self.corpus.levels + self.generated.games * self.generated.levels
     }
 }
 
@@ -184,10 +382,11 @@ mod tests {
         let page = include_str!("../../docs/recipes.md");
         let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
         let recipe = Recipe::from_toml(&example.replace("parent = \"…\"", "#")).unwrap();
+        assert_eq!(recipe.taxonomy, Taxonomy::default());
         assert_eq!(recipe.criteria, Criteria::default());
         assert_eq!(recipe.board, Board::default());
-        assert_eq!(recipe.generated, Part { games: 12, ..Part::default() });
-        assert_eq!(recipe.corpus, Part { games: 6, ..Part::default() });
+        assert_eq!(recipe.generated, GeneratedPart { games: 12, ..GeneratedPart::default() });
+        assert_eq!(recipe.corpus, CorpusPart { games: 6, ..CorpusPart::default() });
     }
 
     #[test]
@@ -196,6 +395,23 @@ mod tests {
         check(&GOOD.replace("games", "gamse"), "unknown field `gamse`");
         check(&GOOD.replace("'x'", "7"), "invalid type");
         check(&GOOD.replace("small", "Small One"), "`name`");
+        check(&GOOD.replace("seed = 'x'\n", ""), "`seed` is missing");
+        check(
+            &GOOD.replace("[generated]", &format!("commitment = '{}'\n[generated]", Digest::of(b""))),
+            "public or sealed",
+        );
+        check(&format!("{GOOD}mix = {{ constructive = 0 }}"), "`generated.mix`");
+        check(&format!("{GOOD}mix = {{ evolution = 1 }}"), "unknown field `evolution`");
+        check(&format!("{GOOD}candidates = 0.5"), "`generated.candidates`");
+        check(&format!("{GOOD}[difficulty]\nhard = 1.0"), "name it in `criteria.ask`");
+        check(&format!("{GOOD}[difficulty]\nhard = 0.5"), "adds up to 0.5");
+        check(&format!("{GOOD}[difficulty]\nharsh = 1.0"), "unknown variant `harsh`");
+        check(&format!("{GOOD}[taxonomy]\ncrowd = 0.0"), "`taxonomy.crowd`");
+        check(&format!("{GOOD}[taxonomy.goals]\nreach = [0.5, 0.2]"), "`taxonomy.goals`");
+        check(
+            &format!("{GOOD}[taxonomy.goals]\nreach = [0.6, 0.7]\nunlock = [0.6, 0.7]"),
+            "more than all games",
+        );
         check(&GOOD.replace("= 2", "= 0"), "nothing to mint");
         check(&format!("{GOOD}levels = 0"), "`generated.levels` is 0");
         check(&format!("{GOOD}[criteria]\ndepths = []"), "`criteria.depths`");

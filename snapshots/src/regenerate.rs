@@ -3,8 +3,9 @@
 use crate::corpus::Corpus;
 use crate::folder::{self, Limits};
 use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
-use crate::mint::{MintError, Minted, Progress, mint};
+use crate::mint::{MintError, Minted, Plan, Progress, Sink, mint};
 use crate::recipe::{Recipe, RecipeError};
+use crate::sealed::{SECRET_FILE, read_secret};
 use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -30,6 +31,9 @@ pub enum RegenerateError {
         "this release is sealed: its seed is not in the folder, so it cannot be minted again before it is revealed"
     )]
     Sealed,
+    /// It is one file.
+    #[error("this is an archive: unpack it (`tar --zstd -xf FILE`) and name the folder")]
+    Packed,
     /// The recipe in the manifest is not one.
     #[error("the manifest's recipe is not a recipe: {0}")]
     NotARecipe(serde_json::Error),
@@ -56,7 +60,7 @@ pub struct Regenerated {
 }
 
 /// Mints the release in `root` again and compares every file. The digest of Cargo.lock in the manifest is provenance
-/// and may differ.
+/// and may differ. Every file that was minted also goes to `also`, the manifest apart.
 ///
 /// # Errors
 /// The folder is no release, or one that this binary cannot mint.
@@ -65,7 +69,11 @@ pub fn regenerate(
     corpus: &Corpus,
     lockfile: Digest,
     progress: &dyn Progress,
+    also: &mut Sink<'_>,
 ) -> Result<Regenerated, RegenerateError> {
+    if root.is_file() {
+        return Err(RegenerateError::Packed);
+    }
     let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
         SnapshotError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
             SnapshotError::NotASnapshot { path: root.to_path_buf() }
@@ -77,44 +85,71 @@ pub fn regenerate(
     if generation != generators::GENERATION || semantics != engine::SEMANTICS {
         return Err(RegenerateError::OtherVersion { generation, semantics });
     }
-    if manifest.kind == Kind::Sealed {
-        return Err(RegenerateError::Sealed);
-    }
+    let secret = match manifest.kind {
+        Kind::Open => None,
+        Kind::Sealed if root.join(SECRET_FILE).exists() => Some(read_secret(root, SECRET_FILE)?),
+        Kind::Sealed => return Err(RegenerateError::Sealed),
+    };
     let recipe: Recipe =
         serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
     recipe.check()?;
-    let minted = mint(&recipe, corpus, lockfile, progress)?;
-    let differences = differences(root, &manifest, &bytes, &minted)?;
+    let plan = Plan::new(&recipe, secret.as_ref(), corpus)?;
+    let mut comparison = Comparison::of(root)?;
+    let minted = mint(&plan, secret.as_ref(), lockfile, progress, &mut |path, content| {
+        comparison.file(path, content)?;
+        also(path, content)
+    })?;
+    let differences = comparison.finish(&manifest, &bytes, &minted)?;
     Ok(Regenerated { other_lockfile: manifest.lockfile != lockfile, minted, differences })
 }
 
-fn differences(
-    root: &Path,
-    manifest: &Manifest,
-    bytes: &[u8],
-    minted: &Minted,
-) -> Result<Vec<String>, SnapshotError> {
-    let listing = folder::list(root, &Limits::SNAPSHOT)?;
-    let mut differences: Vec<String> = listing.problems.iter().map(ToString::to_string).collect();
-    let named: BTreeSet<&str> = listing.problems.iter().map(|problem| problem.path.as_str()).collect();
-    let there: BTreeSet<&str> = listing.entries.iter().map(|entry| entry.path.as_str()).collect();
-    for (path, content) in &minted.files {
-        if !there.contains(path.as_str()) {
-            if !named.contains(path.as_str()) {
-                differences.push(format!("{path}: missing"));
+/// What is in a folder, compared with what is minted.
+struct Comparison<'a> {
+    root: &'a Path,
+    /// Files that nothing minted was compared with so far.
+    there: BTreeSet<String>,
+    /// Paths with a problem of their own.
+    named: BTreeSet<String>,
+    differences: Vec<String>,
+}
+
+impl Comparison<'_> {
+    fn of(root: &Path) -> Result<Comparison<'_>, SnapshotError> {
+        let listing = folder::list(root, &Limits::SNAPSHOT)?;
+        let mut there: BTreeSet<String> = listing.entries.into_iter().map(|entry| entry.path).collect();
+        there.remove(MANIFEST_FILE);
+        Ok(Comparison {
+            root,
+            there,
+            differences: listing.problems.iter().map(ToString::to_string).collect(),
+            named: listing.problems.into_iter().map(|problem| problem.path).collect(),
+        })
+    }
+
+    fn file(&mut self, path: &str, content: &[u8]) -> Result<(), SnapshotError> {
+        if !self.there.remove(path) {
+            if !self.named.contains(path) {
+                self.differences.push(format!("{path}: missing"));
             }
-        } else if folder::read(root, path, Limits::SNAPSHOT.file_bytes)? != *content {
-            differences.push(format!("{path}: differs"));
+        } else if folder::read(self.root, path, Limits::SNAPSHOT.file_bytes)? != content {
+            self.differences.push(format!("{path}: differs"));
         }
+        Ok(())
     }
-    let made: BTreeSet<&str> = minted.files.iter().map(|(path, _)| path.as_str()).collect();
-    let extra = there.iter().filter(|path| **path != MANIFEST_FILE && !made.contains(*path));
-    differences.extend(extra.map(|path| format!("{path}: not part of the release")));
-    let mut expected = Manifest { lockfile: manifest.lockfile, ..minted.manifest.clone() };
-    expected.seal_root()?;
-    if expected.to_bytes()? != bytes {
-        differences.push(format!("{MANIFEST_FILE}: differs"));
+
+    fn finish(
+        mut self,
+        manifest: &Manifest,
+        bytes: &[u8],
+        minted: &Minted,
+    ) -> Result<Vec<String>, SnapshotError> {
+        self.differences.extend(self.there.iter().map(|path| format!("{path}: not part of the release")));
+        let mut expected = Manifest { lockfile: manifest.lockfile, ..minted.manifest.clone() };
+        expected.seal_root()?;
+        if expected.to_bytes()? != bytes {
+            self.differences.push(format!("{MANIFEST_FILE}: differs"));
+        }
+        self.differences.sort();
+        Ok(self.differences)
     }
-    differences.sort();
-    Ok(differences)
 }

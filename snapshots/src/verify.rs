@@ -1,9 +1,10 @@
 //! Verifying a release folder: nothing in it is trusted.
 
 use crate::card::Card;
-use crate::folder;
-use crate::integrity::check_integrity;
-use crate::manifest::Manifest;
+use crate::contents::Contents;
+use crate::manifest::{Kind, Manifest};
+use crate::mint::RELEASE_CARD_FILE;
+use crate::sealed::{HELD, SECRET_FILE, Secret};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
 use engine::{Game, Outcome};
@@ -18,6 +19,8 @@ use std::path::Path;
 pub enum Witnesses {
     /// So many were replayed; those that failed are among the problems.
     Replayed(usize),
+    /// The release is sealed: they are held back until it is revealed.
+    Held,
     /// The release was minted under other semantics of the engine.
     NotReplayed {
         /// The semantics that the witnesses need.
@@ -42,10 +45,14 @@ pub struct Verification {
     pub witnesses: Witnesses,
     /// All that is wrong, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,
+    /// The manifest as stated.
+    #[serde(skip)]
+    pub manifest: Manifest,
 }
 
 /// Checks paths, links, sizes, digests and the root; if these hold, that games, levels and cards are well-formed and
-/// fit together; and, under the same semantics, replays every witness to its win.
+/// fit together; and, under the same semantics, replays every witness to its win. `root` is the release's folder or its
+/// [archive](crate::archive).
 ///
 /// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
 ///
@@ -53,16 +60,26 @@ pub struct Verification {
 /// There is no manifest, it is of a newer format or broken, or the file system refuses.
 pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     refuse_unfinished(root)?;
-    let integrity = check_integrity(root)?;
+    let (integrity, contents) = Contents::open(root)?;
     let manifest = integrity.manifest;
     let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
     let same_semantics = manifest.semantics == engine::SEMANTICS;
+    let is_sealed = manifest.kind == Kind::Sealed;
+    let secret = if is_sealed && problems.is_empty() { contents.find(SECRET_FILE)? } else { None };
+    let held = is_sealed && secret.is_none();
     let mut games = Vec::new();
+    let committed = |secret: Vec<u8>| {
+        serde_json::from_slice(&secret)
+            .is_ok_and(|secret: Secret| Some(secret.commitment()) == manifest.commitment)
+    };
+    if secret.is_some_and(|secret| !committed(secret)) {
+        problems.push(format!("{SECRET_FILE}: its seed and nonce are not those of the commitment"));
+    }
     if problems.is_empty() {
         let folders = game_folders(&manifest, &mut problems);
         let checked: Vec<GameCheck> = folders
             .into_par_iter()
-            .map(|(folder, files)| check_game(root, &manifest, &folder, &files, same_semantics))
+            .map(|(folder, files)| check_game(&contents, &manifest, &folder, &files, same_semantics))
             .collect::<Result<_, _>>()?;
         games = checked;
         problems.extend(games.iter_mut().flat_map(|game| std::mem::take(&mut game.problems)));
@@ -74,15 +91,17 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
         games: games.len(),
         levels,
         witnesses: match same_semantics {
+            _ if held => Witnesses::Held,
             true => Witnesses::Replayed(games.iter().map(|game| game.replayed).sum()),
             false => Witnesses::NotReplayed { semantics: manifest.semantics },
         },
-        name: manifest.name,
+        name: manifest.name.clone(),
         problems,
+        manifest,
     })
 }
 
-/// The inside of a `.partial` folder may be complete but for its publication: it is no release.
+/// What is called `.partial`, and what is inside, may be complete but for its publication: it is no release.
 fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot { path: root.to_path_buf() },
@@ -99,7 +118,8 @@ fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<Str
     for item in &manifest.items {
         match item.path.strip_prefix("games/").and_then(|rest| rest.split_once('/')) {
             Some((folder, file)) => folders.entry(folder.to_owned()).or_default().push(file.to_owned()),
-            None if item.path == "README.md" => {}
+            None if ["README.md", RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
+            None if manifest.kind == Kind::Sealed && item.path.starts_with(HELD) => {}
             None => problems.push(format!("{}: a release has no such file", item.path)),
         }
     }
@@ -116,7 +136,7 @@ struct GameCheck {
 }
 
 fn check_game(
-    root: &Path,
+    contents: &Contents,
     manifest: &Manifest,
     folder: &str,
     files: &[String],
@@ -129,7 +149,7 @@ fn check_game(
         if !files.iter().any(|known| known == file) {
             return Ok(None);
         }
-        let bytes = folder::read(root, &path(file), folder::Limits::SNAPSHOT.file_bytes)?;
+        let bytes = contents.read(&path(file))?;
         Ok(String::from_utf8(bytes).ok())
     };
     let mut wrong = |file: &str, what: String| check.problems.push(format!("{}: {what}", path(file)));
@@ -170,6 +190,7 @@ fn check_game(
     let mut replayed = 0;
     for (number, level_card) in card.levels.iter().enumerate() {
         let (file, witness_file) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
+        let is_sealed = manifest.kind == Kind::Sealed;
         let level = match read(&file)?.map(|text| game.level(&text)) {
             Some(Ok(level)) => level,
             Some(Err(problems)) => {
@@ -185,7 +206,17 @@ fn check_game(
         if level_card.file != file || level_card.digest != level.digest() {
             wrong(&file, "card and level do not belong together".to_owned());
         }
-        match read(&witness_file)?.map(|text| serde_json::from_str::<Witness>(&text)) {
+        let witness = match is_sealed {
+            true => {
+                let bytes = contents.find(&format!("{HELD}{folder}/lvl{number}.json"))?;
+                bytes.and_then(|bytes| String::from_utf8(bytes).ok())
+            }
+            false => read(&witness_file)?,
+        };
+        match witness.map(|text| serde_json::from_str::<Witness>(&text)) {
+            Some(Ok(witness)) if witness.canary != manifest.canary => {
+                wrong(&witness_file, "its canary is not the release's".to_owned());
+            }
             Some(Ok(witness)) if replay => match witness.episode.replay(&game, &level) {
                 Ok(end) if end.outcome() == Outcome::Won => replayed += 1,
                 Ok(_) => wrong(&witness_file, "the episode does not win".to_owned()),
@@ -193,9 +224,14 @@ fn check_game(
             },
             Some(Ok(_)) => {}
             Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
+            // Whether all that is held back is there has been looked at.
+            None if is_sealed => {}
             None => wrong(&witness_file, "missing or not a text".to_owned()),
         }
-        known.extend([file, witness_file]);
+        known.push(file);
+        if !is_sealed {
+            known.push(witness_file);
+        }
     }
     for file in files.iter().filter(|file| !known.contains(file)) {
         wrong(file, "a game has no such file".to_owned());

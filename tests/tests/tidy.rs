@@ -46,6 +46,8 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("ureq", &["evaluation"]),
     ("tiktoken", &["evaluation"]),
     ("regex", &["evaluation"]),
+    ("tar", &["snapshots"]),
+    ("zstd", &["snapshots"]),
 ];
 
 /// The longest a Rust file may be, in lines.

@@ -2,9 +2,12 @@
 
 pub(crate) mod conformance;
 pub(crate) mod describe;
+pub(crate) mod diff;
 pub(crate) mod evaluate;
+pub(crate) mod export;
 pub(crate) mod fmt;
 pub(crate) mod generate;
+pub(crate) mod merge;
 pub(crate) mod play;
 pub(crate) mod regenerate;
 pub(crate) mod release;

@@ -3,10 +3,10 @@
 use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
-use crate::verbs::release::{Bars, in_pool, write};
+use crate::verbs::release::{Bars, in_pool};
 use crate::verbs::verify::failure;
 use serde_json::json;
-use snapshots::{RegenerateError, regenerate};
+use snapshots::{Draft, MANIFEST_FILE, RegenerateError, regenerate};
 use std::path::PathBuf;
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
@@ -30,14 +30,23 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let corpus = embedded::corpus()?;
     let bars = Bars::new(console);
-    let minted = in_pool(args.jobs, || regenerate(&args.snapshot, &corpus, embedded::lockfile(), &bars))?;
+    let draft = args.out.as_deref().map(Draft::create).transpose().map_err(failure)?;
+    let minted = in_pool(args.jobs, || {
+        let mut also = |path: &str, content: &[u8]| match &draft {
+            Some(draft) => draft.write(path, content),
+            None => Ok(()),
+        };
+        regenerate(&args.snapshot, &corpus, embedded::lockfile(), &bars, &mut also)
+    })?;
     bars.finish();
     let result = minted.map_err(|error| match error {
         RegenerateError::Snapshot(error) => failure(error),
         other => Failure::Malformed(other.into()),
     })?;
-    if let Some(out) = &args.out {
-        write(out, &result.minted)?;
+    if let Some(draft) = draft {
+        let manifest = result.minted.manifest.to_bytes().map_err(failure)?;
+        draft.write(MANIFEST_FILE, &manifest).map_err(failure)?;
+        draft.commit().map_err(failure)?;
     }
     let identical = result.differences.is_empty();
     let root = result.minted.manifest.root;
@@ -53,7 +62,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     match identical {
         true => console.say(format_args!(
             "identical: the manifest and {} files, root {root}",
-            result.minted.files.len()
+            result.minted.manifest.items.len()
         )),
         false => console.say(format_args!("NOT identical: {} differences", result.differences.len())),
     }

@@ -55,3 +55,13 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     }
     found
 }
+
+/// A copy of a folder, to be tampered with.
+#[allow(dead_code, reason = "not every test copies folders")]
+pub(crate) fn copy_tree(from: &Path, to: &Path) {
+    for (name, content) in files(from) {
+        let path = to.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+}

@@ -11,6 +11,8 @@ use crate::folder;
 pub(super) const LOCK: &str = ".lock";
 /// The folder with the work.
 pub(super) const TREE: &str = "tree";
+/// The folder with what is kept when the work is interrupted.
+pub(super) const LOTS: &str = "lots";
 
 /// Creates `partial` or takes it over, and locks it.
 pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
@@ -62,7 +64,7 @@ fn is_ours(partial: &Path) -> io::Result<bool> {
         let kind = entry.file_type()?;
         if entry.file_name() == LOCK && kind.is_file() {
             lock = true;
-        } else if entry.file_name() == TREE && kind.is_dir() {
+        } else if (entry.file_name() == TREE || entry.file_name() == LOTS) && kind.is_dir() {
             tree = true;
         } else {
             return Ok(false);

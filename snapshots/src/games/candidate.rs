@@ -2,7 +2,7 @@
 
 use super::levels::{FoundLevel, FoundLevels};
 use crate::card::{Card, Origin};
-use engine::{Episode, Game, syntax};
+use engine::{Description, Episode, Game, syntax};
 use generators::GenerateError;
 use generators::games::GeneratedGame;
 use validators::Judgement;
@@ -55,19 +55,15 @@ impl Candidate {
     /// The game with its levels; none if its judges were not asked what cards tell.
     pub(crate) fn finish(self, found: FoundLevels, canary: &str) -> Option<MadeGame> {
         let Candidate { game, title, description, goal, kind, real_time, origin } = self;
-        let slug = match &origin {
-            Origin::Corpus { name } => name.clone(),
-            Origin::Generated { .. } => slug(&title),
-        };
         let mut tree = game.description().clone();
-        tree.header.trivia.above.insert(0, format!("canary {canary}"));
         tree.header.trivia.above.insert(0, title.clone());
+        let text = marked(&tree, canary);
         let rated = found.levels.iter().zip(&found.mcts).enumerate();
         let cards = rated.map(|(number, (level, mcts))| level.card(number, mcts));
         let (levels, witnesses) = cards.collect::<Option<Vec<_>>>()?.into_iter().unzip();
         let card = Card {
             canary: canary.to_owned(),
-            id: format!("{slug}-{}", game.digest().short()),
+            id: format!("{}-{}", slug(&title), game.digest().short()),
             title,
             description,
             goal,
@@ -80,8 +76,18 @@ impl Candidate {
             levels,
         };
         let FoundLevels { levels, together, .. } = found;
-        Some(MadeGame { text: syntax::print(&tree), game, card, levels, together, witnesses })
+        Some(MadeGame { text, game, card, levels, together, witnesses })
     }
+}
+
+/// The text of a game that is headed by its title, with the mark of a release below it; without, if there is none yet.
+pub(crate) fn marked(titled: &Description, canary: &str) -> String {
+    let mut tree = titled.clone();
+    if !canary.is_empty() {
+        let below = tree.header.trivia.above.len().min(1);
+        tree.header.trivia.above.insert(below, format!("canary {canary}"));
+    }
+    syntax::print(&tree)
 }
 
 /// A title as a folder name: lower-case letters, digits, single dashes.

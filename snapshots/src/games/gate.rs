@@ -58,7 +58,7 @@ impl<'a> Gate<'a> {
         let levels = Levels {
             count: self.order.levels,
             tries: self.order.level_tries,
-            board: &self.order.board,
+            config: &self.order.board.levels(),
             criteria: &self.order.criteria,
             panel: &self.panel,
             seed,
@@ -85,8 +85,10 @@ impl<'a> Gate<'a> {
             tally.game_rejected(MEAGRE);
             return None;
         }
-        // What a second look with other dice does not find would not be found by others either.
-        levels.together(&candidate.game, &found, seed.child("second look", 0), tally)?;
+        // What only one half of the plays shows, or dice of one kind, would not be found by others either.
+        for (half, seed) in [(0, seed.child("half", 0)), (1, seed.child("half", 1))] {
+            levels.together(&candidate.game, &every_other_play(&found, half), seed, tally)?;
+        }
         let together =
             levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
         let found = levels.told(&candidate.game, found, together, tally);
@@ -101,6 +103,16 @@ impl<'a> Gate<'a> {
         let form = GameForm::of(&candidate.game);
         form.nearest(self.known).is_some_and(|(_, apart)| apart < NEAR)
     }
+}
+
+/// The levels with every other play of their judges, from the first or the second on.
+fn every_other_play(levels: &[FoundLevel], from: usize) -> Vec<FoundLevel> {
+    let mut halved = levels.to_vec();
+    for judgement in halved.iter_mut().flat_map(|found| &mut found.report.judgements) {
+        let plays = std::mem::take(&mut judgement.finding.episodes);
+        judgement.finding.episodes = plays.into_iter().skip(from).step_by(2).collect();
+    }
+    halved
 }
 
 fn interactions(game: &Game) -> usize {

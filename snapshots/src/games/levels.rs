@@ -2,7 +2,6 @@
 
 use crate::card::LevelCard;
 use crate::mint::Tally;
-use crate::recipe::Board;
 use engine::{Digest, Episode, Game, Level, Seed};
 use generators::Generator;
 use generators::levels::{ConstructiveLevels, LevelConfig};
@@ -40,8 +39,8 @@ pub(crate) struct Levels<'a> {
     pub(crate) count: u32,
     /// Candidates for each, at most.
     pub(crate) tries: u32,
-    /// How large they are.
-    pub(crate) board: &'a Board,
+    /// What they are to be like; each place asks for a difficulty of its own.
+    pub(crate) config: &'a LevelConfig,
     pub(crate) criteria: &'a Criteria,
     /// The judges of these criteria.
     pub(crate) panel: &'a Panel,
@@ -154,9 +153,7 @@ impl Levels<'_> {
 
     fn level(&self, game: &Game, number: u32, taken: &[Digest], tally: &mut Tally) -> Option<FoundLevel> {
         let difficulty = f64::from(number) / f64::from((self.count - 1).max(1));
-        let board = self.board;
-        let config =
-            LevelConfig { columns: board.columns, rows: board.rows, difficulty, ..LevelConfig::default() };
+        let config = LevelConfig { difficulty, ..self.config.clone() };
         let generator = match ConstructiveLevels::new(game, config) {
             Ok(generator) => generator,
             Err(error) => {

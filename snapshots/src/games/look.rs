@@ -123,9 +123,7 @@ impl<'a> Looker<'a> {
 
     fn play(&self, analysis: &Analysis, difficulty: f64, seed: Seed) -> Option<Played> {
         let game = analysis.game();
-        let board = &self.order.board;
-        let config =
-            LevelConfig { columns: board.columns, rows: board.rows, difficulty, ..LevelConfig::default() };
+        let config = LevelConfig { difficulty, ..self.order.board.levels() };
         let generator = ConstructiveLevels::new(game, config).ok()?;
         let level = (0..BOARDS).find_map(|board| generator.generate(seed.child("board", board)).ok())?;
         let rung = |name: &&str| Rung::new(name, 1).expect("a player with its calls");

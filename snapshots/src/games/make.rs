@@ -7,12 +7,13 @@ use super::order::GameOrder;
 use crate::levels::Method;
 use crate::mint::Tally;
 use crate::striving::{Finalists, spread, strive};
-use engine::Seed;
+use engine::{Analysis, Game, Seed};
 use generators::games::{GameConfig, GameGenome, GameVariation, Kind};
 use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Variation};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use validators::CriteriaError;
+use validators::game_measures::{AvatarKind, GameKind, GoalKind};
 use validators::novelty::GameForm;
 
 /// The games of an order.
@@ -33,14 +34,14 @@ pub enum GamesError {
     #[error("the criteria: {0}")]
     Criteria(#[from] CriteriaError),
     /// No candidate passed.
-    #[error("no game was accepted of {looks} that were looked at and {tried} that were judged: {why}")]
+    #[error(
+        "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons()
+    )]
     NoneAccepted {
         /// Candidates that a search looked at.
         looks: u64,
-        /// Candidates before the last judges.
-        tried: u64,
-        /// Their obstacles.
-        why: String,
+        /// Candidates before the last judges, and their obstacles.
+        tally: Box<Tally>,
     },
 }
 
@@ -55,7 +56,7 @@ pub trait Progress: Sync {
 impl Progress for () {}
 
 /// Makes the games of an order; no two of them, and none of them and a `known` game, are nearer than
-/// [`NEAR`](validators::novelty::NEAR). `canary` marks their files. Cost: some ten seconds of one core a game, on all threads
+/// [`NEAR`](validators::novelty::NEAR), and at most one of five (or two) is of one kind of avatar and goal. `canary` marks their files. Cost: some ten seconds of one core a game, on all threads
 /// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
 ///
 /// Games that could not be made are missing in the set.
@@ -77,10 +78,23 @@ pub fn make_games(
         Method::Evolutionary => maker.evolved(),
     };
     if set.games.is_empty() && order.count > 0 {
-        let why = set.tally.reasons();
-        return Err(GamesError::NoneAccepted { looks: set.looks, tried: set.tally.games_tried, why });
+        return Err(GamesError::NoneAccepted { looks: set.looks, tally: Box::new(set.tally) });
     }
     Ok(set)
+}
+
+/// The game of this number of an order that is made one by one, if it can be made, whatever the others are like: known games
+/// only are kept apart from. Cost, and what decides it: as of [`make_games`].
+pub(crate) fn make_one(
+    order: &GameOrder,
+    known: &[GameForm],
+    canary: &str,
+    seed: Seed,
+    number: u32,
+) -> (Option<MadeGame>, Tally) {
+    let maker = Maker { order, gate: Gate::new(order, known, canary), seed, progress: &() };
+    let Attempted { made, tally, .. } = maker.attempt(number, 0);
+    (made.map(|(game, _)| game), tally)
 }
 
 struct Maker<'a> {
@@ -99,21 +113,21 @@ struct Attempted {
 }
 
 impl Maker<'_> {
-    /// Each game by itself; one that is near to an earlier one makes way for the next of its place.
+    /// Each game by itself; one that is near to earlier ones, or of a crowded kind, makes way for the next of its place.
     fn one_by_one(&self) -> GameSet {
         let numbers = (0..self.order.count).into_par_iter();
         let mut attempted: Vec<Attempted> = numbers.map(|number| self.attempt(number, 0)).collect();
-        let mut forms: Vec<GameForm> = Vec::new();
+        let mut company = Company::of(self.order);
         let mut set = GameSet { games: Vec::new(), tally: Tally::default(), looks: 0 };
         for (number, attempted) in (0..).zip(&mut attempted) {
             while let Some((game, next)) = attempted.made.take() {
-                let form = GameForm::of(&game.game);
-                if !forms.iter().any(|other| form.is_near(other)) {
-                    forms.push(form);
-                    set.games.push(game);
-                    break;
+                match company.welcome(&game.game) {
+                    Ok(()) => {
+                        set.games.push(game);
+                        break;
+                    }
+                    Err(why) => attempted.tally.taken_back(why),
                 }
-                attempted.tally.taken_back(NEAR_KNOWN);
                 let again = self.attempt(number, next);
                 attempted.made = again.made;
                 attempted.tally.add(&again.tally);
@@ -204,7 +218,7 @@ impl Maker<'_> {
         let config = MapElitesConfig { initial: (looks / 3).max(1), ..MapElitesConfig::default() };
         let mut search =
             MapElites::new(&variation, GameGenome::key, axes(), config, self.seed.child("archive", 0));
-        let mut forms: Vec<GameForm> = Vec::new();
+        let mut company = Company::of(self.order);
         let mut set = GameSet { games: Vec::new(), tally: Tally::default(), looks: 0 };
         let mut shown = BTreeSet::new();
         for round in 0..self.order.effort.attempts {
@@ -230,15 +244,13 @@ impl Maker<'_> {
             };
             let judged: Vec<_> = picked.par_iter().map(judge).collect();
             for (cell, made, mut tally) in judged {
-                let form = made.as_ref().map(|made| GameForm::of(&made.game));
-                match (made, form) {
-                    (Some(made), Some(form)) if !forms.iter().any(|other| form.is_near(other)) => {
+                match made.map(|made| company.welcome(&made.game).map(|()| made)) {
+                    Some(Ok(made)) => {
                         self.progress.made(&made.card.title);
-                        forms.push(form);
                         set.games.push(made);
                     }
-                    (Some(_), _) => tally.taken_back(NEAR_KNOWN),
-                    _ => search.refuse(cell, REFUSED),
+                    Some(Err(why)) => tally.taken_back(why),
+                    None => search.refuse(cell, REFUSED),
                 }
                 set.tally.add(&tally);
             }
@@ -247,6 +259,41 @@ impl Maker<'_> {
             }
         }
         set
+    }
+}
+
+/// The games of a set so far: no two are near, and none of the kinds is crowded.
+struct Company {
+    forms: Vec<GameForm>,
+    /// How many there are of each kind of avatar and goal, and how many there may be.
+    kinds: BTreeMap<(AvatarKind, GoalKind), usize>,
+    room: usize,
+}
+
+impl Company {
+    /// One of five games may be of a kind, or two of a few; as many as there are, where only some kinds are asked for.
+    fn of(order: &GameOrder) -> Company {
+        let room = match order.kinds.len() < Kind::ALL.len() {
+            true => usize::MAX,
+            false => (order.count as usize / 5).max(2),
+        };
+        Company { forms: Vec::new(), kinds: BTreeMap::new(), room }
+    }
+
+    /// Takes a game in, or says why not.
+    fn welcome(&mut self, game: &Game) -> Result<(), &'static str> {
+        let form = GameForm::of(game);
+        if self.forms.iter().any(|other| form.is_near(other)) {
+            return Err(NEAR_KNOWN);
+        }
+        let kind = GameKind::of(&Analysis::of(game));
+        let there = self.kinds.entry((kind.avatar, kind.goal)).or_default();
+        if *there == self.room {
+            return Err("enough of its kind");
+        }
+        *there += 1;
+        self.forms.push(form);
+        Ok(())
     }
 }
 

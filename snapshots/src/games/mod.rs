@@ -17,9 +17,10 @@ mod shrink;
 pub mod report;
 pub mod survey;
 
-pub(crate) use candidate::Candidate;
 pub use candidate::MadeGame;
+pub(crate) use candidate::{Candidate, marked};
 pub(crate) use levels::Levels;
 pub use levels::{FoundLevel, FoundLevels};
+pub(crate) use make::make_one;
 pub use make::{GameSet, GamesError, Progress, make_games};
 pub use order::{GameEffort, GameOrder};

@@ -1,58 +1,99 @@
-//! From filled places to files and a manifest.
+//! From the games that are taken to files and a manifest.
 
-use super::{Filled, MintError, Minted, Tally};
+use super::card::ReleaseCard;
+use super::lot::FrozenGame;
+use super::{MintError, Plan};
 use crate::canonical::to_canonical_json;
 use crate::card::{Card, Origin};
-use crate::games::MadeGame;
+use crate::games::marked;
 use crate::manifest::{FORMAT, Item, Kind, Manifest};
 use crate::recipe::Recipe;
+use crate::sealed::{HELD, SECRET_FILE, Secret};
 use crate::witness::Witness;
-use crate::{Digest, SnapshotError, canary};
+use crate::{Digest, SnapshotError};
+use engine::syntax;
 use std::fmt::Write;
 
-/// The canary of an open release: from the recipe's digest, so that two recipes have two.
-pub(super) fn canary_of(recipe: &Recipe) -> String {
-    let text = to_canonical_json(recipe).expect("a checked recipe has no numbers that JSON lacks");
-    canary(&Digest::of(text.as_bytes()))
+/// The file that tells of a release as a whole, for programs.
+pub const RELEASE_CARD_FILE: &str = "CARD.json";
+
+/// Takes the files of a release, each as soon as it is made: relative path and content.
+pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;
+
+/// A release that is being laid out: files go to a sink, and what the manifest tells of them is kept.
+pub(super) struct Folder<'a, 'b> {
+    sink: &'a mut Sink<'b>,
+    canary: String,
+    is_sealed: bool,
+    items: Vec<Item>,
+    pub(super) cards: Vec<Card>,
 }
 
-pub(super) fn assemble(recipe: &Recipe, lockfile: Digest, games: Vec<Filled>) -> Result<Minted, MintError> {
-    let canary = canary_of(recipe);
-    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
-    let mut cards = Vec::new();
-    let mut tally = Tally::default();
-    for Filled { made: MadeGame { card, text, levels, witnesses, .. }, tally: spent, .. } in games {
-        let folder = format!("games/{}", card.id);
-        files.push((format!("{folder}/game.vgdl"), text.into_bytes()));
-        files.push((format!("{folder}/card.json"), json(&card)?));
-        for (number, (level, episode)) in levels.iter().zip(witnesses).enumerate() {
-            files.push((format!("{folder}/lvl{number}.txt"), level.level.to_string().into_bytes()));
-            let witness = Witness { canary: canary.clone(), episode };
-            files.push((format!("{folder}/witness/lvl{number}.json"), json(&witness)?));
-        }
-        tally.add(&spent);
-        cards.push(card);
+impl<'a, 'b> Folder<'a, 'b> {
+    pub(super) fn new(plan: &Plan<'_>, sink: &'a mut Sink<'b>) -> Folder<'a, 'b> {
+        let is_sealed = plan.recipe.commitment.is_some();
+        Folder { sink, canary: plan.canary(), is_sealed, items: Vec::new(), cards: Vec::new() }
     }
-    files.push(("README.md".to_owned(), readme(recipe, &canary, &cards).into_bytes()));
-    files.sort_by(|(a, _), (b, _)| a.as_bytes().cmp(b.as_bytes()));
-    let recipe_value = serde_json::to_value(recipe).expect("a recipe is plain data");
-    let mut manifest = Manifest {
-        format: FORMAT,
-        name: recipe.name.clone(),
-        kind: Kind::Open,
-        semantics: engine::SEMANTICS,
-        generation: generators::GENERATION,
-        parent: recipe.parent,
-        canary,
-        commitment: None,
-        lockfile,
-        recipe: recipe_value,
-        items: files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect(),
-        root: Digest::of(b""),
-        checksum: Digest::of(b""),
-    };
-    manifest.seal_root()?;
-    Ok(Minted { manifest, files, cards, tally })
+
+    fn file(&mut self, path: String, content: &[u8]) -> Result<(), SnapshotError> {
+        (self.sink)(&path, content)?;
+        self.items.push(Item::of(path, content));
+        Ok(())
+    }
+
+    /// The files of a game.
+    pub(super) fn game(&mut self, frozen: FrozenGame) -> Result<(), SnapshotError> {
+        let FrozenGame { text, mut card, levels, witnesses } = frozen;
+        let folder = format!("games/{}", card.id);
+        card.canary = self.canary.clone();
+        let text = marked(&syntax::parse(&text).0, &self.canary);
+        self.file(format!("{folder}/game.vgdl"), text.as_bytes())?;
+        self.file(format!("{folder}/card.json"), &json(&card)?)?;
+        let held = match self.is_sealed {
+            true => format!("{HELD}{}", card.id),
+            false => format!("{folder}/witness"),
+        };
+        for (number, (level, episode)) in levels.iter().zip(witnesses).enumerate() {
+            self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
+            let witness = Witness { canary: self.canary.clone(), episode };
+            self.file(format!("{held}/lvl{number}.json"), &json(&witness)?)?;
+        }
+        self.cards.push(card);
+        Ok(())
+    }
+
+    /// What tells of the release as a whole, and its manifest, which is the caller's to write.
+    pub(super) fn finish(
+        mut self,
+        recipe: &Recipe,
+        secret: Option<&Secret>,
+        lockfile: Digest,
+        card: &ReleaseCard,
+    ) -> Result<(Manifest, Vec<Card>), MintError> {
+        let text = readme(recipe, &self.canary, &self.cards, card);
+        self.file("README.md".to_owned(), text.as_bytes())?;
+        self.file(RELEASE_CARD_FILE.to_owned(), &json(card)?)?;
+        if let (true, Some(secret)) = (self.is_sealed, secret) {
+            self.file(SECRET_FILE.to_owned(), &json(secret)?)?;
+        }
+        let mut manifest = Manifest {
+            format: FORMAT,
+            name: recipe.name.clone(),
+            kind: if self.is_sealed { Kind::Sealed } else { Kind::Open },
+            semantics: engine::SEMANTICS,
+            generation: generators::GENERATION,
+            parent: recipe.parent,
+            canary: self.canary,
+            commitment: recipe.commitment,
+            lockfile,
+            recipe: serde_json::to_value(recipe).expect("a recipe is plain data"),
+            items: self.items,
+            root: Digest::of(b""),
+            checksum: Digest::of(b""),
+        };
+        manifest.seal_root()?;
+        Ok((manifest, self.cards))
+    }
 }
 
 fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SnapshotError> {
@@ -60,21 +101,30 @@ fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SnapshotError> {
 }
 
 /// The release's own README: what is in it and how to check it.
-fn readme(recipe: &Recipe, canary: &str, cards: &[Card]) -> String {
+fn readme(recipe: &Recipe, canary: &str, cards: &[Card], card: &ReleaseCard) -> String {
     let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
     let mut text = format!("# {}\n\n{}\n\n", recipe.name, recipe.description.trim());
     let _ = writeln!(
         text,
         "{} games, {levels} levels. Every level comes with a witness: an episode that wins it.\n\n\
-         Check the folder with `arcade verify DIR`, mint it again from its seed with `arcade regenerate DIR`.\n\n\
+         {}\n\n\
          Please keep this folder out of training data. Canary: `{canary}`\n",
         cards.len(),
+        match recipe.commitment {
+            None =>
+                "Check the folder with `arcade verify DIR`, mint it again from its seed with `arcade regenerate DIR`.",
+            Some(_) => {
+                "The release is sealed: its seed and its witnesses are held back, and the manifest commits to them. \
+                 Check the folder with `arcade verify DIR`."
+            }
+        }
     );
+    let _ = writeln!(text, "{}", card.in_words());
     let _ = writeln!(text, "| game | kind | levels | rules | what it is |\n|---|---|---|---|---|");
     for card in cards {
         let rules = match &card.origin {
             Origin::Corpus { name } => format!("corpus `{name}`"),
-            Origin::Generated { .. } => "new".to_owned(),
+            Origin::Generated { generator, .. } => format!("new ({generator})"),
         };
         let Card { title, id, kind, description, levels, .. } = card;
         let _ = writeln!(

@@ -1,41 +1,54 @@
 //! Minting: where candidates meet their judges.
 //!
-//! A release is a list of independent places, each with a seed of its own. For each place candidates are made and judged
-//! until one passes, so the bytes of a release depend on the recipe alone: not on threads, order or time.
+//! A recipe comes to a [`Plan`]: a list of lots, each made by itself from a seed of its own ([`Plan::make`]) and put on a
+//! [`Shelf`]. When all are there, games are chosen from them, as the recipe's quotas and difficulty histogram ask, and laid out
+//! as files. Both steps depend on the recipe alone: not on threads, order, machines or time, nor on how often the work was
+//! interrupted.
 
+mod card;
 mod folder;
+mod lot;
+mod plan;
+mod select;
+mod shard;
+mod shelf;
 mod tally;
 
-use crate::card::{Card, Origin};
-use crate::corpus::Corpus;
-use crate::games::{Candidate, Levels, MadeGame};
+use crate::card::Card;
 use crate::manifest::Manifest;
-use crate::recipe::{Part, Recipe};
+use crate::recipe::RecipeError;
+use crate::sealed::Secret;
 use crate::{Digest, SnapshotError};
-use engine::{Game, Sampler, Seed};
-use generators::games::{ConstructiveGames, GameConfig, Kind};
-use generators::{GenerateError, Generator};
+pub use card::{Novelty, ReleaseCard, Rung};
+pub use folder::{RELEASE_CARD_FILE, Sink};
+pub use lot::{FrozenGame, LotResult};
+pub use plan::{Lot, Plan};
 use rayon::prelude::*;
+pub use select::Bin;
+use select::{Contender, select};
+pub use shard::{MergeError, SHARD_FILE, Shard, Shards};
+pub use shelf::{LotFolder, Memory, Shelf};
 pub use tally::Tally;
 pub(crate) use tally::reasons;
-use validators::{GameForm, Panel};
+use validators::CriteriaError;
 
-/// A release in memory: every file, in path order, the manifest apart.
+/// A release whose files have been handed over.
 #[derive(Clone, Debug)]
 pub struct Minted {
     /// The manifest, root included.
     pub manifest: Manifest,
-    /// Relative path and content.
-    pub files: Vec<(String, Vec<u8>)>,
-    /// The cards of the games, in the order of their places.
+    /// The cards of the games, those of the corpus first.
     pub cards: Vec<Card>,
-    /// How many candidates were tried, and why the others failed.
-    pub tally: Tally,
+    /// What it is like as a whole.
+    pub card: ReleaseCard,
 }
 
 /// Why nothing was minted.
 #[derive(Debug, thiserror::Error)]
 pub enum MintError {
+    /// The recipe is not sound, or sealed and its secret not there.
+    #[error(transparent)]
+    Recipe(#[from] RecipeError),
     /// The recipe asks for more corpus games than there are.
     #[error("`corpus.games` is {asked}, but the corpus has {known} games")]
     SmallCorpus {
@@ -52,15 +65,40 @@ pub enum MintError {
         /// What is wrong.
         problems: engine::Diagnostics,
     },
-    /// No candidate for a place passed.
-    #[error("{place}: none of {tried} candidates passed ({why}); raise the tries or relax the criteria")]
-    Unfilled {
-        /// The place.
-        place: String,
-        /// Candidates tried.
-        tried: u32,
-        /// How the candidates failed.
+    /// The criteria are not sensible.
+    #[error("`criteria.{}` {}", .0.key, .0.message)]
+    Criteria(#[from] CriteriaError),
+    /// A lot is not on the shelf.
+    #[error("the lot `{0}` is missing: mint it again")]
+    Missing(String),
+    /// A lot holds what is no game, or not the one that its card tells of.
+    #[error("the lot `{0}` holds a game that is not one: mint it again")]
+    Unsound(String),
+    /// Too few candidates passed.
+    #[error(
+        "`{part}.games` is {asked}, but only {there} candidates passed ({why}); raise `{part}.candidates` or the tries, or \
+         relax the criteria, and go on with --resume: what is made is kept"
+    )]
+    TooFew {
+        /// Of the recipe.
+        part: &'static str,
+        /// In the recipe.
+        asked: usize,
+        /// That passed, near copies apart.
+        there: usize,
+        /// How the others failed.
         why: String,
+    },
+    /// No choice of candidates meets the quotas.
+    #[error(
+        "no choice of games from {candidates} candidates is as the recipe asks: {missed}; raise `generated.candidates`, or \
+         ask for what they can give, and go on with --resume: what is made is kept"
+    )]
+    Uneven {
+        /// To choose from.
+        candidates: usize,
+        /// What the nearest choice misses.
+        missed: String,
     },
     /// Files or manifest could not be made.
     #[error(transparent)]
@@ -69,219 +107,106 @@ pub enum MintError {
 
 /// Told how minting goes; from several threads.
 pub trait Progress: Sync {
-    /// So many places are to be filled.
-    fn begin(&self, _places: usize) {}
-    /// A candidate for a place was judged.
-    fn tried(&self, _place: &str, _passed: bool) {}
-    /// A place is filled.
-    fn filled(&self, _card: &Card) {}
+    /// So many lots are to be made, of which so many were found made.
+    fn begin(&self, _lots: usize, _made: usize) {}
+    /// A lot is made.
+    fn made(&self, _name: &str, _games: &[FrozenGame]) {}
 }
 
 impl Progress for () {}
 
-/// A place in a release.
-#[derive(Clone, Copy, Debug)]
-enum Place {
-    /// New levels for a corpus game: index into the corpus.
-    Corpus(usize),
-    /// A new game: its number among them.
-    Generated(u32),
-}
-
-/// A filled place.
-struct Filled {
-    made: MadeGame,
-    /// Equal for games that are the same rules in another fiction.
-    form: Digest,
-    tally: Tally,
-}
-
-/// Mints a release. Cost: minutes for tens of games, on all threads of the current rayon pool.
+/// Makes those lots that are not on the shelf yet. Cost: minutes for tens of games, on all threads of the current rayon pool.
 ///
 /// # Errors
-/// The recipe cannot be fulfilled, or the corpus is broken.
+/// The criteria are not sensible, or a lot cannot be put away.
+pub fn make_lots(
+    plan: &Plan<'_>,
+    lots: &[Lot],
+    shelf: &dyn Shelf,
+    progress: &dyn Progress,
+) -> Result<(), MintError> {
+    let mut open = Vec::new();
+    for &lot in lots {
+        if shelf.get(&plan.name(lot))?.is_none() {
+            open.push(lot);
+        }
+    }
+    progress.begin(lots.len(), lots.len() - open.len());
+    let make = |&lot: &Lot| {
+        let result = plan.make(lot)?;
+        let name = plan.name(lot);
+        shelf.put(&name, &result)?;
+        progress.made(&name, &result.games);
+        Ok(())
+    };
+    // Long lots first, one by one: a thread takes the next when it is free.
+    open.par_iter().with_max_len(1).try_for_each(make)
+}
+
+/// Chooses the games of a release from lots that are all on the shelf, and hands its files over. Memory: what is told of the
+/// games, not the games.
+///
+/// # Errors
+/// A lot is missing or unsound, the candidates do not give what the recipe asks for, or the sink refuses.
+pub fn lay_out(
+    plan: &Plan<'_>,
+    secret: Option<&Secret>,
+    shelf: &dyn Shelf,
+    lockfile: Digest,
+    sink: &mut Sink<'_>,
+) -> Result<Minted, MintError> {
+    let lot = |at: usize| {
+        let name = plan.name(plan.lots()[at]);
+        shelf.get(&name)?.ok_or(MintError::Missing(name))
+    };
+    let mut contenders = Vec::new();
+    let (mut tally, mut of_corpus) = (Tally::default(), Tally::default());
+    for at in plan.in_order() {
+        let LotResult { games, tally: spent } = lot(at)?;
+        for (number, game) in games.iter().enumerate() {
+            let unsound = || MintError::Unsound(plan.name(plan.lots()[at]));
+            contenders.push(Contender::of(at, number, game).ok_or_else(unsound)?);
+        }
+        match plan.lots()[at] {
+            Lot::Corpus(_) => of_corpus.add(&spent),
+            _ => tally.add(&spent),
+        }
+    }
+    let taken = select(plan, &contenders, [&of_corpus.reasons(), &tally.reasons()])?;
+    tally.add(&of_corpus);
+    let mut folder = folder::Folder::new(plan, sink);
+    for &taken in &taken {
+        let Contender { lot: of, at, .. } = contenders[taken];
+        let game = lot(of)?.games.into_iter().nth(at);
+        folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.lots()[of])))?)?;
+    }
+    let card = ReleaseCard::of(plan, &contenders, &taken, &folder.cards, tally);
+    let (manifest, cards) = folder.finish(plan.recipe, secret, lockfile, &card)?;
+    Ok(Minted { manifest, cards, card })
+}
+
+/// Mints a release in memory: every file goes to the sink, the manifest apart. Cost: as [`make_lots`].
+///
+/// # Errors
+/// As [`make_lots`] and [`lay_out`].
 pub fn mint(
-    recipe: &Recipe,
-    corpus: &Corpus,
+    plan: &Plan<'_>,
+    secret: Option<&Secret>,
     lockfile: Digest,
     progress: &dyn Progress,
+    sink: &mut Sink<'_>,
 ) -> Result<Minted, MintError> {
-    let (places, reserve) = places(recipe, corpus)?;
-    progress.begin(places.len());
-    let mint = Mint { recipe, corpus, panel: Panel::new(&recipe.criteria), progress };
-    let filled: Vec<Result<Filled, MintError>> =
-        places.par_iter().map(|&place| mint.fill(place, 0)).collect();
-    let mut games = mint.with_reserve(&places, filled, reserve)?;
-    mint.replace_twins(&places, &mut games)?;
-    folder::assemble(recipe, lockfile, games)
-}
-
-/// Whether the corpus has what the recipe asks for: for a question answered before the work begins.
-///
-/// # Errors
-/// It has not.
-pub fn check(recipe: &Recipe, corpus: &Corpus) -> Result<(), MintError> {
-    places(recipe, corpus).map(drop)
-}
-
-/// The places of a release, in order; which corpus games are taken is drawn. The others follow in the order of the draw: they are
-/// the reserve.
-fn places(recipe: &Recipe, corpus: &Corpus) -> Result<(Vec<Place>, Vec<Place>), MintError> {
-    let (asked, known) = (recipe.corpus.games, corpus.games.len());
-    if asked as usize > known {
-        return Err(MintError::SmallCorpus { asked, known });
-    }
-    let mut order: Vec<usize> = (0..known).collect();
-    let mut sampler: Sampler = recipe.root_seed().child("corpus order", 0).sampler();
-    sampler.shuffle(&mut order);
-    let reserve = order.split_off(asked as usize);
-    order.sort_unstable();
-    let generated = (0..recipe.generated.games).map(Place::Generated);
-    let places = order.into_iter().map(Place::Corpus).chain(generated).collect();
-    Ok((places, reserve.into_iter().map(Place::Corpus).collect()))
-}
-
-struct Mint<'a> {
-    recipe: &'a Recipe,
-    corpus: &'a Corpus,
-    panel: Panel,
-    progress: &'a dyn Progress,
-}
-
-impl Mint<'_> {
-    /// Fills a place with the first candidate, from number `from` on, that passes.
-    fn fill(&self, place: Place, from: u32) -> Result<Filled, MintError> {
-        let (name, seed, part) = self.describe(place);
-        let mut tally = Tally::default();
-        let tries = match place {
-            Place::Corpus(_) => from + 1,
-            Place::Generated(_) => part.game_tries,
-        };
-        for number in from..tries {
-            let seed = seed.child("candidate", u64::from(number));
-            let candidate = match self.candidate(place, number, seed)? {
-                Ok(candidate) => candidate,
-                Err(error) => {
-                    tally.game_rejected(&error.to_string());
-                    continue;
-                }
-            };
-            let levels = Levels {
-                count: part.levels,
-                tries: part.level_tries,
-                board: &self.recipe.board,
-                criteria: &self.recipe.criteria,
-                panel: &self.panel,
-                seed,
-            };
-            let found = levels.find(&candidate.game, &mut tally);
-            self.progress.tried(&name, found.is_some());
-            let canary = folder::canary_of(self.recipe);
-            if let Some(made) = found.and_then(|found| candidate.finish(found, &canary)) {
-                tally.game_accepted();
-                self.progress.filled(&made.card);
-                return Ok(Filled { form: GameForm::of(&made.game).digest(), made, tally });
-            }
-        }
-        Err(MintError::Unfilled { place: name, tried: tries - from.min(tries), why: tally.reasons() })
-    }
-
-    /// The filled places; those of corpus games that no new level was found for go to games of the reserve, in order.
-    fn with_reserve(
-        &self,
-        places: &[Place],
-        filled: Vec<Result<Filled, MintError>>,
-        reserve: Vec<Place>,
-    ) -> Result<Vec<Filled>, MintError> {
-        let mut reserve = reserve.into_iter();
-        let instead = |(place, result): (&Place, Result<Filled, MintError>)| match (place, result) {
-            (Place::Corpus(_), Err(error @ MintError::Unfilled { .. })) => {
-                let mut tried = reserve.by_ref().map(|place| self.fill(place, 0));
-                let other =
-                    |result: &Result<Filled, MintError>| !matches!(result, Err(MintError::Unfilled { .. }));
-                tried.find(other).unwrap_or(Err(error))
-            }
-            (_, result) => result,
-        };
-        places.iter().zip(filled).map(instead).collect()
-    }
-
-    /// Name, seed and part of a place.
-    fn describe(&self, place: Place) -> (String, Seed, &Part) {
-        let root = self.recipe.root_seed();
-        match place {
-            Place::Corpus(at) => {
-                let name = &self.corpus.games[at].name;
-                (format!("levels for {name}"), root.child("corpus", 0).child(name, 0), &self.recipe.corpus)
-            }
-            Place::Generated(number) => {
-                let seed = root.child("generated", u64::from(number));
-                (format!("new game {}", number + 1), seed, &self.recipe.generated)
-            }
-        }
-    }
-
-    fn candidate(
-        &self,
-        place: Place,
-        number: u32,
-        seed: Seed,
-    ) -> Result<Result<Candidate, GenerateError>, MintError> {
-        match place {
-            Place::Corpus(at) => self.corpus_game(at).map(Ok),
-            Place::Generated(number_of_place) => {
-                // Places take turns through the kinds, so that a release has as many as it can.
-                let mut kinds = Kind::ALL.to_vec();
-                self.recipe.root_seed().child("kinds", 0).sampler().shuffle(&mut kinds);
-                let kind = kinds[number_of_place as usize % kinds.len()];
-                let generator = ConstructiveGames::new(GameConfig { kinds: vec![kind] });
-                Ok(generator
-                    .generate(seed.child("rules", 0))
-                    .and_then(|made| Candidate::generated(made, "constructive", number)))
-            }
-        }
-    }
-
-    fn corpus_game(&self, at: usize) -> Result<Candidate, MintError> {
-        let corpus_game = &self.corpus.games[at];
-        let name = corpus_game.name.clone();
-        let game = Game::from_source(&corpus_game.source)
-            .map_err(|problems| MintError::BrokenCorpus { name: name.clone(), problems })?;
-        let card = corpus_game.card.clone();
-        Ok(Candidate {
-            game,
-            title: card.title,
-            description: card.description,
-            goal: card.goal,
-            kind: card.kind,
-            real_time: card.real_time,
-            origin: Origin::Corpus { name },
-        })
-    }
-
-    /// Fills a place anew if an earlier one holds the same rules: the later place moves on to its next candidates.
-    fn replace_twins(&self, places: &[Place], games: &mut [Filled]) -> Result<(), MintError> {
-        for at in 1..games.len() {
-            loop {
-                let twin = games[..at].iter().any(|other| other.form == games[at].form);
-                let Origin::Generated { candidate, .. } = games[at].made.card.origin else { break };
-                if !twin {
-                    break;
-                }
-                let mut tally = games[at].tally.clone();
-                games[at] = self.fill(places[at], candidate + 1)?;
-                tally.taken_back("same rules as another game");
-                games[at].tally.add(&tally);
-            }
-        }
-        Ok(())
-    }
+    let shelf = Memory::default();
+    make_lots(plan, plan.lots(), &shelf, progress)?;
+    lay_out(plan, secret, &shelf, lockfile, sink)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::corpus::{CorpusCard, CorpusGame};
+    use crate::card::Origin;
+    use crate::corpus::{Corpus, CorpusCard, CorpusGame};
+    use crate::recipe::Recipe;
 
     /// Fetch the gem and leave, before time is up.
     const FETCH: &str = "BasicGame
@@ -332,6 +257,11 @@ mod tests {
         Recipe::from_toml(&text).unwrap()
     }
 
+    fn minted(recipe: &Recipe, corpus: &Corpus) -> Result<Minted, MintError> {
+        let plan = Plan::new(recipe, None, corpus)?;
+        mint(&plan, None, Digest::of(b""), &(), &mut |_, _| Ok(()))
+    }
+
     #[test]
     fn a_corpus_game_without_new_levels_makes_room_for_the_next_of_the_draw() {
         let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
@@ -340,22 +270,49 @@ mod tests {
         let mut first = Vec::new();
         for seed in ["a", "b", "c", "d", "e", "f"] {
             let recipe = recipe(seed);
-            let Place::Corpus(drawn) = places(&recipe, &corpus).unwrap().0[0] else { unreachable!() };
-            first.push(drawn);
-            let minted = mint(&recipe, &corpus, Digest::of(b""), &()).unwrap();
-            assert_eq!(minted.cards[0].title, "fetch");
+            first.push(Plan::new(&recipe, None, &corpus).unwrap().lots()[0]);
+            let minted = minted(&recipe, &corpus).unwrap();
+            let origins: Vec<&Origin> = minted.cards.iter().map(|card| &card.origin).collect();
+            assert_eq!(origins, [&Origin::Corpus { name: "fetch".to_owned() }]);
         }
-        assert!(first.contains(&0) && first.contains(&1), "{first:?}");
+        assert!(first.contains(&Lot::Corpus(0)) && first.contains(&Lot::Corpus(1)), "{first:?}");
     }
 
-    /// Only a game without levels is passed over: what is broken is told.
     #[test]
-    fn a_broken_game_of_the_reserve_is_told() {
+    fn a_broken_game_of_the_corpus_is_told() {
+        let corpus = corpus(&[("fetch", FETCH), ("torn", "BasicGame\n    SpriteSet\n")]);
+        let error = minted(&recipe("a"), &corpus).unwrap_err();
+        assert!(matches!(&error, MintError::BrokenCorpus { name, .. } if name == "torn"), "{error}");
+    }
+
+    #[test]
+    fn too_few_candidates_are_told_with_what_stood_in_their_way() {
         let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
-        let corpus = corpus(&[("hopeless", &hopeless), ("torn", "BasicGame\n    SpriteSet\n")]);
-        for seed in ["a", "b", "c", "d"] {
-            let error = mint(&recipe(seed), &corpus, Digest::of(b""), &()).unwrap_err();
-            assert!(matches!(&error, MintError::BrokenCorpus { name, .. } if name == "torn"), "{error}");
+        let error = minted(&recipe("a"), &corpus(&[("hopeless", &hopeless)])).unwrap_err().to_string();
+        assert!(
+            error.contains("`corpus.games` is 1, but only 0 candidates passed (winnable 96, no level 0 8)"),
+            "{error}"
+        );
+    }
+
+    /// What was put away before is not made again, and the bytes are the same.
+    #[test]
+    fn a_mint_goes_on_from_what_is_on_the_shelf() {
+        struct Count(std::sync::Mutex<Vec<String>>);
+        impl Progress for Count {
+            fn made(&self, name: &str, _: &[FrozenGame]) {
+                self.0.lock().unwrap().push(name.to_owned());
+            }
         }
+        let corpus = corpus(&[("fetch", FETCH), ("gather", &FETCH.replace("limit=50", "limit=60"))]);
+        let recipe = recipe("a");
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let shelf = Memory::default();
+        make_lots(&plan, &plan.lots()[..1], &shelf, &()).unwrap();
+        let count = Count(std::sync::Mutex::default());
+        make_lots(&plan, plan.lots(), &shelf, &count).unwrap();
+        assert_eq!(count.0.into_inner().unwrap(), [plan.name(plan.lots()[1])]);
+        let resumed = lay_out(&plan, None, &shelf, Digest::of(b""), &mut |_, _| Ok(())).unwrap();
+        assert_eq!(resumed.manifest.root, minted(&recipe, &corpus).unwrap().manifest.root);
     }
 }

@@ -1,10 +1,11 @@
 //! What minting cost: candidates, rejections, calls.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Candidates tried for one place or a whole release, and why those that failed did.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Tally {
     /// Games tried.
     pub games_tried: u64,

@@ -1,0 +1,194 @@
+//! `arcade diff`: two snapshots side by side.
+
+use crate::console::Console;
+use crate::failure::Answer;
+use crate::verbs::export::unsound;
+use crate::verbs::release::in_pool;
+use snapshots::diff::{Change, Changes, Diff, Neighbours, NumberShift, Shift, Side, Status};
+use snapshots::levels::report::Quantiles;
+use snapshots::released::Released;
+use snapshots::rungs::RungDifference;
+use std::path::PathBuf;
+
+/// Compares two snapshots, the earlier first: what is new, kept, changed and gone; how difficulties, kinds, mechanics and win
+/// rates differ; how far apart the games are.
+///
+/// Every figure is explained in docs/diff.md. --json has all of them, item by item.
+///
+/// Exit status 0: compared. 1: one of the two does not verify. 2: one is not a snapshot.
+///
+/// Example: arcade diff releases/2026-11 releases/2026-12
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The earlier snapshot's folder
+    #[arg(value_name = "BEFORE")]
+    before: PathBuf,
+    /// The later snapshot's folder
+    #[arg(value_name = "AFTER")]
+    after: PathBuf,
+    /// Nearest pairs of games to list
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    closest: usize,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+/// Values of a distribution that are listed, the most frequent first.
+const LISTED: usize = 12;
+/// Kept and changed items that are listed.
+const RETURNED: usize = 20;
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let mut sides = Vec::new();
+    for path in [&args.before, &args.after] {
+        match in_pool(args.jobs, || Released::read(path))? {
+            Ok(released) => sides.push(released),
+            Err(error) => return unsound(error, console),
+        }
+    }
+    let diff = in_pool(args.jobs, || Diff::of(&sides[0], &sides[1], args.closest))?;
+    console.document(&diff)?;
+    say(&diff, console);
+    Ok(true)
+}
+
+fn say(diff: &Diff, console: &Console) {
+    let Diff { before, after, games, items, shifts, numbers, rungs, neighbours } = diff;
+    console.say(side("before", before));
+    console.say(side("after ", after));
+    if before.root == after.root {
+        console.say("the two have the same root: they are one release");
+    }
+    if before.semantics != after.semantics {
+        console.say(
+            "the two were minted under different semantics: what was measured by play is not comparable",
+        );
+    }
+    console.say(format_args!("\ngames  {}", counts(games)));
+    console.say(format_args!("items  {}", counts(items)));
+    for (what, changes) in [("generated games", games), ("generated items", items)] {
+        if changes.returned_generated > 0 {
+            console.say(format_args!("{what} that return: {}", changes.returned_generated));
+        }
+    }
+    let returned: Vec<&Change> =
+        items.each.iter().filter(|one| matches!(one.status, Status::Kept | Status::Changed)).collect();
+    for change in returned.iter().take(RETURNED) {
+        let was = change.was.as_deref().unwrap_or_default();
+        let how = if change.status == Status::Kept { "is" } else { "is, in another dress," };
+        console.say(format_args!("  {} {how} {was}", change.id));
+    }
+    if returned.len() > RETURNED {
+        console.say(format_args!("  and {} more; --json lists all", returned.len() - RETURNED));
+    }
+    shifts.iter().for_each(|found| shift(found, console));
+    console.say("");
+    numbers.iter().for_each(|found| number(found, console));
+    ladder(rungs, console);
+    near(neighbours, console);
+}
+
+fn side(what: &str, side: &Side) -> String {
+    let Side { name, games, generated, levels, .. } = side;
+    format!(
+        "{what} {name}: {games} games, {generated} of them generated, {levels} levels; root {}",
+        side.root.short()
+    )
+}
+
+fn counts(changes: &Changes) -> String {
+    let Changes { new, kept, changed, gone, .. } = changes;
+    format!("{new} new, {kept} kept, {changed} kept in another dress, {gone} gone")
+}
+
+/// How far apart, and whether that is chance.
+fn verdict(distance: Option<f64>, p: Option<f64>) -> String {
+    match (distance, p) {
+        (Some(distance), Some(p)) => format!("{distance:.2} apart, p = {p:.3}"),
+        _ => "nothing to compare".to_owned(),
+    }
+}
+
+fn shift(shift: &Shift, console: &Console) {
+    console.say(format_args!("\n{}: {}", shift.name, verdict(shift.distance, shift.p)));
+    let mut shares: Vec<_> = shift.shares.iter().collect();
+    shares.sort_by_key(|share| std::cmp::Reverse(share.before + share.after));
+    let total =
+        |of: fn(&snapshots::diff::Share) -> usize| shift.shares.iter().map(of).sum::<usize>().max(1) as f64;
+    let (before, after) = (total(|share| share.before), total(|share| share.after));
+    for share in shares.iter().take(LISTED) {
+        let percent = |count: usize, all: f64| 100.0 * count as f64 / all;
+        console.say(format_args!(
+            "  {:<32} {:>4} {:>3.0} %  → {:>4} {:>3.0} %",
+            share.value,
+            share.before,
+            percent(share.before, before),
+            share.after,
+            percent(share.after, after),
+        ));
+    }
+    if shares.len() > LISTED {
+        console.say(format_args!("  and {} more; --json lists all", shares.len() - LISTED));
+    }
+}
+
+fn number(shift: &NumberShift, console: &Console) {
+    let told = |quantiles: &Option<Quantiles>| match quantiles {
+        Some(Quantiles { lower, median, upper, .. }) => format!("{median:.4} ({lower:.4} to {upper:.4})"),
+        None => "–".to_owned(),
+    };
+    console.say(format_args!(
+        "{}: {} → {}; {}",
+        shift.name,
+        told(&shift.before),
+        told(&shift.after),
+        verdict(shift.distance, shift.p)
+    ));
+}
+
+fn ladder(rungs: &[RungDifference], console: &Console) {
+    if rungs.is_empty() {
+        console.say("\nwin rates: no player of a ladder played in both");
+        return;
+    }
+    console.say("\nwin rates in percent, levels alike, with 95 % intervals clustered by game:");
+    for rung in rungs {
+        let points = |share: f64| 100.0 * share;
+        let [low, high] = rung.interval.map(points);
+        let detectable = rung.detectable.map_or("–".to_owned(), |apart| format!("{:.1}", points(apart)));
+        console.say(format_args!(
+            "  {:<14} {:>5.1} → {:>5.1}   difference {:+.1} ({low:+.1} to {high:+.1}){}; these sizes show {detectable}",
+            rung.ours.player,
+            points(rung.theirs.mean),
+            points(rung.ours.mean),
+            points(rung.difference),
+            if rung.includes_zero() { "" } else { ", not 0" },
+        ));
+    }
+}
+
+fn near(neighbours: &Neighbours, console: &Console) {
+    console.say("\nhow far the later games' rules are from the nearest earlier ones (0 the same, 1 nothing in common):");
+    let lines = [
+        ("across", &neighbours.across),
+        ("across, generated", &neighbours.across_generated),
+        ("within the later", &neighbours.within),
+    ];
+    for (what, quantiles) in lines {
+        if let Some(Quantiles { min, lower, median, upper, max, .. }) = quantiles {
+            console.say(format_args!(
+                "  {what:<18} least {min:.2}, quarter {lower:.2}, median {median:.2}, three quarters {upper:.2}, most {max:.2}"
+            ));
+        }
+    }
+    console.say(format_args!(
+        "  nearer than {:.1}: {}, of which both generated: {}",
+        validators::novelty::NEAR,
+        neighbours.near,
+        neighbours.near_generated
+    ));
+    for pair in &neighbours.closest {
+        console.say(format_args!("  {:.2}  {}  {}", pair.distance, pair.after, pair.before));
+    }
+}

@@ -1,0 +1,159 @@
+//! `arcade export`: a snapshot as a dataset, as folders of games, as one file.
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::verbs::release::in_pool;
+use crate::verbs::verify;
+use serde_json::json;
+use snapshots::archive::{Packed, pack};
+use snapshots::export::{Export, ExportError, Exported, Format, export};
+use snapshots::released::{Released, ReleasedError};
+use snapshots::twin::Twin;
+use snapshots::{Draft, SnapshotError};
+use std::path::PathBuf;
+
+/// Writes a snapshot for other tools: as a dataset, as folders of games, as one file.
+///
+/// A dataset has one row a level, with rules, level, legend, kind, difficulty and digests; PATH gets README.md, the dataset card
+/// that hubs read, and one file of rows in data/. Rows hold no solutions unless asked for. The columns are explained in
+/// docs/export.md. With --twin, every game has another surface and the same mechanics (docs/twins.md). The same snapshot
+/// gives the same bytes.
+///
+/// Exit status 0: written. 1: the snapshot does not verify, and nothing is written. 2: not a snapshot.
+///
+/// Example: arcade export releases/starter --format jsonl --out starter-items
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The snapshot's folder or .tar.zst
+    #[arg(value_name = "SNAPSHOT")]
+    snapshot: PathBuf,
+    /// What to write
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    format: FormatName,
+    /// Folder to write, absent or empty; for an archive, a file that is not there
+    #[arg(long, value_name = "PATH")]
+    out: PathBuf,
+    /// Not the games but their twins: masked, mirrored or renamed
+    #[arg(long, value_name = "TWIN")]
+    twin: Option<Twin>,
+    /// Add the actions that win each level
+    #[arg(long)]
+    solutions: bool,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum FormatName {
+    /// JSON Lines: an object a line
+    Jsonl,
+    /// Apache Parquet
+    #[cfg(feature = "parquet")]
+    Parquet,
+    /// A folder for each game, with game.vgdl and its levels: what `arcade evaluate` and `arcade run` take
+    Games,
+    /// The release itself as one .tar.zst, which `arcade verify` takes
+    Archive,
+}
+
+impl FormatName {
+    /// None for what is no excerpt.
+    fn of_export(self) -> Option<Format> {
+        match self {
+            FormatName::Jsonl => Some(Format::JsonLines),
+            #[cfg(feature = "parquet")]
+            FormatName::Parquet => Some(Format::Parquet),
+            FormatName::Games => Some(Format::Games),
+            FormatName::Archive => None,
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let Some(format) = args.format.of_export() else { return archive(args, console) };
+    // Who names a folder that is taken learns it before the work.
+    let draft = Draft::create(&args.out).map_err(verify::failure)?;
+    let released = match in_pool(args.jobs, || Released::read(&args.snapshot))? {
+        Ok(released) => released,
+        Err(error) => return unsound(error, console),
+    };
+    let wanted = Export { format, solutions: args.solutions, twin: args.twin };
+    let exported = in_pool(args.jobs, || export(&released, &wanted))?.map_err(failure)?;
+    let Exported { files, games, levels, left_out } = &exported;
+    for (path, content) in files {
+        draft.write(path, content).map_err(verify::failure)?;
+    }
+    draft.commit().map_err(verify::failure)?;
+    let manifest = &released.manifest;
+    let names: Vec<&str> = files.iter().map(|(path, _)| path.as_str()).collect();
+    let left_out: Vec<_> =
+        left_out.iter().map(|(id, why)| json!({ "game": id, "why": why.to_string() })).collect();
+    console.document(&json!({
+        "out": args.out,
+        "release": manifest.name,
+        "root": manifest.root,
+        "twin": args.twin,
+        "games": games,
+        "levels": levels,
+        "left_out": left_out,
+        "files": names,
+    }))?;
+    let twin = args.twin.map(|twin| format!(", {twin}")).unwrap_or_default();
+    console.say(format_args!(
+        "{}{twin}: {levels} levels of {games} games in {}",
+        manifest.name,
+        args.out.display()
+    ));
+    for (id, why) in &exported.left_out {
+        console.say(format_args!("left out: {id}: {why}"));
+    }
+    Ok(true)
+}
+
+/// The release itself, as one file.
+fn archive(args: &Args, console: &Console) -> Answer {
+    if args.twin.is_some() || args.solutions {
+        return Err(Failure::malformed(
+            "an archive is the release itself, solutions and all: leave --twin and --solutions away, or choose another --format",
+        ));
+    }
+    let Packed { root, digest, unpacked, size } = match pack(&args.snapshot, &args.out) {
+        Ok(packed) => packed,
+        Err(error @ SnapshotError::Unsound { .. }) => {
+            console.document(&json!({ "problems": [error.to_string()] }))?;
+            console.say(&error);
+            return Ok(false);
+        }
+        Err(error) => return Err(verify::failure(error)),
+    };
+    console.document(&json!({
+        "out": args.out, "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
+    }))?;
+    console
+        .say(format_args!("{}: {size} bytes, {unpacked} unpacked, of digest {digest}", args.out.display()));
+    console.say(format_args!("root {root}"));
+    Ok(true)
+}
+
+/// A snapshot that does not verify is an answer, with all that is wrong with it.
+pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
+    match error {
+        ReleasedError::Unsound(verification) => {
+            console.document(&verification)?;
+            verification.problems.iter().for_each(|problem| console.say(problem));
+            console.say(format_args!("{}: does NOT verify", verification.name));
+            Ok(false)
+        }
+        ReleasedError::Snapshot(error) => Err(verify::failure(error)),
+        error @ ReleasedError::Changed { .. } => Err(Failure::Surroundings(error.into())),
+    }
+}
+
+fn failure(error: ExportError) -> Failure {
+    match error {
+        #[cfg(feature = "parquet")]
+        error @ ExportError::Parquet(_) => Failure::Surroundings(error.into()),
+        error @ ExportError::NoTwin(_) => Failure::malformed(error.to_string()),
+    }
+}

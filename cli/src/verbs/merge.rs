@@ -1,0 +1,47 @@
+//! `arcade merge`: shards of a release, joined.
+
+use crate::console::Console;
+use crate::embedded;
+use crate::failure::{Answer, Failure};
+use crate::verbs::release::{Finished, mint_failure, read_secret_file};
+use crate::verbs::verify::failure;
+use snapshots::Draft;
+use snapshots::mint::{MergeError, Plan, Shards};
+use std::path::PathBuf;
+
+/// Joins the shards of a release: the same snapshot, bit for bit, as minting it in one piece.
+///
+/// Example: arcade merge shard1 shard2 shard3 shard4 --out releases/medium
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The folders of all shards, in any order
+    #[arg(value_name = "SHARD", required = true)]
+    shards: Vec<PathBuf>,
+    /// The snapshot's folder: absent or empty
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Threads; all cores if not given. Changes no byte
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+    /// The secret of a sealed release
+    #[arg(long, value_name = "FILE")]
+    secret: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let shards = Shards::open(&args.shards).map_err(|error| match error {
+        MergeError::Snapshot(error) => failure(error),
+        other => Failure::Malformed(other.into()),
+    })?;
+    let corpus = embedded::corpus()?;
+    let secret = args.secret.as_deref().map(read_secret_file).transpose()?;
+    let plan = Plan::new(shards.recipe(), secret.as_ref(), &corpus).map_err(mint_failure)?;
+    if !shards.are_of(&plan).map_err(failure)? {
+        return Err(Failure::malformed(
+            "the shards were not made from the recipe that they name: mint them again",
+        ));
+    }
+    let draft = Draft::create(&args.out).map_err(failure)?;
+    let finished = Finished { plan: &plan, secret: secret.as_ref(), shelf: &shards, out: &args.out };
+    finished.publish(draft, None, args.jobs, console)
+}

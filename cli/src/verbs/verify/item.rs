@@ -1,0 +1,118 @@
+//! Proofs of single items: written from a snapshot, checked without it.
+
+use super::failure;
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use engine::Digest;
+use serde_json::json;
+use snapshots::folder::{self, Limits};
+use snapshots::proof::{ItemProof, MAX_PROOF, ProofError};
+use snapshots::{Manifest, SnapshotError};
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+/// Writes the proof for an item of a snapshot that verifies, and says so.
+pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String, Failure> {
+    let proof = ItemProof::of(manifest, id).map_err(malformed)?;
+    let bytes = proof.to_bytes().map_err(malformed)?;
+    // Beside its place first: a full disk must not cost the file that is there.
+    let mut partial = file.as_os_str().to_owned();
+    partial.push(".partial");
+    let partial = Path::new(&partial);
+    fs::write(partial, bytes).and_then(|()| fs::rename(partial, file)).map_err(|error| {
+        drop(fs::remove_file(partial));
+        let file = file.display();
+        let next = "check that it may be accessed and that the disk has room";
+        Failure::surroundings(error, format_args!("cannot write `{file}`: {next}"))
+    })?;
+    Ok(format!("proof of {} written to {}", files(proof.files.len()), file.display()))
+}
+
+/// Checks an item by its proof, against a root that comes from elsewhere.
+pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console: &Console) -> Answer {
+    let bytes = read(file)?;
+    let proof = ItemProof::parse(&bytes)
+        .map_err(|error| Failure::malformed(format_args!("`{}`: {error}", file.display())))?;
+    if place.is_file() && proof.item == id && proof.files.iter().any(|file| file.path != id) {
+        let count = files(proof.files.len());
+        return Err(Failure::malformed(format_args!("`{id}` is a game of {count}: name its folder")));
+    }
+    let problems = problems(place, id, &proof, root).map_err(failure)?;
+    let sound = problems.is_empty();
+    let paths: Vec<&str> = proof.files.iter().map(|file| file.path.as_str()).collect();
+    console.document(&json!({ "item": id, "root": root, "files": paths, "problems": problems }))?;
+    for problem in &problems {
+        console.say(problem);
+    }
+    match sound {
+        true => console.say(format_args!("{id}: in the release with root {root}; {}", files(paths.len()))),
+        false => console.say(format_args!("{}: NOT proved to be `{id}` of that release", place.display())),
+    }
+    Ok(sound)
+}
+
+fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<Vec<String>, SnapshotError> {
+    let io = |action, path: &Path, source| SnapshotError::Io { action, path: path.to_path_buf(), source };
+    let found = fs::metadata(place).map_err(|source| io("examine", place, source))?;
+    if found.is_dir() {
+        // The game's own folder, or whatever it still lies in.
+        let inside = place.join("games").join(id);
+        let top = if inside.is_dir() { inside } else { place.to_path_buf() };
+        let prefix = format!("games/{id}/");
+        let below = |path: &str| path.strip_prefix(&prefix).map_or_else(|| path.to_owned(), str::to_owned);
+        let listing = folder::list(&top, &Limits::SNAPSHOT)?;
+        let sizes: Vec<(&str, u64)> =
+            listing.entries.iter().map(|entry| (entry.path.as_str(), entry.size)).collect();
+        let mut problems = proof.check(id, root, |path| {
+            let path = below(path);
+            match sizes.iter().any(|(known, _)| *known == path) {
+                true => folder::read(&top, &path, Limits::SNAPSHOT.file_bytes).map(|b| Some(Digest::of(&b))),
+                false => Ok(None),
+            }
+        })?;
+        let proved: BTreeSet<String> = proof.files.iter().map(|file| below(&file.path)).collect();
+        problems.extend(listing.problems.iter().map(ToString::to_string));
+        if proof.item == id && proof.files.iter().any(|file| file.path != id) {
+            let extra = sizes.iter().filter(|(path, _)| !proved.contains(*path));
+            problems.extend(extra.map(|(path, _)| format!("{path}: extra (not in the proof)")));
+        }
+        return Ok(problems);
+    }
+    if !found.is_file() {
+        return Err(SnapshotError::Kind { path: place.to_path_buf(), expected: "file" });
+    }
+    let limit = Limits::SNAPSHOT.file_bytes;
+    if found.len() > limit {
+        return Err(SnapshotError::TooLarge { path: place.to_path_buf(), limit });
+    }
+    let content = fs::read(place).map_err(|source| io("read", place, source))?;
+    // One file can be no more than one of the item's.
+    proof.check(id, root, |path| Ok((path == id).then(|| Digest::of(&content))))
+}
+
+/// The proof's bytes, not many more than it may have.
+fn read(file: &Path) -> Result<Vec<u8>, Failure> {
+    let io = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => Failure::malformed(format_args!("`{}` does not exist", file.display())),
+        _ => Failure::surroundings(error, format_args!("cannot read `{}`", file.display())),
+    };
+    if !fs::metadata(file).map_err(io)?.is_file() {
+        return Err(Failure::malformed(format_args!("`{}` is not a file", file.display())));
+    }
+    let mut bytes = Vec::new();
+    fs::File::open(file).and_then(|open| open.take(MAX_PROOF + 1).read_to_end(&mut bytes)).map_err(io)?;
+    Ok(bytes)
+}
+
+fn malformed(error: ProofError) -> Failure {
+    match error {
+        ProofError::Snapshot(error) => failure(error),
+        other => Failure::Malformed(other.into()),
+    }
+}
+
+fn files(count: usize) -> String {
+    if count == 1 { "1 file".to_owned() } else { format!("{count} files") }
+}

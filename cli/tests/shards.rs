@@ -1,0 +1,112 @@
+//! A release made in slices, interrupted and resumed: the same bytes.
+
+mod arcade;
+
+use arcade::{arcade, files, run, text};
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
+
+/// Three lots, each within a second or two.
+const RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'slices'\n[generated]\ngames = 1\nlevels = 1\n\
+    candidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\n\
+    depths = [10, 25]\nrandom_plays = 20\n";
+
+fn recipe(folder: &Path) {
+    fs::write(folder.join("slices.toml"), RECIPE).unwrap();
+}
+
+#[test]
+fn shards_in_any_order_give_the_bytes_of_one_process() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    recipe(folder);
+    run(folder, &["release", "slices.toml", "--out", "whole"], 0);
+    for shard in ["3/3", "1/3", "2/3"] {
+        run(
+            folder,
+            &["release", "slices.toml", "--shard", shard, "--out", &format!("shard{}", &shard[..1])],
+            0,
+        );
+    }
+    run(folder, &["merge", "shard2", "shard3", "shard1", "--out", "merged"], 0);
+    assert_eq!(files(&folder.join("whole")), files(&folder.join("merged")));
+    run(folder, &["regenerate", "merged"], 0);
+
+    let said = |arguments: &[&str]| text(&run(folder, arguments, 2).stderr);
+    assert!(said(&["merge", "shard1", "shard3", "--out", "x"]).contains("shards are missing: 2/3"));
+    assert!(
+        said(&["merge", "shard1", "shard2", "shard3", "shard1", "--out", "x"])
+            .contains("they are the same shard")
+    );
+    assert!(said(&["merge", "whole", "--out", "x"]).contains("not a shard"));
+    assert!(said(&["release", "slices.toml", "--shard", "4/3", "--out", "x"]).contains("K from 1 to N"));
+    assert!(said(&["release", "slices.toml", "--shard", "1/3"]).contains("--shard needs --out"));
+    fs::write(folder.join("other.toml"), RECIPE.replace("'slices'", "'others'")).unwrap();
+    run(folder, &["release", "other.toml", "--shard", "2/3", "--out", "other2"], 0);
+    assert!(said(&["merge", "shard1", "other2", "shard3", "--out", "x"]).contains("different recipes"));
+
+    let (lot, content) =
+        files(&folder.join("shard1")).into_iter().find(|(name, _)| name.starts_with("lots/")).unwrap();
+    let mut altered = content.clone();
+    altered[content.len() / 2] ^= 1;
+    fs::write(folder.join("shard1").join(&lot), altered).unwrap();
+    let said = said(&["merge", "shard1", "shard2", "shard3", "--out", "x"]);
+    assert!(said.contains(&lot) && said.contains("changed after it was made"), "{said}");
+    assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
+}
+
+/// Killed again and again, and resumed, a mint gives the bytes of one that was left alone; what is made is not thrown away
+/// unless that is asked for.
+#[cfg(unix)]
+#[test]
+fn a_killed_mint_goes_on() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    recipe(folder);
+    let start = |resume: &[&str]| {
+        let mut command = arcade(folder);
+        command.args(["release", "slices.toml", "--out", "out", "--jobs", "1"]).args(resume);
+        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+    };
+    let lots = || fs::read_dir(folder.join("out.partial/lots")).map_or(0, |lots| lots.count());
+    let mut child = start(&[]);
+    // Until a lot is there, however long that takes.
+    while lots() == 0 && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(lots() > 0 && !folder.join("out").exists());
+    let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);
+    assert!(said.contains("go on with --resume"), "{said}");
+    for milliseconds in [1, 30, 300] {
+        let mut child = start(&["--resume"]);
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    if !folder.join("out").exists() {
+        run(folder, &["release", "slices.toml", "--out", "out", "--resume"], 0);
+    }
+    run(folder, &["release", "slices.toml", "--out", "alone"], 0);
+    assert_eq!(files(&folder.join("out")), files(&folder.join("alone")));
+    assert!(!folder.join("out.partial").exists());
+}
+
+/// What is made is kept when only the choice is asked for otherwise.
+#[test]
+fn more_candidates_go_on_from_those_that_were_made() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    // More games than there are candidates for: a kind that no game of one pattern set can fill twice over.
+    let greedy = format!("{RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
+    fs::write(folder.join("slices.toml"), greedy).unwrap();
+    let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);
+    assert!(said.contains("avatar watches 0 (asked 2 to 2)"), "{said}");
+    recipe(folder);
+    let output = run(folder, &["release", "slices.toml", "--out", "out", "--resume"], 0);
+    assert!(text(&output.stderr).contains("4 of 4 lots were made before"), "{}", text(&output.stderr));
+    run(folder, &["verify", "out"], 0);
+}

@@ -1,0 +1,354 @@
+//! A release as one file, `.tar.zst`: for mail, for archives of papers, for whoever wants one digest.
+//!
+//! The same folder gives the same file. Inside is a tar archive with nothing left open:
+//!
+//! - `<name>/MANIFEST.json` first, so that a reader knows what to expect, then the items in the manifest's order;
+//! - each a regular file in a ustar header: mode 0644, owner, group and time 0, no names of owners; no folders, no
+//!   extensions; at the end two blocks of zeros;
+//! - around it one zstd frame with the size of its content, a checksum and no dictionary, and behind that a skippable
+//!   frame with the BLAKE3 of the compressed bytes, against accidents.
+//!
+//! [`Archive::open`] accepts these bytes and no others: whatever `tar` could say besides (links, devices, sparse
+//! files, extended headers, a name twice, other owners) differs from the header that is expected, and is named. The
+//! digest is over the *uncompressed* bytes: another version of zstd may compress them otherwise.
+//!
+//! Any `tar` unpacks such a file; it makes one folder, called as the release.
+
+mod entry;
+mod frame;
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, TryLockError};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use crate::draft::Draft;
+use crate::error::SnapshotError;
+use crate::folder;
+use crate::integrity::{Integrity, check_integrity, manifest_problems};
+use crate::manifest::{Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::problem::{Flaw, Problem};
+use engine::Digest;
+use entry::{BLOCK, END, padding};
+use frame::{Inside, Outside, Unreadable};
+
+pub use frame::is_archive;
+
+/// The most that an archive may hold, in bytes: 512 MiB, because it is read in memory. A larger release is passed on
+/// as a folder.
+pub const MAX_UNPACKED: u64 = 512 << 20;
+/// What an archive may hold whatever its own size, in bytes: 16 MiB.
+pub const FREE_UNPACKED: u64 = 16 << 20;
+/// Beyond [`FREE_UNPACKED`], how many bytes an archive may hold for each of its own. Releases stay below 30.
+pub const MAX_RATIO: u64 = 200;
+
+/// What [`pack`] wrote.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Packed {
+    /// The release's root.
+    pub root: Digest,
+    /// Digest of the uncompressed bytes.
+    pub digest: Digest,
+    /// Uncompressed bytes.
+    pub unpacked: u64,
+    /// Bytes of the file.
+    pub size: u64,
+}
+
+/// Packs the release folder `root` into the file `out`, which must not exist. The same release gives the same
+/// uncompressed bytes on every machine.
+///
+/// `out` is complete or absent: until then the work lies in `<out>.partial`, and a stale one is replaced.
+///
+/// Cost: two passes over the files; memory for one of them.
+///
+/// # Errors
+/// The folder is no release or does not hold what its manifest says; it is larger than an archive may be
+/// ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot hold; `out` is taken, or the file system refuses.
+pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
+    let integrity = check_integrity(root)?;
+    if let Some(first) = integrity.problems.first() {
+        return Err(SnapshotError::Unsound {
+            path: root.to_path_buf(),
+            first: first.to_string(),
+            more: integrity.problems.len() - 1,
+        });
+    }
+    let manifest = integrity.manifest;
+    if fs::symlink_metadata(out).is_ok() {
+        return Err(SnapshotError::Taken { path: out.to_path_buf() });
+    }
+    let name = out.file_name().ok_or_else(|| SnapshotError::Nameless { path: out.to_path_buf() })?;
+    let mut partial_name = name.to_os_string();
+    partial_name.push(".partial");
+    let partial = out.with_file_name(partial_name);
+    let mut file = claim(&partial)?;
+    let publish = |packed| {
+        // A file that somebody has put there in the meantime is not to be replaced.
+        if fs::symlink_metadata(out).is_ok() {
+            return Err(SnapshotError::Taken { path: out.to_path_buf() });
+        }
+        fs::rename(&partial, out).map_err(SnapshotError::io("create", out))?;
+        Ok(packed)
+    };
+    let result = pack_into(root, &manifest, &mut file, &partial).and_then(publish);
+    if result.is_err() {
+        // Nothing can be done here about a failure, and the next attempt replaces what stays.
+        drop(fs::remove_file(&partial));
+    }
+    result
+}
+
+/// The empty file `partial`, locked: a stale one of a killed run is taken over, that of a running one is not.
+fn claim(partial: &Path) -> Result<File, SnapshotError> {
+    let io = |source| SnapshotError::io("create", partial)(source);
+    let busy = || SnapshotError::Busy { path: partial.to_path_buf() };
+    if fs::symlink_metadata(partial).is_ok_and(|found| !found.is_file()) {
+        return Err(SnapshotError::Foreign { path: partial.to_path_buf() });
+    }
+    let file = File::options().write(true).create(true).truncate(false).open(partial).map_err(io)?;
+    match file.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => return Err(busy()),
+        // A file system without locks is taken at its word.
+        Err(TryLockError::Error(source)) if source.kind() == ErrorKind::Unsupported => {}
+        Err(TryLockError::Error(source)) => return Err(io(source)),
+    }
+    // Whoever held the lock before may have published it in the meantime: then it is no longer at its path.
+    let held = file.metadata().map_err(io)?;
+    if !fs::symlink_metadata(partial).is_ok_and(|found| folder::same_file(&held, &found)) {
+        return Err(busy());
+    }
+    file.set_len(0).map_err(io)?;
+    Ok(file)
+}
+
+fn pack_into(
+    root: &Path,
+    manifest: &Manifest,
+    file: &mut File,
+    partial: &Path,
+) -> Result<Packed, SnapshotError> {
+    let bytes = manifest.to_bytes()?;
+    let top = Item::of(MANIFEST_FILE, &bytes);
+    let unpacked = entry::total([&top].into_iter().chain(&manifest.items));
+    let too_large = |limit| SnapshotError::TooLarge { path: root.to_path_buf(), limit };
+    if unpacked > MAX_UNPACKED {
+        return Err(too_large(MAX_UNPACKED));
+    }
+    let io = |source| SnapshotError::io("write", partial)(source);
+    let mut outside = Outside::begin(file, unpacked).map_err(io)?;
+    let mut hasher = blake3::Hasher::new();
+    let mut put = |bytes: &[u8]| {
+        hasher.update(bytes);
+        outside.write(bytes).map_err(io)
+    };
+    for item in [&top].into_iter().chain(&manifest.items) {
+        let header = entry::header(&manifest.name, item)
+            .ok_or_else(|| SnapshotError::Untarable { path: format!("{}/{}", manifest.name, item.path) })?;
+        let content = match item.path == MANIFEST_FILE {
+            true => bytes.clone(),
+            false => folder::read(root, &item.path, item.size)?,
+        };
+        if Digest::of(&content) != item.digest {
+            return Err(SnapshotError::Changed { path: folder::join(root, &item.path) });
+        }
+        put(&header)?;
+        put(&content)?;
+        put(&[0; BLOCK][..padding(item.size)])?;
+    }
+    put(&[0; END])?;
+    outside.seal().map_err(io)?;
+    file.sync_all().map_err(io)?;
+    let size = file.metadata().map_err(io)?.len();
+    if unpacked > most(size) {
+        return Err(too_large(most(size)));
+    }
+    Ok(Packed {
+        root: manifest.root,
+        digest: Digest::from_bytes(*hasher.finalize().as_bytes()),
+        unpacked,
+        size,
+    })
+}
+
+/// The most that an archive of `size` bytes may hold.
+fn most(size: u64) -> u64 {
+    FREE_UNPACKED.saturating_add(size.saturating_mul(MAX_RATIO)).min(MAX_UNPACKED)
+}
+
+/// An archive that was read: its manifest, its files, and all that is wrong.
+#[derive(Debug, Clone)]
+pub struct Archive {
+    /// The manifest, and the problems as [`check_integrity`] states them for a folder. After a fault in the archive's
+    /// own structure nothing that follows it was read.
+    pub integrity: Integrity,
+    /// Digest of the uncompressed bytes that were read; of all of them if the archive is sound.
+    pub digest: Digest,
+    /// Uncompressed bytes that were read.
+    pub unpacked: u64,
+    manifest_bytes: Vec<u8>,
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Archive {
+    /// Reads an archive from someone else. Nothing is unpacked to disk; how much is read is bounded by the file's own
+    /// size ([`MAX_RATIO`]) before anything is decompressed.
+    ///
+    /// Cost: one pass; memory for what it holds, at most [`MAX_UNPACKED`] and a window of 8 MiB.
+    ///
+    /// # Errors
+    /// It is no zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot)), is damaged before the end of the manifest
+    /// ([`Archive`](SnapshotError::Archive)), has a manifest that is not sound in itself, or cannot be read.
+    pub fn open(path: &Path) -> Result<Archive, SnapshotError> {
+        let io = |source| SnapshotError::io("read", path)(source);
+        let broken = |message: String| SnapshotError::Archive { path: path.to_path_buf(), message };
+        // Looked at before it is opened: opening a pipe would wait for its other end.
+        let found = fs::metadata(path).map_err(SnapshotError::io("examine", path))?;
+        if !found.is_file() {
+            return Err(SnapshotError::Kind { path: path.to_path_buf(), expected: "file" });
+        }
+        if !is_archive(path)? {
+            return Err(SnapshotError::NotASnapshot { path: path.to_path_buf() });
+        }
+        let file = File::open(path).map_err(io)?;
+        let mut inside = match Inside::enter(file, most(found.len())) {
+            Ok(inside) => inside,
+            Err(Unreadable::Io(source)) => return Err(io(source)),
+            Err(Unreadable::Damaged(message)) => return Err(broken(message)),
+        };
+        let manifest_bytes = match read_manifest(&mut inside) {
+            Ok((name, bytes)) => (name, bytes),
+            Err(Unreadable::Io(source)) => return Err(io(source)),
+            Err(Unreadable::Damaged(message)) => return Err(broken(format!("{MANIFEST_FILE}: {message}"))),
+        };
+        let (name, manifest_bytes) = manifest_bytes;
+        let place = PathBuf::from(format!("{}: {MANIFEST_FILE}", path.display()));
+        let manifest = Manifest::parse(&manifest_bytes).map_err(|error| error.in_manifest(&place))?;
+        let mut problems = manifest_problems(&manifest, &manifest_bytes)?;
+        if name != manifest.name {
+            let what = format!("its folder is `{}`, its release `{}`", name.escape_debug(), manifest.name);
+            problems.push(Problem { path: MANIFEST_FILE.into(), flaw: Flaw::NotAsPacked(what) });
+        }
+        let mut files = BTreeMap::new();
+        match read_items(&mut inside, &manifest, &mut files, &mut problems) {
+            Ok(()) => {}
+            Err(Stop::Problem(problem)) if problem.path == WHOLE => {
+                let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                problems.push(Problem { path: file, ..problem });
+            }
+            Err(Stop::Problem(problem)) => problems.push(problem),
+            Err(Stop::Io(source)) => return Err(io(source)),
+        }
+        problems.sort_unstable();
+        let (digest, unpacked) = inside.digest();
+        Ok(Archive { integrity: Integrity { manifest, problems }, digest, unpacked, manifest_bytes, files })
+    }
+
+    /// The content of the item at `path`; none if there is no such item or the archive ends before it.
+    pub fn file(&self, path: &str) -> Option<&[u8]> {
+        self.files.get(path).map(Vec::as_slice)
+    }
+
+    /// Writes the release to the folder `out`, which is complete or absent, and must be absent or empty.
+    ///
+    /// # Errors
+    /// The archive is not sound, `out` is taken, or the file system refuses.
+    pub fn unpack(&self, out: &Path) -> Result<(), SnapshotError> {
+        if let Some(first) = self.integrity.problems.first() {
+            return Err(SnapshotError::Unsound {
+                path: out.to_path_buf(),
+                first: first.to_string(),
+                more: self.integrity.problems.len() - 1,
+            });
+        }
+        let draft = Draft::create(out)?;
+        for (path, content) in &self.files {
+            draft.write(path, content)?;
+        }
+        draft.write(MANIFEST_FILE, &self.manifest_bytes)?;
+        draft.commit()
+    }
+}
+
+/// The name of the top folder and the bytes of the manifest.
+fn read_manifest(inside: &mut Inside) -> Result<(String, Vec<u8>), Unreadable> {
+    let damaged = |message: &str| Unreadable::Damaged(message.to_owned());
+    let block = inside.block()?.ok_or_else(|| damaged("the archive is empty"))?;
+    let (path, size) = entry::path_and_size(&block).map_err(Unreadable::Damaged)?;
+    let name = path.strip_suffix(MANIFEST_FILE).and_then(|folder| folder.strip_suffix('/'));
+    let name = name.filter(|name| !name.contains('/') && crate::check_path(name).is_ok());
+    let name = name.ok_or_else(|| {
+        Unreadable::Damaged(format!("it has to come first, and `{}` does", path.escape_debug()))
+    })?;
+    if size > MANIFEST_LIMIT {
+        return Err(Unreadable::Damaged(format!("it is larger than {MANIFEST_LIMIT} bytes")));
+    }
+    let expected = Item { path: MANIFEST_FILE.into(), size, digest: Digest::of(b"") };
+    if entry::header(name, &expected).as_ref() != Some(&block) {
+        return Err(Unreadable::Damaged(entry::oddity(&block)));
+    }
+    let content = inside.content(size)?;
+    if !inside.skip_padding(padding(size))? {
+        return Err(damaged("the bytes after it are not zero"));
+    }
+    Ok((name.to_owned(), content))
+}
+
+/// The path of a problem of the archive as a whole, until its name is put there.
+const WHOLE: &str = ".";
+
+/// Why reading ends early.
+enum Stop {
+    Problem(Problem),
+    Io(std::io::Error),
+}
+
+fn read_items(
+    inside: &mut Inside,
+    manifest: &Manifest,
+    files: &mut BTreeMap<String, Vec<u8>>,
+    problems: &mut Vec<Problem>,
+) -> Result<(), Stop> {
+    let at = |path: &str, flaw| Stop::Problem(Problem { path: path.to_owned(), flaw });
+    let stop = |path: &str| {
+        let path = path.to_owned();
+        move |unreadable| match unreadable {
+            Unreadable::Io(source) => Stop::Io(source),
+            Unreadable::Damaged(what) => Stop::Problem(Problem { path, flaw: Flaw::NotAsPacked(what) }),
+        }
+    };
+    for item in &manifest.items {
+        let path = item.path.as_str();
+        let block = match inside.block().map_err(stop(path))? {
+            Some(block) if block.iter().any(|byte| *byte != 0) => block,
+            _ => return Err(at(path, Flaw::Missing)),
+        };
+        let Some(expected) = entry::header(&manifest.name, item) else {
+            return Err(at(path, Flaw::NotAsPacked("its path is too long for an archive".into())));
+        };
+        if block != expected {
+            return Err(Stop::Problem(entry::diagnose(&block, manifest, Some(item))));
+        }
+        let content = inside.content(item.size).map_err(stop(path))?;
+        if !inside.skip_padding(padding(item.size)).map_err(stop(path))? {
+            return Err(at(path, Flaw::NotAsPacked("the bytes after it are not zero".into())));
+        }
+        let found = Digest::of(&content);
+        if found != item.digest {
+            let flaw = Flaw::Altered { found, stated: item.digest };
+            problems.push(Problem { path: path.to_owned(), flaw });
+        }
+        files.insert(path.to_owned(), content);
+    }
+    for _ in 0..END / BLOCK {
+        match inside.block().map_err(stop(WHOLE))? {
+            None => return Err(at(WHOLE, Flaw::NotAsPacked("it is cut off before its end".into()))),
+            Some(block) if block.iter().any(|byte| *byte != 0) => {
+                return Err(Stop::Problem(entry::diagnose(&block, manifest, None)));
+            }
+            Some(_) => {}
+        }
+    }
+    inside.leave().map_err(stop(WHOLE))
+}

@@ -1,0 +1,121 @@
+//! The inside of an archive: the one header that a file of a release has, and what is wrong with any other.
+
+use crate::manifest::{Item, MANIFEST_FILE, Manifest};
+use crate::path::check_path;
+use crate::problem::{Flaw, Problem};
+use tar::{EntryType, Header};
+
+/// Bytes of a block: headers are one, contents are filled up to whole ones.
+pub(super) const BLOCK: usize = 512;
+/// Bytes of zeros at the end.
+pub(super) const END: usize = 2 * BLOCK;
+
+/// The header of `item` in the release called `name`; none if its path is too long for one.
+pub(super) fn header(name: &str, item: &Item) -> Option<[u8; BLOCK]> {
+    let mut header = Header::new_ustar();
+    header.set_path(format!("{name}/{}", item.path)).ok()?;
+    header.set_size(item.size);
+    header.set_mode(0o644);
+    header.set_uid(0);
+    header.set_gid(0);
+    header.set_mtime(0);
+    header.set_entry_type(EntryType::Regular);
+    header.set_cksum();
+    Some(*header.as_bytes())
+}
+
+/// How many zeros follow a content of `size` bytes.
+pub(super) fn padding(size: u64) -> usize {
+    let rest = (size % BLOCK as u64) as usize;
+    if rest == 0 { 0 } else { BLOCK - rest }
+}
+
+/// Uncompressed bytes of an archive of these files.
+pub(super) fn total<'a>(items: impl Iterator<Item = &'a Item>) -> u64 {
+    let sizes = items.map(|item| BLOCK as u64 + item.size + padding(item.size) as u64);
+    sizes.sum::<u64>() + END as u64
+}
+
+/// Path and size as a header states them.
+pub(super) fn path_and_size(block: &[u8; BLOCK]) -> Result<(String, u64), String> {
+    let header = Header::from_byte_slice(block);
+    let size = header.size().map_err(|_| "its tar header is damaged".to_owned())?;
+    Ok((path(header), size))
+}
+
+/// What is wrong with a header that is not the one of `expected`, or of anything if nothing is expected any more.
+/// The problem is at the entry's own path if it has a usable one.
+pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Option<&Item>) -> Problem {
+    let header = Header::from_byte_slice(block);
+    let full = path(header);
+    let inner = full.strip_prefix(&manifest.name).and_then(|rest| rest.strip_prefix('/'));
+    let due = expected.map_or(".", |item| item.path.as_str());
+    let found = inner.unwrap_or(&full);
+    let here = |flaw| Problem { path: found.to_owned(), flaw };
+    let there = |flaw| Problem { path: due.to_owned(), flaw };
+    if !sums(header) {
+        return there(Flaw::NotAsPacked("the tar header here is damaged".into()));
+    }
+    match header.entry_type() {
+        EntryType::Symlink => return here(Flaw::Link),
+        EntryType::Char | EntryType::Block | EntryType::Fifo => return here(Flaw::Special),
+        EntryType::Regular => {}
+        _ => return there(Flaw::NotAsPacked(oddity(block))),
+    }
+    if let Err(problem) = check_path(found) {
+        return here(Flaw::Name(problem));
+    }
+    if inner.is_none() {
+        return here(Flaw::NotAsPacked(format!("it is not in the folder `{}`", manifest.name)));
+    }
+    if Some(found) == expected.map(|item| item.path.as_str()) {
+        return match (header.size(), expected) {
+            (Ok(size), Some(item)) if size != item.size => {
+                here(Flaw::Size { found: size, stated: item.size })
+            }
+            _ => here(Flaw::NotAsPacked(oddity(block))),
+        };
+    }
+    let listed = found == MANIFEST_FILE || manifest.items.iter().any(|item| item.path == found);
+    let passed = expected.is_none_or(|item| found == MANIFEST_FILE || found < item.path.as_str());
+    match (listed, passed) {
+        (false, _) => here(Flaw::Extra),
+        (true, true) => here(Flaw::NotAsPacked("it is in the archive a second time".into())),
+        (true, false) => here(Flaw::NotAsPacked(format!("it is out of order: `{due}` is due here"))),
+    }
+}
+
+/// In which respect a header is not one of ours.
+pub(super) fn oddity(block: &[u8; BLOCK]) -> String {
+    let header = Header::from_byte_slice(block);
+    let kind = header.entry_type();
+    let what = match kind {
+        EntryType::Regular => "its tar header has another owner, mode, time or form",
+        EntryType::Link => "a hard link",
+        EntryType::Symlink => "a symbolic link",
+        EntryType::Directory => "a folder, which an archive does not list",
+        EntryType::Char | EntryType::Block | EntryType::Fifo => "a device or pipe",
+        EntryType::GNUSparse => "a sparse file",
+        EntryType::GNULongName | EntryType::GNULongLink => "a GNU extension for long names",
+        EntryType::XHeader | EntryType::XGlobalHeader => "a pax extension header",
+        EntryType::Continuous => "a contiguous file",
+        other => return format!("a tar entry of the unknown kind {:#04x}", other.as_byte()),
+    };
+    let link = header.link_name_bytes().map(|target| String::from_utf8_lossy(&target).into_owned());
+    match link {
+        Some(target) => format!("{what} to `{}`", target.escape_debug()),
+        None => what.to_owned(),
+    }
+}
+
+/// The path as stated, as nearly as Unicode can.
+fn path(header: &Header) -> String {
+    String::from_utf8_lossy(&header.path_bytes()).into_owned()
+}
+
+/// Whether a header's own checksum holds.
+fn sums(header: &Header) -> bool {
+    let mut copy = header.clone();
+    copy.set_cksum();
+    header.cksum().ok().is_some_and(|stated| copy.cksum().ok() == Some(stated))
+}

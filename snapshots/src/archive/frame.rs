@@ -1,0 +1,262 @@
+//! The outside of an archive: one zstd frame, bounded by its own header before anything is decompressed, and a seal.
+//!
+//! Some bits of compressed data mean nothing: flipped, they give the same content. So that no flipped bit of the file
+//! goes unnoticed, a skippable frame follows (RFC 8878 §3.1.2), which every reader of zstd passes over: the BLAKE3 of
+//! the bytes before it.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
+use std::path::Path;
+
+use super::entry::BLOCK;
+use crate::error::SnapshotError;
+use engine::Digest;
+
+/// How a zstd file begins (RFC 8878 §3.1.1).
+const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+/// The logarithm of how far back the compressor looks, in bytes: 8 MiB, which every reader grants.
+const WINDOW_LOG: u8 = 23;
+/// Compression is done once, reading often.
+const LEVEL: i32 = 15;
+
+/// Whether the regular file at `path` begins as an archive does.
+///
+/// # Errors
+/// It cannot be read.
+pub fn is_archive(path: &Path) -> Result<bool, SnapshotError> {
+    let begin = || -> io::Result<Vec<u8>> {
+        let mut begin = Vec::new();
+        File::open(path)?.take(MAGIC.len() as u64).read_to_end(&mut begin)?;
+        Ok(begin)
+    };
+    Ok(begin().map_err(SnapshotError::io("read", path))? == MAGIC)
+}
+
+/// How the seal begins: a skippable frame's magic number, and that 32 bytes follow.
+const SEAL: [u8; 8] = [0x50, 0x2a, 0x4d, 0x18, 32, 0, 0, 0];
+
+/// Compresses into a file.
+pub(super) struct Outside<'a> {
+    encoder: zstd::Encoder<'static, Hashed<&'a mut File>>,
+}
+
+impl<'a> Outside<'a> {
+    /// Starts a frame of `size` bytes.
+    pub(super) fn begin(file: &'a mut File, size: u64) -> io::Result<Outside<'a>> {
+        let mut encoder = zstd::Encoder::new(Hashed { inner: file, hasher: blake3::Hasher::new() }, LEVEL)?;
+        encoder.window_log(u32::from(WINDOW_LOG))?;
+        encoder.include_checksum(true)?;
+        encoder.include_contentsize(true)?;
+        encoder.set_pledged_src_size(Some(size))?;
+        Ok(Outside { encoder })
+    }
+
+    /// Compresses these bytes.
+    pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.encoder.write_all(bytes)
+    }
+
+    /// Ends the frame, and seals the file.
+    pub(super) fn seal(self) -> io::Result<()> {
+        let Hashed { inner, hasher } = self.encoder.finish()?;
+        inner.write_all(&SEAL)?;
+        inner.write_all(hasher.finalize().as_bytes())
+    }
+}
+
+/// Hashes what is written to it, or consumed from it.
+struct Hashed<T> {
+    inner: T,
+    hasher: blake3::Hasher,
+}
+
+impl<T: Write> Write for Hashed<T> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.inner.write(bytes)?;
+        self.hasher.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+impl Read for Hashed<BufReader<File>> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let read = self.inner.read(bytes)?;
+        self.hasher.update(&bytes[..read]);
+        Ok(read)
+    }
+}
+
+impl BufRead for Hashed<BufReader<File>> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        self.inner.fill_buf()
+    }
+
+    fn consume(&mut self, amount: usize) {
+        self.hasher.update(&self.inner.buffer()[..amount]);
+        self.inner.consume(amount);
+    }
+}
+
+/// Why an archive cannot be read on.
+#[derive(Debug)]
+pub(super) enum Unreadable {
+    /// The file system refuses.
+    Io(io::Error),
+    /// The archive is not as it was packed.
+    Damaged(String),
+}
+
+/// The uncompressed bytes of an archive, at most as many as its frame states.
+pub(super) struct Inside {
+    decoder: zstd::Decoder<'static, Hashed<BufReader<File>>>,
+    hasher: blake3::Hasher,
+    left: u64,
+}
+
+impl Inside {
+    /// Reads the head of the frame, and refuses one that holds more than `limit` bytes.
+    pub(super) fn enter(file: File, limit: u64) -> Result<Inside, Unreadable> {
+        let mut file = Hashed { inner: BufReader::new(file), hasher: blake3::Hasher::new() };
+        // The longest head has 4 + 1 + 1 + 8 bytes, and a buffer that was just filled has more or all there is.
+        let left = stated_size(file.fill_buf().map_err(Unreadable::Io)?).map_err(Unreadable::Damaged)?;
+        if left > limit {
+            return Err(Unreadable::Damaged(format!(
+                "it would unpack to {left} bytes, of which a file of this size may hold {limit}"
+            )));
+        }
+        let mut decoder = zstd::Decoder::with_buffer(file).map_err(Unreadable::Io)?.single_frame();
+        decoder.window_log_max(u32::from(WINDOW_LOG)).map_err(Unreadable::Io)?;
+        Ok(Inside { decoder, hasher: blake3::Hasher::new(), left })
+    }
+
+    /// The next block; none at the end.
+    pub(super) fn block(&mut self) -> Result<Option<[u8; BLOCK]>, Unreadable> {
+        if self.left == 0 {
+            return Ok(None);
+        }
+        let bytes = self.content(BLOCK as u64)?;
+        Ok(Some(bytes.try_into().expect("as many bytes as were asked for")))
+    }
+
+    /// The next `size` bytes. Memory grows as they come, not as they are stated.
+    pub(super) fn content(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
+        if size > self.left {
+            return Err(Unreadable::Damaged("the archive is too short for it".into()));
+        }
+        let mut bytes = Vec::new();
+        let read = (&mut self.decoder).take(size).read_to_end(&mut bytes).map_err(unreadable)?;
+        if (read as u64) < size {
+            return Err(Unreadable::Damaged("the archive is cut off here".into()));
+        }
+        self.left -= size;
+        self.hasher.update(&bytes);
+        Ok(bytes)
+    }
+
+    /// Whether the next `size` bytes are zero.
+    pub(super) fn skip_padding(&mut self, size: usize) -> Result<bool, Unreadable> {
+        Ok(self.content(size as u64)?.iter().all(|byte| *byte == 0))
+    }
+
+    /// Whether this is the end of everything: of the stated bytes, of the frame and of the file.
+    pub(super) fn leave(&mut self) -> Result<(), Unreadable> {
+        let damaged = |what: &str| Err(Unreadable::Damaged(what.into()));
+        if self.left > 0 || self.decoder.read(&mut [0]).map_err(unreadable)? > 0 {
+            return damaged("there is more after its end");
+        }
+        // Only now is the checksum compared.
+        self.decoder.finish_frame().map_err(unreadable)?;
+        let file = self.decoder.get_mut();
+        let compressed = *file.hasher.finalize().as_bytes();
+        let mut seal = Vec::new();
+        file.take(SEAL.len() as u64 + 33).read_to_end(&mut seal).map_err(Unreadable::Io)?;
+        match seal.strip_prefix(&SEAL).map(|digest| (digest, digest.len())) {
+            Some((digest, 32)) if digest == compressed => Ok(()),
+            Some((_, 32)) => damaged("its compressed bytes are not those that were sealed"),
+            Some((_, 33..)) => damaged("there are bytes after its seal"),
+            _ => damaged("its seal is missing or damaged"),
+        }
+    }
+
+    /// Of what was read, and how much that is.
+    pub(super) fn digest(&self) -> (Digest, u64) {
+        (Digest::from_bytes(*self.hasher.finalize().as_bytes()), self.hasher.count())
+    }
+}
+
+/// The decompressor's own complaints have no number of the system's.
+fn unreadable(error: io::Error) -> Unreadable {
+    match (error.raw_os_error(), error.kind()) {
+        (Some(_), _) => Unreadable::Io(error),
+        (None, ErrorKind::UnexpectedEof) => Unreadable::Damaged("the archive is cut off here".into()),
+        (None, _) => Unreadable::Damaged(format!("the compressed data is damaged here ({error})")),
+    }
+}
+
+/// The size that the head of a frame states (RFC 8878 §3.1.1.1), which must be as [`compressor`] makes it.
+fn stated_size(head: &[u8]) -> Result<u64, String> {
+    let cut_off = || "the archive is cut off in its head".to_owned();
+    let odd = |what: &str| Err(format!("the head of its compressed data is not as packed: {what}"));
+    let descriptor = *head.get(MAGIC.len()).ok_or_else(cut_off)?;
+    let (size_flag, one_segment) = (descriptor >> 6, descriptor & 0b10_0000 != 0);
+    match descriptor & 0b1_1111 {
+        0b0_0100 => {}
+        bits if bits & 0b11 != 0 => return odd("it needs a dictionary"),
+        bits if bits & 0b100 == 0 => return odd("it has no checksum"),
+        _ => return odd("a reserved bit is set"),
+    }
+    let mut rest = &head[MAGIC.len() + 1..];
+    if !one_segment {
+        let window = *rest.first().ok_or_else(cut_off)?;
+        if window != (WINDOW_LOG - 10) << 3 {
+            return odd("it looks back another distance than 8 MiB");
+        }
+        rest = &rest[1..];
+    }
+    let length = match (size_flag, one_segment) {
+        (0, false) => return odd("it does not state its size"),
+        (0, true) => 1,
+        (flag, _) => 1 << flag,
+    };
+    let mut bytes = [0; 8];
+    bytes[..length].copy_from_slice(rest.get(..length).ok_or_else(cut_off)?);
+    // Two bytes count from 256, because one would do below.
+    let offset = if length == 2 { 256 } else { 0 };
+    u64::from_le_bytes(bytes).checked_add(offset).ok_or_else(cut_off)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(after_magic: &[u8], expect: Result<u64, &str>) {
+        let head = [&MAGIC, after_magic].concat();
+        match (stated_size(&head), expect) {
+            (Ok(found), Ok(expect)) => assert_eq!(found, expect),
+            (Err(found), Err(expect)) => assert!(found.contains(expect), "{found}"),
+            (found, expect) => panic!("{found:?}, expected {expect:?}"),
+        }
+    }
+
+    #[test]
+    fn heads() {
+        check(&[0b0010_0100, 7], Ok(7));
+        check(&[0b0110_0100, 0, 1], Ok(512));
+        check(&[0b1010_0100, 0, 0, 1, 0], Ok(65536));
+        check(&[0b1000_0100, 0x68, 0, 0, 0, 1], Ok(1 << 24));
+        check(&[0b1110_0100, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff], Ok(u64::MAX));
+        check(&[0b1000_0100, 0x69, 0, 0, 0, 1], Err("another distance"));
+        check(&[0b0000_0100, 0x68, 0], Err("does not state its size"));
+        check(&[0b0010_0000, 7], Err("no checksum"));
+        check(&[0b0010_0101, 0, 7], Err("dictionary"));
+        check(&[0b0010_1100, 7], Err("reserved"));
+        check(&[0b0011_0100, 7], Err("reserved"));
+        check(&[0b1010_0100, 0, 0, 1], Err("cut off"));
+        check(&[], Err("cut off"));
+    }
+}

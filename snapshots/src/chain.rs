@@ -1,0 +1,266 @@
+//! The chain of releases: each names the root of the one before, so that nobody can change history without changing
+//! every release since.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::contents::Contents;
+use crate::error::SnapshotError;
+use crate::manifest::{MANIFEST_FILE, Manifest};
+use engine::Digest;
+
+/// How many releases a folder may hold that is searched for them; also how many other things.
+pub const MAX_RELEASES: usize = 10_000;
+
+/// A release as the chain sees it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Link {
+    /// Name of the release.
+    pub name: String,
+    /// Its root.
+    pub root: Digest,
+    /// The root of the release before, as it names it.
+    pub parent: Option<Digest>,
+    /// The folder or archive where it was found.
+    pub place: PathBuf,
+}
+
+impl Link {
+    /// The link that a manifest found at `place` states.
+    pub fn of(manifest: &Manifest, place: &Path) -> Link {
+        let Manifest { name, root, parent, .. } = manifest;
+        Link { name: name.clone(), root: *root, parent: *parent, place: place.to_path_buf() }
+    }
+}
+
+/// The releases before one, and what is wrong with them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Chain {
+    /// From the release that was asked about back to the oldest that was found.
+    pub releases: Vec<Link>,
+    /// Whether the last of them names no release before it.
+    pub complete: bool,
+    /// Releases that were given besides, which are none of the chain.
+    pub others: usize,
+    /// All that is wrong; empty if the chain is complete and there is no other history.
+    pub problems: Vec<String>,
+}
+
+/// Follows the roots from `start` back among the releases in `folders`, each a release (folder or archive) or a folder of
+/// releases. The integrity of every one that is given is checked; `start` is taken to be checked.
+///
+/// A chain is sound if every root that is named is found, up to a release that names none; if no two releases that were
+/// given have one name; and if no two follow the same release of the chain, which would be two histories.
+///
+/// Cost: one pass over the files of all releases, on all threads of the current rayon pool.
+///
+/// # Errors
+/// One of the folders holds no release, or the file system refuses.
+pub fn follow(start: Link, folders: &[PathBuf]) -> Result<Chain, SnapshotError> {
+    let mut places = BTreeSet::new();
+    for folder in folders {
+        places.extend(releases_in(folder)?);
+    }
+    let checked: Vec<Result<Link, String>> =
+        places.into_par_iter().map(|place| check(&place)).collect::<Result<_, _>>()?;
+    let (mut links, mut problems) = (Vec::new(), Vec::new());
+    for link in checked {
+        match link {
+            Ok(link) => links.push(link),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    Ok(join(start, links, problems))
+}
+
+/// The release at `place`; what is wrong if it is not sound.
+fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
+    let wrong = |what: &dyn std::fmt::Display| Ok(Err(format!("{}: {what}", place.display())));
+    match Contents::open(place) {
+        Ok((integrity, _)) => match integrity.problems.as_slice() {
+            [] => Ok(Ok(Link::of(&integrity.manifest, place))),
+            [only] => wrong(only),
+            [first, rest @ ..] => wrong(&format_args!("{first}; and {} more", rest.len())),
+        },
+        Err(error @ SnapshotError::Io { .. }) => Err(error),
+        Err(error) => match std::error::Error::source(&error) {
+            Some(source) => wrong(&format_args!("{error}: {source}")),
+            None => wrong(&error),
+        },
+    }
+}
+
+/// The releases that are `folder` or lie in it, by name. What else lies there is left alone, and no link is followed.
+fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
+    let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
+    let found = fs::metadata(folder).map_err(|source| match source.kind() {
+        ErrorKind::NotFound => SnapshotError::NotASnapshot { path: folder.to_path_buf() },
+        _ => SnapshotError::io("examine", folder)(source),
+    })?;
+    if found.is_file() || is_release(folder) {
+        return Ok(vec![folder.to_path_buf()]);
+    }
+    let mut places = Vec::new();
+    for (number, entry) in fs::read_dir(folder).map_err(SnapshotError::io("list", folder))?.enumerate() {
+        if number == MAX_RELEASES {
+            return Err(SnapshotError::Crowded { path: folder.to_path_buf(), limit: MAX_RELEASES });
+        }
+        let entry = entry.map_err(SnapshotError::io("list", folder))?;
+        let (place, name) = (entry.path(), entry.file_name());
+        let kind = entry.file_type().map_err(SnapshotError::io("examine", &place))?;
+        let archive = kind.is_file() && name.to_string_lossy().ends_with(".tar.zst");
+        // A sealed release is minted into `public/` and `held/`.
+        let public = place.join("public");
+        if archive || (kind.is_dir() && is_release(&place)) {
+            places.push(place);
+        } else if kind.is_dir() && public.is_dir() && !public.is_symlink() && is_release(&public) {
+            places.push(public);
+        }
+    }
+    if places.is_empty() {
+        return Err(SnapshotError::NoRelease { path: folder.to_path_buf() });
+    }
+    places.sort();
+    Ok(places)
+}
+
+/// The chain from `start` among sound `links`.
+fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
+    // The same release in two places is one: the root says what it is.
+    let mut by_root: BTreeMap<Digest, Link> = BTreeMap::new();
+    by_root.insert(start.root, start.clone());
+    for link in links {
+        by_root.entry(link.root).or_insert(link);
+    }
+    let mut releases = vec![start.clone()];
+    let mut passed = BTreeSet::from([start.root]);
+    let mut next = start.parent;
+    let mut complete = true;
+    while let Some(root) = next {
+        let newer = &releases[releases.len() - 1].name;
+        let Some(link) = by_root.get(&root) else {
+            problems.push(format!(
+                "`{newer}` follows the release with root {root}, which is not among those given: add its folder to \
+                 --chain"
+            ));
+            complete = false;
+            break;
+        };
+        if !passed.insert(root) {
+            problems
+                .push(format!("`{newer}` follows `{}`, which follows it: the chain is a ring", link.name));
+            complete = false;
+            break;
+        }
+        next = link.parent;
+        releases.push(link.clone());
+    }
+    let mut names: BTreeMap<&str, &Link> = BTreeMap::new();
+    let followers: BTreeMap<Digest, &Link> =
+        releases.iter().filter_map(|link| Some((link.parent?, link))).collect();
+    // Those of the chain first: they are what the others are held against.
+    let others: Vec<&Link> = by_root.values().filter(|link| !passed.contains(&link.root)).collect();
+    for link in releases.iter().chain(others.iter().copied()) {
+        if let Some(other) = names.insert(&link.name, link) {
+            problems.push(format!(
+                "two releases are called `{}`: root {} in {} and root {} in {}",
+                link.name,
+                other.root,
+                other.place.display(),
+                link.root,
+                link.place.display()
+            ));
+        }
+    }
+    for link in &others {
+        let Some(parent) = link.parent else { continue };
+        let Some(follower) = followers.get(&parent) else { continue };
+        problems.push(format!(
+            "`{}` in {} and `{}` in {} follow the same release, root {parent}: these are two histories, of which one \
+             should not be given",
+            follower.name,
+            follower.place.display(),
+            link.name,
+            link.place.display()
+        ));
+    }
+    let others = others.len();
+    Chain { releases, complete, others, problems }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn link(name: &str, root: &str, parent: Option<&str>) -> Link {
+        let digest = |text: &str| Digest::of(text.as_bytes());
+        Link { name: name.into(), root: digest(root), parent: parent.map(digest), place: name.into() }
+    }
+
+    #[track_caller]
+    fn check(start: Link, links: Vec<Link>, chain: &[&str], complete: bool, problems: &[&str]) {
+        let found = join(start, links, Vec::new());
+        let names: Vec<&str> = found.releases.iter().map(|link| link.name.as_str()).collect();
+        assert_eq!(names, chain);
+        assert_eq!(found.complete, complete);
+        assert_eq!(found.problems.len(), problems.len(), "{:?}", found.problems);
+        for (problem, words) in found.problems.iter().zip(problems) {
+            assert!(problem.contains(words), "{problem}");
+        }
+    }
+
+    #[test]
+    fn chains() {
+        let (one, two, three) = (link("1", "a", None), link("2", "b", Some("a")), link("3", "c", Some("b")));
+        check(one.clone(), vec![], &["1"], true, &[]);
+        check(three.clone(), vec![one.clone(), two.clone()], &["3", "2", "1"], true, &[]);
+        // The start is among those given, one of them twice, and a stranger.
+        let given = vec![two.clone(), one.clone(), two.clone(), three.clone(), link("tiny", "t", None)];
+        check(three.clone(), given.clone(), &["3", "2", "1"], true, &[]);
+        assert_eq!(join(three.clone(), given, Vec::new()).others, 1);
+        let missing = format!("`2` follows the release with root {}", one.root);
+        check(three.clone(), vec![two.clone()], &["3", "2"], false, &[&missing]);
+    }
+
+    #[test]
+    fn what_comes_after_is_not_asked_about() {
+        let (one, two, other) = (link("1", "a", None), link("2", "b", Some("a")), link("2b", "c", Some("a")));
+        check(one, vec![two, other], &["1"], true, &[]);
+    }
+
+    #[test]
+    fn other_histories() {
+        let (one, two, three) = (link("1", "a", None), link("2", "b", Some("a")), link("3", "c", Some("b")));
+        let fork = link("2x", "d", Some("a"));
+        check(
+            three.clone(),
+            vec![one.clone(), two.clone(), fork],
+            &["3", "2", "1"],
+            true,
+            &["`2` in 2 and `2x` in 2x follow the same release"],
+        );
+        let double = link("2", "e", None);
+        check(
+            three.clone(),
+            vec![one.clone(), two.clone(), double],
+            &["3", "2", "1"],
+            true,
+            &["two releases are called `2`"],
+        );
+        let homonym = link("3", "a", None);
+        check(three, vec![homonym, two], &["3", "2", "3"], true, &["two releases are called `3`"]);
+    }
+
+    /// Sound releases cannot form a ring, because a root covers the parent's; the walk ends all the same.
+    #[test]
+    fn rings_end() {
+        let (one, two) = (link("1", "a", Some("b")), link("2", "b", Some("a")));
+        check(two, vec![one], &["2", "1"], false, &["the chain is a ring"]);
+        check(link("1", "a", Some("a")), vec![], &["1"], false, &["the chain is a ring"]);
+    }
+}

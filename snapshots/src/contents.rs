@@ -1,0 +1,62 @@
+//! A release wherever it lies: in a folder or in an archive.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::archive::Archive;
+use crate::error::SnapshotError;
+use crate::folder::{self, Limits};
+use crate::integrity::{Integrity, check_integrity};
+
+/// What the files of a release are read from.
+pub(crate) enum Contents {
+    /// A folder.
+    Folder(PathBuf),
+    /// An archive, in memory.
+    Archive(Box<Archive>),
+}
+
+impl Contents {
+    /// Checks the integrity of the release at `place`, a folder or an archive, and gives its files.
+    ///
+    /// # Errors
+    /// As for [`check_integrity`] and [`Archive::open`].
+    pub(crate) fn open(place: &Path) -> Result<(Integrity, Contents), SnapshotError> {
+        if fs::metadata(place).is_ok_and(|found| found.is_file()) {
+            let archive = Archive::open(place)?;
+            return Ok((archive.integrity.clone(), Contents::Archive(Box::new(archive))));
+        }
+        Ok((check_integrity(place)?, Contents::Folder(place.to_path_buf())))
+    }
+
+    /// The content of a file that may not be there.
+    ///
+    /// # Errors
+    /// As for [`folder::read`].
+    pub(crate) fn find(&self, path: &str) -> Result<Option<Vec<u8>>, SnapshotError> {
+        match self.read(path) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(SnapshotError::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
+                Ok(None)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The content of a file that the manifest lists.
+    ///
+    /// # Errors
+    /// As for [`folder::read`]; for an archive, there is no such file.
+    pub(crate) fn read(&self, path: &str) -> Result<Vec<u8>, SnapshotError> {
+        match self {
+            Contents::Folder(root) => folder::read(root, path, Limits::SNAPSHOT.file_bytes),
+            Contents::Archive(archive) => {
+                archive.file(path).map(<[u8]>::to_vec).ok_or_else(|| SnapshotError::Io {
+                    action: "find",
+                    path: path.into(),
+                    source: std::io::ErrorKind::NotFound.into(),
+                })
+            }
+        }
+    }
+}

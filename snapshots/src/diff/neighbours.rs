@@ -1,0 +1,91 @@
+//! How near the games of one release are to those of another, by their rules.
+
+use super::Compared;
+use crate::figures::Quantiles;
+use rayon::prelude::*;
+use serde::Serialize;
+use validators::novelty::{NEAR, distance};
+
+/// Two games and how far apart their rules are.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Pair {
+    /// The later one.
+    pub after: String,
+    /// The earlier one.
+    pub before: String,
+    /// From 0 (the same rules) to 1 (nothing in common): [`validators::novelty::distance`].
+    pub distance: f64,
+}
+
+/// Nearest neighbours across.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Neighbours {
+    /// Distances of the later games to their nearest earlier one.
+    pub across: Option<Quantiles>,
+    /// The same for generated games alone, of both releases: corpus games return by design.
+    pub across_generated: Option<Quantiles>,
+    /// For scale: distances of the later games to the nearest other later one.
+    pub within: Option<Quantiles>,
+    /// Later games that are nearer to an earlier one than [`NEAR`]: the same rules with other numbers or in another fiction.
+    pub near: usize,
+    /// Those of them that are generated, as is the other.
+    pub near_generated: usize,
+    /// The nearest pairs of all, the nearest first.
+    pub closest: Vec<Pair>,
+}
+
+impl Neighbours {
+    /// Cost: O(rules) for each pair of games.
+    pub(super) fn of(before: &[Compared<'_>], after: &[Compared<'_>], closest: usize) -> Neighbours {
+        let rows: Vec<Vec<f64>> = after
+            .par_iter()
+            .map(|game| before.iter().map(|other| distance(&game.form, &other.form)).collect())
+            .collect();
+        let own: Vec<f64> = after
+            .par_iter()
+            .enumerate()
+            .filter_map(|(at, game)| {
+                let others = after.iter().enumerate().filter(|(other, _)| *other != at);
+                least(others.map(|(_, other)| distance(&game.form, &other.form)))
+            })
+            .collect();
+        let across: Vec<f64> = rows.iter().filter_map(|row| least(row.iter().copied())).collect();
+        let generated: Vec<f64> = rows
+            .iter()
+            .zip(after)
+            .filter(|(_, game)| game.is_generated())
+            .filter_map(|(row, _)| {
+                let made = row.iter().zip(before).filter(|(_, other)| other.is_generated());
+                least(made.map(|(apart, _)| *apart))
+            })
+            .collect();
+        let mut pairs: Vec<(f64, usize, usize)> = rows
+            .iter()
+            .enumerate()
+            .flat_map(|(at, row)| row.iter().enumerate().map(move |(other, apart)| (*apart, at, other)))
+            .collect();
+        pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        pairs.truncate(closest);
+        let near = |distances: &[f64]| distances.iter().filter(|apart| **apart < NEAR).count();
+        let id = |game: &Compared<'_>| game.released.card.id.clone();
+        Neighbours {
+            near: near(&across),
+            near_generated: near(&generated),
+            across: Quantiles::of(&across),
+            across_generated: Quantiles::of(&generated),
+            within: Quantiles::of(&own),
+            closest: pairs
+                .into_iter()
+                .map(|(distance, at, other)| Pair {
+                    after: id(&after[at]),
+                    before: id(&before[other]),
+                    distance,
+                })
+                .collect(),
+        }
+    }
+}
+
+fn least(distances: impl Iterator<Item = f64>) -> Option<f64> {
+    distances.min_by(f64::total_cmp)
+}

@@ -1,0 +1,203 @@
+//! How distributions of two releases differ, and whether chance would make them differ as much.
+//!
+//! Levels of one game are alike, so whether a difference is chance is asked of games: they are dealt to the two sides anew, as
+//! often as [`DEALS`] says, and the p-value is the share of deals, the one found among them, that differ at least as much (B.
+//! Phipson and G. K. Smyth, "Permutation p-values should never be zero", 2010).
+
+use super::Compared;
+use crate::card::Origin;
+use crate::figures::Quantiles;
+use engine::Seed;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Deals of a permutation test, the one found not counted.
+pub const DEALS: usize = 999;
+
+/// One of the values of a distribution.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Share {
+    /// The value.
+    pub value: String,
+    /// How many in the earlier release.
+    pub before: usize,
+    /// How many in the later one.
+    pub after: usize,
+}
+
+/// A distribution in both releases.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shift {
+    /// Of what.
+    pub name: &'static str,
+    /// How often each value occurs, by value.
+    pub shares: Vec<Share>,
+    /// The total variation distance of the two, from 0 for the same shares to 1 for nothing in common; none if one is empty.
+    pub distance: Option<f64>,
+    /// How often games dealt at random are at least as far apart.
+    pub p: Option<f64>,
+}
+
+/// Numbers in both releases.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NumberShift {
+    /// Of what.
+    pub name: &'static str,
+    /// In the earlier release.
+    pub before: Option<Quantiles>,
+    /// In the later one.
+    pub after: Option<Quantiles>,
+    /// The Kolmogorov–Smirnov distance of the two: the most that the shares below any number differ; none if one is empty.
+    pub distance: Option<f64>,
+    /// How often games dealt at random are at least as far apart.
+    pub p: Option<f64>,
+}
+
+/// What a game has of a distribution: one value, or one for each level, or several.
+type Values = fn(&Compared<'_>) -> Vec<String>;
+
+const SHIFTS: &[(&str, Values)] = &[
+    ("difficulty of levels", |game| {
+        let label = |ladder: &validators::Ladder| ladder.difficulty.to_string();
+        let levels = game.released.card.levels.iter();
+        levels.map(|level| level.ladder.as_ref().map_or("not measured".to_owned(), label)).collect()
+    }),
+    ("goal of games", |game| vec![game.kind.goal.name().to_owned()]),
+    ("avatar of games", |game| vec![game.kind.avatar.name().to_owned()]),
+    ("goal and avatar of games", |game| {
+        vec![format!("{} × {}", game.kind.goal.name(), game.kind.avatar.name())]
+    }),
+    ("chance in games", |game| vec![game.kind.chance.name().to_owned()]),
+    ("origin of games", |game| vec![if game.is_generated() { "generated" } else { "corpus" }.to_owned()]),
+    ("patterns of generated games", |game| match &game.released.card.origin {
+        Origin::Generated { patterns, .. } => patterns.clone(),
+        Origin::Corpus { .. } => Vec::new(),
+    }),
+    ("effects of rules", |game| game.kind.effects.iter().map(|family| family.name().to_owned()).collect()),
+    ("generators of levels", |game| {
+        game.released.card.levels.iter().map(|level| level.generator.clone()).collect()
+    }),
+];
+
+type Numbers = fn(&Compared<'_>) -> Vec<f64>;
+
+const NUMBERS: &[(&str, Numbers)] = &[
+    ("cells of a board", |game| {
+        game.released.levels.iter().map(|level| level.level.cells().len() as f64).collect()
+    }),
+    ("columns of a board", |game| {
+        game.released.levels.iter().map(|level| level.level.columns() as f64).collect()
+    }),
+    ("rows of a board", |game| game.released.levels.iter().map(|level| level.level.rows() as f64).collect()),
+    ("interactions of a game, guards apart", |game| vec![game.kind.interactions as f64]),
+    ("levels of a game", |game| vec![game.released.levels.len() as f64]),
+    ("ticks of a witness", |game| {
+        game.released.card.levels.iter().map(|level| level.witness_ticks as f64).collect()
+    }),
+    ("ease of a level", |game| {
+        let ladders = game.released.card.levels.iter().filter_map(|level| level.ladder.as_ref());
+        ladders.filter_map(|ladder| ladder.ease).collect()
+    }),
+];
+
+/// All distributions of values.
+pub(super) fn shifts(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Shift> {
+    let shift = |&(name, of): &(&'static str, Values)| {
+        let games = |side: &[Compared<'_>]| side.iter().map(of).collect::<Vec<_>>();
+        Shift::of(name, &games(before), &games(after))
+    };
+    SHIFTS.iter().map(shift).collect()
+}
+
+/// All distributions of numbers.
+pub(super) fn numbers(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<NumberShift> {
+    let shift = |&(name, of): &(&'static str, Numbers)| {
+        let games = |side: &[Compared<'_>]| side.iter().map(of).collect::<Vec<_>>();
+        NumberShift::of(name, &games(before), &games(after))
+    };
+    NUMBERS.iter().map(shift).collect()
+}
+
+impl Shift {
+    /// Of the values of each game.
+    pub(super) fn of(name: &'static str, before: &[Vec<String>], after: &[Vec<String>]) -> Shift {
+        let mut counts: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+        for (side, games) in [before, after].into_iter().enumerate() {
+            for value in games.iter().flatten() {
+                counts.entry(value).or_default()[side] += 1;
+            }
+        }
+        let values: Vec<&str> = counts.keys().copied().collect();
+        let place = |value: &String| values.binary_search(&value.as_str()).expect("it was counted");
+        let games: Vec<Vec<usize>> =
+            before.iter().chain(after).map(|game| game.iter().map(place).collect()).collect();
+        let distance = |sides: &[bool]| {
+            let mut counts = vec![[0_u32; 2]; values.len()];
+            for (game, side) in games.iter().zip(sides) {
+                game.iter().for_each(|value| counts[*value][usize::from(*side)] += 1);
+            }
+            variation(&counts)
+        };
+        let (distance, p) = test(name, (before.len(), after.len()), distance);
+        let share =
+            |(value, [before, after]): (&str, [usize; 2])| Share { value: value.to_owned(), before, after };
+        Shift { name, shares: counts.into_iter().map(share).collect(), distance, p }
+    }
+}
+
+impl NumberShift {
+    /// Of the numbers of each game.
+    pub(super) fn of(name: &'static str, before: &[Vec<f64>], after: &[Vec<f64>]) -> NumberShift {
+        let games = before.iter().chain(after).enumerate();
+        let mut numbers: Vec<(f64, usize)> =
+            games.flat_map(|(at, game)| game.iter().map(move |number| (*number, at))).collect();
+        numbers.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let distance = |sides: &[bool]| {
+            let mut all = [0_u32; 2];
+            numbers.iter().for_each(|(_, game)| all[usize::from(sides[*game])] += 1);
+            if all.contains(&0) {
+                return None;
+            }
+            let (mut below, mut most) = ([0_u32; 2], 0.0_f64);
+            for (at, (number, game)) in numbers.iter().enumerate() {
+                below[usize::from(sides[*game])] += 1;
+                // Of equal numbers only the last tells how many are below or equal.
+                if numbers.get(at + 1).is_none_or(|(next, _)| next != number) {
+                    let [one, other] = [0, 1].map(|side| f64::from(below[side]) / f64::from(all[side]));
+                    most = most.max((one - other).abs());
+                }
+            }
+            Some(most)
+        };
+        let (distance, p) = test(name, (before.len(), after.len()), distance);
+        let quantiles = |games: &[Vec<f64>]| Quantiles::of(&games.concat());
+        NumberShift { name, before: quantiles(before), after: quantiles(after), distance, p }
+    }
+}
+
+/// Half of what the shares differ by; none if one side is empty.
+fn variation(counts: &[[u32; 2]]) -> Option<f64> {
+    let all = [0, 1].map(|side: usize| counts.iter().map(|count| count[side]).sum::<u32>());
+    let share = |count: &[u32; 2], side: usize| f64::from(count[side]) / f64::from(all[side]);
+    let apart = |count: &[u32; 2]| (share(count, 0) - share(count, 1)).abs();
+    (!all.contains(&0)).then(|| counts.iter().map(apart).sum::<f64>() / 2.0)
+}
+
+/// A distance and its p-value: `distance` is asked with the side of each game, the earlier ones first.
+fn test(
+    name: &str,
+    (before, after): (usize, usize),
+    distance: impl Fn(&[bool]) -> Option<f64>,
+) -> (Option<f64>, Option<f64>) {
+    let mut sides = vec![false; before];
+    sides.resize(before + after, true);
+    let Some(found) = distance(&sides) else { return (None, None) };
+    let mut sampler = Seed::from_text("diff").child(name, 0).sampler();
+    let mut as_far = 1;
+    for _ in 0..DEALS {
+        sampler.shuffle(&mut sides);
+        // Rounding aside; a deal that leaves one side without values is as far apart as can be.
+        as_far += usize::from(distance(&sides).is_none_or(|apart| apart >= found - 1e-12));
+    }
+    (Some(found), Some(as_far as f64 / (DEALS + 1) as f64))
+}

@@ -1,0 +1,129 @@
+//! Releases of a few games, whose differences are known.
+
+use super::*;
+use crate::card::Card;
+use crate::manifest::tests::example;
+use crate::released::ReleasedLevel;
+use crate::rungs::tests::card;
+use engine::Game;
+
+/// Fetch the gems. `names` are those of gem, foe and ground character.
+fn source(names: [&str; 3], foe: &str) -> String {
+    let [gem, imp, ground] = names;
+    format!(
+        "BasicGame\n  SpriteSet\n    {gem} > Immovable\n    {imp} > {foe}\n    avatar > MovingAvatar\n  LevelMapping\n    g > {gem}\n    {ground} > {imp}\n  InteractionSet\n    avatar wall > stepBack\n    avatar {imp} > killSprite\n    {gem} avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype={gem} win=True\n    SpriteCounter stype=avatar win=False\n"
+    )
+}
+
+fn game(id: &str, source: &str, levels: &[&str], generated: bool) -> ReleasedGame {
+    let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}\n{source}"));
+    let level = |text: &&str| {
+        let level = game.level(text).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
+        ReleasedLevel { text: level.to_string(), level, witness: None }
+    };
+    let levels: Vec<ReleasedLevel> = levels.iter().map(level).collect();
+    let mut card: Card = card(id, &vec![[5, 5]; levels.len()]);
+    if generated {
+        let patterns = vec!["goal/gather".to_owned()];
+        card.origin = Origin::Generated { generator: "g".to_owned(), patterns, candidate: 0 };
+    }
+    ReleasedGame { card, source: source.to_owned(), levels, game }
+}
+
+fn release(games: Vec<ReleasedGame>) -> Released {
+    Released { manifest: example(&[]), games }
+}
+
+const LEVEL: &str = "wwwww\nwA gw\nw f w\nwwwww\n";
+const OTHER: &str = "wwwww\nwAg w\nw  fw\nwwwww\n";
+
+#[test]
+fn what_is_the_same_is_found_in_any_dress() {
+    let plain = source(["gem", "imp", "f"], "RandomNPC");
+    // Renamed, with another character, and the board turned by a quarter and mirrored.
+    let dressed = source(["orb", "elf", "e"], "RandomNPC");
+    let turned = "wwww\nwA w\nw ew\nwg w\nwwww\n";
+    let before = release(vec![
+        game("a", &plain, &[LEVEL, OTHER], true),
+        game("b", &source(["gem", "imp", "f"], "Chaser stype=avatar"), &[LEVEL], true),
+    ]);
+    let after = release(vec![
+        game("c", &dressed, &[turned], false),
+        game("d", &source(["gem", "imp", "f"], "Fleeing stype=avatar"), &[LEVEL], true),
+    ]);
+    let diff = Diff::of(&before, &after, 2);
+    let told = |changes: &Changes| {
+        let each = changes.each.iter().map(|change| (change.status, change.id.clone(), change.was.clone()));
+        each.collect::<Vec<_>>()
+    };
+    let line = |status, id: &str, was: Option<&str>| (status, id.to_owned(), was.map(str::to_owned));
+    let games =
+        [line(Status::Changed, "c", Some("a")), line(Status::New, "d", None), line(Status::Gone, "b", None)];
+    assert_eq!(told(&diff.games), games);
+    let items = [
+        line(Status::Changed, "c/lvl0", Some("a/lvl0")),
+        line(Status::New, "d/lvl0", None),
+        line(Status::Gone, "a/lvl1", None),
+        line(Status::Gone, "b/lvl0", None),
+    ];
+    assert_eq!(told(&diff.items), items);
+    assert_eq!((diff.items.new, diff.items.changed, diff.items.gone, diff.items.kept), (1, 1, 2, 0));
+    assert_eq!(diff.games.returned_generated, 0, "the one that returned is of the corpus now");
+    let nearest = &diff.neighbours.closest[0];
+    assert_eq!((nearest.after.as_str(), nearest.before.as_str(), nearest.distance), ("c", "a", 0.0));
+    // One class changed makes no new game: `d` is near `b`, and both are generated.
+    assert_eq!((diff.neighbours.near, diff.neighbours.near_generated), (2, 1));
+    assert!(diff.neighbours.across_generated.unwrap().min > 0.0);
+}
+
+#[test]
+fn a_release_is_the_same_as_itself() {
+    let plain = source(["gem", "imp", "f"], "RandomNPC");
+    // The second level twice: each has a partner of its own.
+    let release = release(vec![game("a", &plain, &[LEVEL, OTHER, OTHER], true)]);
+    let diff = Diff::of(&release, &release, 9);
+    assert_eq!((diff.games.kept, diff.games.each.len()), (1, 1));
+    assert_eq!((diff.items.kept, diff.items.each.len(), diff.items.returned_generated), (3, 3, 3));
+    let was: Vec<Option<&str>> = diff.items.each.iter().map(|change| change.was.as_deref()).collect();
+    assert_eq!(was, [Some("a/lvl0"), Some("a/lvl1"), Some("a/lvl2")]);
+    assert!(diff.shifts.iter().all(|shift| shift.distance == Some(0.0) && shift.p == Some(1.0)));
+    assert!(diff.numbers.iter().all(|shift| shift.distance == Some(0.0) && shift.p == Some(1.0)));
+    assert!(diff.rungs.iter().all(|rung| rung.difference == 0.0 && rung.includes_zero()));
+    assert_eq!(diff.neighbours.within, None, "there is no other game");
+}
+
+#[test]
+fn one_cell_makes_a_level_new() {
+    let plain = source(["gem", "imp", "f"], "RandomNPC");
+    let before = release(vec![game("a", &plain, &[LEVEL], true)]);
+    let after = release(vec![game("a", &plain, &["wwwww\nwA gw\nw  fw\nwwwww\n"], true)]);
+    let diff = Diff::of(&before, &after, 1);
+    assert_eq!((diff.games.kept, diff.items.kept, diff.items.new, diff.items.gone), (1, 0, 1, 1));
+}
+
+fn texts(values: &[&str], games: usize) -> Vec<Vec<String>> {
+    (0..games).map(|_| values.iter().map(|&value| value.to_owned()).collect()).collect()
+}
+
+#[test]
+fn shifts_are_told_from_chance_game_by_game() {
+    let found = Shift::of("t", &texts(&["a", "a", "b"], 20), &texts(&["a", "b", "b"], 20));
+    assert!((found.distance.unwrap() - 1.0 / 3.0).abs() < 1e-12, "{found:?}");
+    assert_eq!(found.p, Some(0.001));
+    assert_eq!(found.shares[1], Share { value: "b".to_owned(), before: 20, after: 40 });
+    // Three games a side: only 1 of 10 deals tells as much apart, however many levels each has.
+    let few = Shift::of("t", &texts(&["a"; 50], 3), &texts(&["b"; 50], 3));
+    assert_eq!(few.distance, Some(1.0));
+    assert!((0.07..0.13).contains(&few.p.unwrap()), "{few:?}");
+    assert_eq!(Shift::of("t", &texts(&["a"], 3), &[]).p, None);
+}
+
+#[test]
+fn numbers_are_told_apart_by_the_shares_below_them() {
+    let found = NumberShift::of("t", &vec![vec![1.0, 2.0]; 10], &vec![vec![2.0, 3.0]; 10]);
+    assert_eq!((found.distance, found.p), (Some(0.5), Some(0.001)));
+    assert_eq!((found.before.unwrap().median, found.after.unwrap().max), (1.5, 3.0));
+    let same = NumberShift::of("t", &[vec![1.0], vec![2.0]], &[vec![2.0], vec![1.0]]);
+    assert_eq!((same.distance, same.p), (Some(0.0), Some(1.0)));
+    assert_eq!(NumberShift::of("t", &[vec![]], &[vec![1.0]]).distance, None);
+}

@@ -1,0 +1,220 @@
+//! The columns of an export: what each is called, what it holds and where that comes from. All formats, the dataset card and
+//! the page (`docs/export.md`) follow this table.
+
+use super::item::Item;
+use crate::card::{LevelCard, Origin};
+use validators::{Fared, Rate};
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A text, never missing.
+    Text,
+    /// A text, or missing.
+    MaybeText,
+    /// A 64-bit whole number, never missing.
+    Integer,
+    /// A 64-bit whole number, or missing.
+    MaybeInteger,
+    /// A 64-bit float, never missing.
+    Number,
+    /// A 64-bit float, or missing.
+    MaybeNumber,
+    /// Yes or no, never missing.
+    Flag,
+    /// Texts, perhaps none.
+    Texts,
+    /// Records, perhaps none: the fields with what they hold, none of which is a list.
+    Records(&'static [(&'static str, Kind)]),
+}
+
+impl Kind {
+    /// As `docs/export.md` calls it.
+    pub fn name(self) -> String {
+        let fields = |fields: &[(&str, Kind)]| {
+            let told: Vec<String> =
+                fields.iter().map(|(name, kind)| format!("{name}: {}", kind.name())).collect();
+            format!("list of {{{}}}", told.join(", "))
+        };
+        match self {
+            Kind::Text => "string".to_owned(),
+            Kind::MaybeText => "string or null".to_owned(),
+            Kind::Integer => "int64".to_owned(),
+            Kind::MaybeInteger => "int64 or null".to_owned(),
+            Kind::Number => "float64".to_owned(),
+            Kind::MaybeNumber => "float64 or null".to_owned(),
+            Kind::Flag => "bool".to_owned(),
+            Kind::Texts => "list of string".to_owned(),
+            Kind::Records(named) => fields(named),
+        }
+    }
+}
+
+/// What a row has in a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Nothing is known.
+    Missing,
+    /// Of [`Kind::Text`] or [`Kind::MaybeText`].
+    Text(String),
+    /// Of [`Kind::Integer`] or [`Kind::MaybeInteger`].
+    Integer(i64),
+    /// Of [`Kind::Number`] or [`Kind::MaybeNumber`].
+    Number(f64),
+    /// Of [`Kind::Flag`].
+    Flag(bool),
+    /// Of [`Kind::Texts`]: each a text.
+    Texts(Vec<Value>),
+    /// Of [`Kind::Records`]: the fields in their order.
+    Records(Vec<Vec<Value>>),
+}
+
+/// A column.
+#[derive(Clone, Copy)]
+pub struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// What it holds.
+    pub kind: Kind,
+    of: fn(&Item<'_>) -> Value,
+}
+
+impl Column {
+    pub(super) const fn new(name: &'static str, kind: Kind, of: fn(&Item<'_>) -> Value) -> Column {
+        Column { name, kind, of }
+    }
+
+    /// What an item has in it.
+    pub(super) fn value(&self, item: &Item<'_>) -> Value {
+        (self.of)(item)
+    }
+}
+
+const LEGEND: &[(&str, Kind)] = &[("symbol", Kind::Text), ("sprites", Kind::Text)];
+
+const LADDER: &[(&str, Kind)] = &[
+    ("player", Kind::Text),
+    ("looks_ahead", Kind::Flag),
+    ("held_out", Kind::Flag),
+    ("plays", Kind::Integer),
+    ("wins", Kind::Integer),
+    ("win_rate", Kind::MaybeNumber),
+    ("reward", Kind::MaybeNumber),
+];
+
+/// Of every export.
+const PLAIN: &[Column] = &[
+    Column::new("item_id", Kind::Text, |item| text(item.id())),
+    Column::new("release", Kind::Text, |item| text(&item.manifest.name)),
+    Column::new("release_root", Kind::Text, |item| text(item.manifest.root)),
+    Column::new("split", Kind::Text, |_| text(super::SPLIT)),
+    Column::new("twin", Kind::MaybeText, |item| item.twin.map_or(Value::Missing, text)),
+    Column::new("game_id", Kind::Text, |item| text(&item.card.id)),
+    Column::new("level", Kind::Integer, |item| count(item.number)),
+    Column::new("origin", Kind::Text, |item| {
+        text(match item.card.origin {
+            Origin::Corpus { .. } => "corpus",
+            Origin::Generated { .. } => "generated",
+        })
+    }),
+    Column::new("origin_name", Kind::Text, |item| match &item.card.origin {
+        Origin::Corpus { name } | Origin::Generated { generator: name, .. } => text(name),
+    }),
+    Column::new("patterns", Kind::Texts, |item| match &item.card.origin {
+        Origin::Corpus { .. } => Value::Texts(Vec::new()),
+        Origin::Generated { patterns, .. } => Value::Texts(patterns.iter().map(text).collect()),
+    }),
+    Column::new("title", Kind::Text, |item| text(&item.dress.title)),
+    Column::new("description", Kind::Text, |item| text(&item.dress.description)),
+    Column::new("goal", Kind::Text, |item| text(&item.dress.goal)),
+    Column::new("rules", Kind::Text, |item| text(&item.dress.rules)),
+    Column::new("vgdl", Kind::Text, |item| text(&item.dress.source)),
+    Column::new("level_text", Kind::Text, |item| text(&item.worn().text)),
+    Column::new("columns", Kind::Integer, |item| count(item.worn().level.columns())),
+    Column::new("rows", Kind::Integer, |item| count(item.worn().level.rows())),
+    Column::new("legend", Kind::Records(LEGEND), |item| {
+        let line = |(symbol, sprites): &(char, String)| vec![text(symbol), text(sprites)];
+        Value::Records(item.dress.legend.iter().map(line).collect())
+    }),
+    Column::new("kind", Kind::Text, |item| text(&item.card.kind)),
+    Column::new("goal_kind", Kind::Text, |item| text(item.dress.kind.goal.name())),
+    Column::new("avatar_kind", Kind::Text, |item| text(item.dress.kind.avatar.name())),
+    Column::new("chance", Kind::Text, |item| text(item.dress.kind.chance.name())),
+    Column::new("real_time", Kind::Flag, |item| Value::Flag(item.card.real_time)),
+    Column::new("deterministic", Kind::Flag, |item| Value::Flag(item.card.deterministic)),
+    Column::new("difficulty", Kind::MaybeText, |item| {
+        let label = item.level().ladder.as_ref().map(|ladder| ladder.difficulty.to_string());
+        label.map_or(Value::Missing, |label| text(label.replace(' ', "_")))
+    }),
+    Column::new("ease", Kind::MaybeNumber, |item| {
+        maybe(item.level().ladder.as_ref().and_then(|ladder| ladder.ease))
+    }),
+    Column::new("difficulty_asked", Kind::Number, |item| Value::Number(item.level().difficulty)),
+    Column::new("ladder", Kind::Records(LADDER), |item| ladder(item.level())),
+    Column::new("tree_search_win_rate", Kind::MaybeNumber, |item| rate(&item.level().mcts)),
+    Column::new("random_win_rate", Kind::MaybeNumber, |item| rate(&item.level().random)),
+    Column::new("idle_win_rate", Kind::MaybeNumber, |item| rate(&item.level().idle)),
+    Column::new("witness_ticks", Kind::Integer, |item| count(item.level().witness_ticks)),
+    Column::new("witness_score", Kind::Number, |item| Value::Number(item.level().witness_score)),
+    Column::new("optimal_ticks", Kind::MaybeInteger, |item| {
+        item.level().optimal_ticks.map_or(Value::Missing, count)
+    }),
+    Column::new("level_generator", Kind::Text, |item| text(&item.level().generator)),
+    Column::new("game_digest", Kind::Text, |item| text(item.dress.game.digest())),
+    Column::new("level_digest", Kind::Text, |item| text(item.worn().level.digest())),
+    Column::new("rules_digest", Kind::Text, |item| text(item.dress.form)),
+    Column::new("semantics", Kind::Integer, |item| Value::Integer(i64::from(item.manifest.semantics))),
+    Column::new("generation", Kind::Integer, |item| Value::Integer(i64::from(item.manifest.generation))),
+    Column::new("canary", Kind::Text, |item| text(&item.manifest.canary)),
+];
+
+/// Of an export with solutions, after the others.
+const SOLUTIONS: &[Column] = &[
+    Column::new("solution", Kind::Texts, |item| {
+        let actions = item.worn().witness.iter().flat_map(|episode| &episode.actions);
+        Value::Texts(actions.map(text).collect())
+    }),
+    Column::new("solution_seed", Kind::MaybeText, |item| {
+        item.worn().witness.as_ref().map_or(Value::Missing, |episode| text(episode.seed))
+    }),
+];
+
+/// The columns of an export, in their order.
+pub fn columns(solutions: bool) -> Vec<Column> {
+    PLAIN.iter().chain(if solutions { SOLUTIONS } else { &[] }).copied().collect()
+}
+
+fn text(shown: impl ToString) -> Value {
+    Value::Text(shown.to_string())
+}
+
+/// Counts of a release are below its limits, far from 2^63.
+fn count(number: usize) -> Value {
+    Value::Integer(i64::try_from(number).unwrap_or(i64::MAX))
+}
+
+fn maybe(number: Option<f64>) -> Value {
+    number.map_or(Value::Missing, Value::Number)
+}
+
+fn rate(rate: &Rate) -> Value {
+    maybe((rate.plays > 0).then(|| rate.wins as f64 / rate.plays as f64))
+}
+
+fn ladder(level: &LevelCard) -> Value {
+    let whole = |number: u64| Value::Integer(i64::try_from(number).unwrap_or(i64::MAX));
+    let record = |fared: &Fared, held_out: bool| {
+        vec![
+            text(&fared.player),
+            Value::Flag(fared.looks_ahead),
+            Value::Flag(held_out),
+            whole(fared.rate.plays),
+            whole(fared.rate.wins),
+            rate(&fared.rate),
+            maybe(fared.reward),
+        ]
+    };
+    let Some(ladder) = &level.ladder else { return Value::Records(Vec::new()) };
+    let rungs = ladder.rungs.iter().map(|fared| record(fared, false));
+    Value::Records(rungs.chain(ladder.held_out.iter().map(|fared| record(fared, true))).collect())
+}

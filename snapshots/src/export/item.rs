@@ -1,0 +1,105 @@
+//! What a row of an export is made from: a level with its game, in the game's own fiction or in that of a twin.
+
+use crate::card::{Card, LevelCard};
+use crate::manifest::Manifest;
+use crate::released::{ReleasedGame, ReleasedLevel};
+use crate::twin::{Twin, TwinError, TwinGame};
+use engine::{Analysis, Digest, Episode, Game};
+use std::borrow::Cow;
+use validators::{GameForm, GameKind};
+
+/// A game as it is shown.
+pub(super) struct Dress<'a> {
+    pub(super) title: String,
+    pub(super) description: String,
+    pub(super) goal: String,
+    /// The rules in plain English.
+    pub(super) rules: String,
+    pub(super) source: String,
+    pub(super) game: Game,
+    pub(super) levels: Cow<'a, [ReleasedLevel]>,
+    /// By character: the types that it places, by name.
+    pub(super) legend: Vec<(char, String)>,
+    pub(super) kind: GameKind,
+    /// Digest of the rules without names and order.
+    pub(super) form: Digest,
+}
+
+impl<'a> Dress<'a> {
+    /// As it was released.
+    pub(super) fn own(released: &'a ReleasedGame) -> Dress<'a> {
+        let ReleasedGame { card, source, game, levels } = released;
+        Dress {
+            title: card.title.clone(),
+            description: card.description.clone(),
+            goal: card.goal.clone(),
+            rules: card.rules.clone(),
+            source: source.clone(),
+            levels: Cow::Borrowed(levels),
+            legend: legend(game),
+            kind: GameKind::of(&Analysis::of(game)),
+            form: GameForm::of(game).digest(),
+            game: game.clone(),
+        }
+    }
+
+    /// As its twin.
+    pub(super) fn of_twin(twin: TwinGame) -> Result<Dress<'a>, TwinError> {
+        let game = Game::from_source(&twin.text).map_err(TwinError::Game)?;
+        let level = |(number, (text, witness)): (usize, (String, Option<Episode>))| {
+            let level = game.level(&text).map_err(|problems| TwinError::Level { number, problems })?;
+            Ok(ReleasedLevel { text, level, witness })
+        };
+        let levels = twin.levels.into_iter().zip(twin.witnesses).enumerate().map(level);
+        let levels: Vec<ReleasedLevel> = levels.collect::<Result<_, TwinError>>()?;
+        Ok(Dress {
+            title: twin.title,
+            description: twin.description,
+            goal: twin.goal,
+            rules: engine::describe(&game),
+            source: twin.text,
+            levels: Cow::Owned(levels),
+            legend: legend(&game),
+            kind: GameKind::of(&Analysis::of(&game)),
+            form: GameForm::of(&game).digest(),
+            game,
+        })
+    }
+}
+
+/// What each character of the LevelMapping places, by character.
+pub(super) fn legend(game: &Game) -> Vec<(char, String)> {
+    let line = |symbol: u8| {
+        let names: Vec<&str> = game.places(symbol).iter().map(|&stype| game.name(stype)).collect();
+        (!names.is_empty()).then(|| (char::from(symbol), names.join(" ")))
+    };
+    (0..128).filter_map(line).collect()
+}
+
+/// A row in the making.
+pub(super) struct Item<'a> {
+    pub(super) manifest: &'a Manifest,
+    pub(super) card: &'a Card,
+    pub(super) dress: &'a Dress<'a>,
+    /// Of the level, from 0.
+    pub(super) number: usize,
+    /// Which twin is shown, if it is one.
+    pub(super) twin: Option<Twin>,
+}
+
+impl Item<'_> {
+    /// Unique among all items of all releases and their twins.
+    pub(super) fn id(&self) -> String {
+        let twin = self.twin.map(|twin| format!("+{twin}")).unwrap_or_default();
+        format!("{}/{}/lvl{}{twin}", self.manifest.name, self.card.id, self.number)
+    }
+
+    pub(super) fn level(&self) -> &LevelCard {
+        &self.card.levels[self.number]
+    }
+
+    /// The level as it is shown.
+    pub(super) fn worn(&self) -> &ReleasedLevel {
+        &self.dress.levels[self.number]
+    }
+}

@@ -1,0 +1,150 @@
+//! `README.md` of an export: the dataset card, in the form that dataset hubs read, which is YAML between two lines of `---`
+//! and then Markdown.
+
+use super::columns::{Column, Kind};
+use super::item::Dress;
+use super::{Export, Format, SPLIT};
+use crate::card::{Card, Origin};
+use crate::released::Released;
+use std::fmt::Write;
+
+/// The rows that a card is about.
+pub(super) struct Rows<'a> {
+    /// Where they lie.
+    pub(super) file: &'a str,
+    /// How many bytes they have.
+    pub(super) bytes: usize,
+    /// The games that they show.
+    pub(super) games: &'a [(&'a Card, Dress<'a>)],
+    /// How many levels of these, and so rows.
+    pub(super) levels: usize,
+}
+
+/// The card of an export.
+pub(super) fn page(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'_>) -> String {
+    let mut text = front(released, export, columns, rows);
+    text += &body(released, export, rows);
+    text
+}
+
+/// A YAML text in double quotes: JSON's quoting is YAML's.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+fn title(released: &Released, export: &Export) -> String {
+    let twin = export.twin.map(|twin| format!(", {twin}")).unwrap_or_default();
+    format!("Infinite Arcade {}{twin}", released.manifest.name)
+}
+
+fn front(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'_>) -> String {
+    let Rows { file, bytes, levels: rows, .. } = *rows;
+    let size = match rows {
+        0..1_000 => "n<1K",
+        1_000..10_000 => "1K<n<10K",
+        10_000..100_000 => "10K<n<100K",
+        _ => "100K<n<1M",
+    };
+    let mut text = format!(
+        "---\npretty_name: {}\nlicense:\n- mit\n- apache-2.0\nlanguage:\n- en\nannotations_creators:\n- machine-generated\n\
+         language_creators:\n- machine-generated\nsource_datasets:\n- original\nsize_categories:\n- {size}\n\
+         task_categories:\n- reinforcement-learning\n- text-generation\ntags:\n- games\n- vgdl\n- planning\n- benchmark\n- evaluation\n",
+        quoted(&title(released, export)),
+    );
+    let _ = write!(
+        text,
+        "configs:\n- config_name: default\n  data_files:\n  - split: {SPLIT}\n    path: {file}\ndataset_info:\n  features:\n"
+    );
+    for Column { name, kind, .. } in columns {
+        let _ = match kind {
+            Kind::Texts => writeln!(text, "  - name: {name}\n    list: string"),
+            Kind::Records(fields) => {
+                let _ = writeln!(text, "  - name: {name}\n    list:");
+                fields.iter().try_for_each(|(name, kind)| {
+                    writeln!(text, "    - name: {name}\n      dtype: {}", dtype(*kind))
+                })
+            }
+            kind => writeln!(text, "  - name: {name}\n    dtype: {}", dtype(*kind)),
+        };
+    }
+    let _ = write!(
+        text,
+        "  splits:\n  - name: {SPLIT}\n    num_bytes: {bytes}\n    num_examples: {rows}\n  download_size: {bytes}\n  \
+         dataset_size: {bytes}\n---\n\n"
+    );
+    text
+}
+
+fn dtype(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Text | Kind::MaybeText => "string",
+        Kind::Integer | Kind::MaybeInteger => "int64",
+        Kind::Number | Kind::MaybeNumber => "float64",
+        Kind::Flag => "bool",
+        Kind::Texts | Kind::Records(_) => unreachable!("a field of a record is no list"),
+    }
+}
+
+fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {
+    let manifest = &released.manifest;
+    let Rows { file, levels, .. } = *rows;
+    let games = rows.games.len();
+    let new = rows.games.iter().filter(|(card, _)| matches!(card.origin, Origin::Generated { .. })).count();
+    let mut text = format!(
+        "# {}\n\n{levels} levels of {games} arcade games, {new} of them with new rules, made and verified by Infinite Arcade: every \
+         level has been won, none by doing nothing. A row of `{file}` is one level with all of its game: rules in plain \
+         English and in VGDL, the board as text, what each of its characters stands for, and how hard it is.\n\n",
+        title(released, export),
+    );
+    let _ = write!(
+        text,
+        "**Please keep this dataset out of training data.** Its only split is `{SPLIT}`. Canary: `{}`\n\n",
+        manifest.canary
+    );
+    if let Some(twin) = export.twin {
+        let _ = write!(
+            text,
+            "## A twin\n\nThis is the `{twin}` twin of the release: the same mechanics under another surface, to tell whether a \
+             model understands a game or remembers it. `title`, `description`, `goal`, `rules`, `vgdl`, `level_text`, `legend` and \
+             the digests are the twin's; what was measured (difficulty, ladder, win rates, witness) was measured on the \
+             original. `game_id` and `item_id` join the two, and do not belong in a prompt.\n\n"
+        );
+    }
+    let solutions = match export.solutions {
+        true => {
+            "The columns `solution` and `solution_seed` hold an episode that wins the level: keep them from whoever is evaluated."
+        }
+        false => "No row holds a solution; the release does, in its `witness` files.",
+    };
+    let _ = write!(text, "{solutions}\n\n## Where it comes from\n\n");
+    let _ = write!(
+        text,
+        "Release `{}`, root digest\n\n    {}\n\n(engine semantics {}, generation {}). This dataset is an excerpt of it; check the \
+         release itself with\n\n    arcade verify DIR        # its digests, and every win replayed\n    arcade regenerate DIR    # minted again \
+         from its seed, bit for bit{}\n\nand make this dataset from it, byte for byte, with\n\n    arcade export DIR --format {}{}{} --out \
+         dataset\n\n",
+        manifest.name,
+        manifest.root,
+        manifest.semantics,
+        manifest.generation,
+        match manifest.kind {
+            crate::Kind::Open => "",
+            crate::Kind::Sealed => ", once that is revealed",
+        },
+        export.format,
+        export.twin.map(|twin| format!(" --twin {twin}")).unwrap_or_default(),
+        if export.solutions { " --solutions" } else { "" },
+    );
+    let load = match export.format {
+        Format::JsonLines => format!("pandas.read_json(\"{file}\", lines=True)"),
+        #[cfg(feature = "parquet")]
+        Format::Parquet => format!("pandas.read_parquet(\"{file}\")"),
+        Format::Games => unreachable!("folders of games have no rows to read"),
+    };
+    let _ = write!(
+        text,
+        "## Reading it\n\n```python\nimport datasets, pandas\n\nitems = datasets.load_dataset(\"DIR\", split=\"{SPLIT}\")   # DIR: this \
+         folder\ntable = {load}\n```\n\nThe columns are explained in the project's `docs/export.md`.\n"
+    );
+    text
+}

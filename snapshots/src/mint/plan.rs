@@ -1,0 +1,311 @@
+//! What a recipe comes to: a list of lots, each made by itself from a seed of its own.
+
+use super::MintError;
+use super::lot::{FrozenGame, LotResult};
+use super::select::word;
+use super::tally::Tally;
+use crate::canonical::to_canonical_json;
+use crate::card::Origin;
+use crate::corpus::Corpus;
+use crate::games::{Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, make_games, make_one};
+use crate::levels::Method;
+use crate::recipe::Recipe;
+use crate::sealed::Secret;
+use crate::{Digest, SnapshotError, canary};
+use engine::{Game, Level, Sampler, Seed, syntax};
+use generators::games::Retold;
+use generators::levels::{Examples, LevelConfig};
+use std::sync::Arc;
+use validators::Panel;
+use validators::novelty::GameForm;
+
+/// A recipe with all that minting takes, in order.
+#[derive(Debug)]
+pub struct Plan<'a> {
+    pub(super) recipe: &'a Recipe,
+    pub(super) seed: Seed,
+    corpus: &'a Corpus,
+    /// By corpus game.
+    games: Vec<Game>,
+    pub(super) forms: Vec<GameForm>,
+    lots: Vec<Lot>,
+}
+
+/// A part of the work that depends on no other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lot {
+    /// An archive of so many new games, by its number.
+    Archive(u32, u32),
+    /// A new game that is searched for.
+    Search(u32),
+    /// A new game that is drawn.
+    Constructive(u32),
+    /// New levels for a corpus game, by its place in the corpus.
+    Corpus(usize),
+}
+
+/// New games of one archive: few enough that archives are spread over machines, enough that they are bred.
+const ISLAND: u32 = 4;
+
+impl<'a> Plan<'a> {
+    /// The lots of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of milliseconds.
+    ///
+    /// # Errors
+    /// The recipe is sealed and the secret is not its own, it asks for more than the corpus has, or the corpus is broken.
+    pub fn new(
+        recipe: &'a Recipe,
+        secret: Option<&Secret>,
+        corpus: &'a Corpus,
+    ) -> Result<Plan<'a>, MintError> {
+        let seed = recipe.root_seed(secret)?;
+        let compile = |game: &crate::CorpusGame| {
+            Game::from_source(&game.source)
+                .map_err(|problems| MintError::BrokenCorpus { name: game.name.clone(), problems })
+        };
+        let games: Vec<Game> = corpus.games.iter().map(compile).collect::<Result<_, _>>()?;
+        let forms = games.iter().map(GameForm::of).collect();
+        let mut plan = Plan { recipe, seed, corpus, games, forms, lots: Vec::new() };
+        plan.lots = plan.generated().into_iter().chain(plan.of_corpus()?).collect();
+        Ok(plan)
+    }
+
+    /// The lots, those that take longest first.
+    pub fn lots(&self) -> &[Lot] {
+        &self.lots
+    }
+
+    /// How many levels of each difficulty are asked for, in the order of difficulty; empty if none are.
+    pub fn histogram(&self) -> Vec<(String, i64)> {
+        super::select::histogram(self.recipe)
+            .into_iter()
+            .map(|(label, levels)| (word(&label), levels))
+            .collect()
+    }
+
+    /// What all lots together cost, roughly, in seconds of one core: as was measured with the default players.
+    pub fn seconds(&self) -> f64 {
+        let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
+        let cost = |lot: &Lot| match *lot {
+            Lot::Archive(_, games) => 5.0 * f64::from(games * new),
+            Lot::Search(_) => 4.0 * f64::from(new),
+            Lot::Constructive(_) => 3.0 * f64::from(new),
+            Lot::Corpus(_) => 3.0 * f64::from(old),
+        };
+        let played = if self.recipe.criteria.asks("skill") { 1.0 } else { 0.15 };
+        played * self.lots.iter().map(cost).sum::<f64>()
+    }
+
+    /// Places of the lots in the order in which their games are told: those of the corpus first.
+    pub(super) fn in_order(&self) -> Vec<usize> {
+        let is_new = |at: &usize| !matches!(self.lots[*at], Lot::Corpus(_));
+        let (new, old): (Vec<usize>, Vec<usize>) = (0..self.lots.len()).partition(is_new);
+        old.into_iter().chain(new).collect()
+    }
+
+    /// What a lot is called, as a file name is.
+    pub fn name(&self, lot: Lot) -> String {
+        match lot {
+            Lot::Archive(number, _) => format!("archive-{number}"),
+            Lot::Search(number) => format!("search-{number}"),
+            Lot::Constructive(number) => format!("constructive-{number}"),
+            Lot::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
+        }
+    }
+
+    /// The mark of every file.
+    pub fn canary(&self) -> String {
+        match self.recipe.commitment {
+            // From the recipe's digest, so that two recipes have two.
+            None => {
+                let text =
+                    to_canonical_json(self.recipe).expect("a checked recipe has no numbers that JSON lacks");
+                canary(&Digest::of(text.as_bytes()))
+            }
+            Some(commitment) => canary(&commitment),
+        }
+    }
+
+    /// What decides the content of every lot: two plans with the same digest share their lots, whatever else their recipes
+    /// ask for.
+    ///
+    /// # Errors
+    /// None for a checked recipe.
+    pub fn digest(&self) -> Result<Digest, SnapshotError> {
+        let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
+        let decisive = serde_json::json!({
+            "generation": generators::GENERATION,
+            "semantics": engine::SEMANTICS,
+            "seed": seed,
+            "commitment": commitment,
+            "corpus": [corpus.levels, corpus.game_tries, corpus.level_tries],
+            "corpus_criteria": corpus.criteria,
+            "generated": [generated.levels, generated.game_tries, generated.level_tries],
+            "least": [generated.least_interactions, generated.least_mechanics],
+            "board": board,
+            "criteria": criteria,
+        });
+        Ok(Digest::of(to_canonical_json(&decisive)?.as_bytes()))
+    }
+
+    /// The candidates for new games, by the weights of the mix.
+    fn generated(&self) -> Vec<Lot> {
+        let part = &self.recipe.generated;
+        let all = candidates(part.games, part.candidates);
+        let weights = [part.mix.evolutionary, part.mix.search, part.mix.constructive];
+        let [bred, searched, drawn] = apportion(all, &weights)[..] else { unreachable!("three weights") };
+        let archives =
+            (0..bred.div_ceil(ISLAND)).map(|number| Lot::Archive(number, ISLAND.min(bred - number * ISLAND)));
+        archives.chain((0..searched).map(Lot::Search)).chain((0..drawn).map(Lot::Constructive)).collect()
+    }
+
+    /// Which corpus games are taken is drawn.
+    fn of_corpus(&self) -> Result<Vec<Lot>, MintError> {
+        let (asked, known) = (self.recipe.corpus.games, self.corpus.games.len());
+        if asked as usize > known {
+            return Err(MintError::SmallCorpus { asked, known });
+        }
+        let mut order: Vec<usize> = (0..known).collect();
+        let mut sampler: Sampler = self.seed.child("corpus order", 0).sampler();
+        sampler.shuffle(&mut order);
+        order.truncate(candidates(asked, self.recipe.corpus.candidates) as usize);
+        Ok(order.into_iter().map(Lot::Corpus).collect())
+    }
+
+    /// Makes a lot. Cost: from a second to minutes of one core; uses all threads of the current rayon pool.
+    ///
+    /// # Errors
+    /// The criteria are not sensible.
+    pub fn make(&self, lot: Lot) -> Result<LotResult, MintError> {
+        let part = &self.recipe.generated;
+        let (games, tally) = match lot {
+            Lot::Corpus(at) => self.new_levels(at),
+            Lot::Constructive(number) => {
+                self.one(Method::Constructive, number, self.seed.child("constructive", 0))
+            }
+            Lot::Search(number) => self.one(Method::Search, number, self.seed.child("search", 0)),
+            Lot::Archive(number, count) => {
+                let order = GameOrder { count, ..self.order(Method::Evolutionary, part.game_tries / 8) };
+                let seed = self.seed.child("archive", u64::from(number));
+                match make_games(&order, &self.forms, "", seed, &()) {
+                    Ok(set) => (set.games, set.tally),
+                    Err(GamesError::NoneAccepted { tally, .. }) => (Vec::new(), *tally),
+                    Err(GamesError::Criteria(error)) => return Err(error.into()),
+                }
+            }
+        };
+        Ok(LotResult { games: games.into_iter().map(FrozenGame::of).collect(), tally })
+    }
+
+    fn one(&self, method: Method, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
+        let tries = match method {
+            Method::Constructive => self.recipe.generated.game_tries,
+            _ => self.recipe.generated.game_tries / 8,
+        };
+        let (made, tally) = make_one(&self.order(method, tries), &self.forms, "", seed, number);
+        (made.into_iter().collect(), tally)
+    }
+
+    fn order(&self, method: Method, attempts: u32) -> GameOrder {
+        let Recipe { generated: part, board, criteria, .. } = self.recipe;
+        let order = GameOrder::new(method, 1);
+        GameOrder {
+            levels: part.levels,
+            level_tries: part.level_tries,
+            board: board.clone(),
+            least_interactions: part.least_interactions,
+            least_mechanics: part.least_mechanics,
+            criteria: criteria.clone(),
+            effort: GameEffort { attempts: attempts.max(1), ..order.effort },
+            ..order
+        }
+    }
+
+    /// A corpus game in a fresh fiction, with new levels like its own.
+    fn new_levels(&self, at: usize) -> (Vec<MadeGame>, Tally) {
+        let (recipe, known) = (self.recipe, &self.corpus.games[at]);
+        let mut tally = Tally::default();
+        let seed = self.seed.child("corpus", 0).child(&known.name, 0);
+        let Ok(retold) = Retold::of(&self.games[at], seed.child("fiction", 0)) else {
+            tally.game_rejected("no fiction fits");
+            return (Vec::new(), tally);
+        };
+        // From the print: what is judged is what is frozen.
+        let Ok(game) = Game::from_source(&syntax::print(&retold.description)) else {
+            tally.game_rejected("the rules do not compile");
+            return (Vec::new(), tally);
+        };
+        let own = known.levels.iter().filter_map(|text| game.level(&retold.level(text)).ok());
+        let like = Examples::of(&game, &own.collect::<Vec<Level>>()).map(Arc::new);
+        let candidate = Candidate {
+            title: retold.title,
+            description: retold.summary,
+            goal: retold.goal,
+            kind: known.card.kind.clone(),
+            real_time: known.card.real_time,
+            origin: Origin::Corpus { name: known.name.clone() },
+            game,
+        };
+        let config = like.map_or_else(|| recipe.board.levels(), LevelConfig::like);
+        let criteria = recipe.corpus.criteria.as_ref().unwrap_or(&recipe.criteria);
+        let panel = Panel::new(criteria);
+        let found = (0..recipe.corpus.game_tries).find_map(|number| {
+            let levels = Levels {
+                count: recipe.corpus.levels,
+                tries: recipe.corpus.level_tries,
+                config: &config,
+                criteria,
+                panel: &panel,
+                seed: seed.child("levels", u64::from(number)),
+            };
+            levels.find(&candidate.game, &mut tally)
+        });
+        let made = found.and_then(|found| candidate.finish(found, ""));
+        if made.is_some() {
+            tally.game_accepted();
+        }
+        (made.into_iter().collect(), tally)
+    }
+}
+
+/// So many candidates for so many games.
+fn candidates(games: u32, each: f64) -> u32 {
+    // At most 20 times 10,000: no rounding error.
+    (f64::from(games) * each).ceil() as u32
+}
+
+/// Shares a number out by weights: each gets its share rounded down, and what is left goes to the largest remainders, the
+/// first of equals first (Hamilton's method). All weights 0: nobody gets anything.
+pub(super) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
+    let total: f64 = weights.iter().sum();
+    if total <= 0.0 {
+        return vec![0; weights.len()];
+    }
+    let exact: Vec<f64> = weights.iter().map(|weight| f64::from(number) * weight / total).collect();
+    let mut shares: Vec<u32> = exact.iter().map(|share| share.floor() as u32).collect();
+    let mut order: Vec<usize> = (0..weights.len()).collect();
+    let remainder = |at: usize| exact[at] - exact[at].floor();
+    order.sort_by(|&a, &b| remainder(b).total_cmp(&remainder(a)));
+    let left = number.saturating_sub(shares.iter().sum());
+    for &at in order.iter().cycle().take(left as usize) {
+        shares[at] += 1;
+    }
+    shares
+}
+
+#[cfg(test)]
+mod tests {
+    use super::apportion;
+
+    #[test]
+    fn shares_add_up() {
+        for (number, weights, expect) in [
+            (10, &[1.0, 1.0, 1.0][..], &[4, 3, 3][..]),
+            (7, &[0.5, 0.3, 0.2], &[4, 2, 1]),
+            (0, &[1.0], &[0]),
+            (5, &[0.0, 2.0], &[0, 5]),
+            (3, &[0.0, 0.0], &[0, 0]),
+        ] {
+            assert_eq!(apportion(number, weights), expect);
+        }
+    }
+}

@@ -1,0 +1,368 @@
+//! From candidates to a release: which games are taken, so that months can be compared.
+//!
+//! Every candidate passed its judges, so any choice is sound. The one that is made meets the recipe's quotas and comes as near
+//! as can be to its difficulty histogram: by swapping games in and out, from several random choices. Integers and seeded
+//! draws decide, so the same candidates give the same choice on any machine.
+
+use super::MintError;
+use super::lot::FrozenGame;
+use super::plan::{Plan, apportion};
+use crate::Digest;
+use crate::ancestry::item;
+use crate::card::{Card, Origin};
+use crate::recipe::Recipe;
+use engine::{Analysis, Game};
+use generators::levels::Likeness;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use validators::game_measures::{AvatarKind, GameKind, GoalKind};
+use validators::{Difficulty, GameForm};
+
+/// A game that could be taken.
+pub(super) struct Contender {
+    /// The lot that it lies in, and where.
+    pub(super) lot: usize,
+    pub(super) at: usize,
+    is_new: bool,
+    title: String,
+    labels: BTreeMap<Difficulty, i64>,
+    pub(super) goal: GoalKind,
+    pub(super) avatar: AvatarKind,
+    /// How many rules it has.
+    pub(super) rules: usize,
+    pub(super) form: GameForm,
+    /// Canonical items: rules and level.
+    pub(super) items: Vec<Digest>,
+}
+
+impl Contender {
+    /// Of a game of a lot; none if it is not what its lot says.
+    pub(super) fn of(lot: usize, at: usize, frozen: &FrozenGame) -> Option<Contender> {
+        let game = Game::from_source(&frozen.text).ok()?;
+        let analysis = Analysis::of(&game);
+        let kind = GameKind::of(&analysis);
+        let form = GameForm::of(&game);
+        let likeness = Likeness::of(&analysis);
+        let canonical = |text: &String| {
+            let level = game.level(text).ok()?;
+            Some(item(&form, &likeness, &level))
+        };
+        let items = frozen.levels.iter().map(canonical).collect::<Option<Vec<_>>>()?;
+        Some(Contender {
+            lot,
+            at,
+            is_new: is_new(&frozen.card),
+            title: frozen.card.title.clone(),
+            labels: labels(&frozen.card),
+            goal: kind.goal,
+            avatar: kind.avatar,
+            rules: game.description().interactions.len(),
+            form,
+            items,
+        })
+    }
+
+    pub(super) fn is_new(&self) -> bool {
+        self.is_new
+    }
+
+    /// Whether a release before has the rules of this new game, or an item of this corpus game.
+    pub(super) fn is_known(&self, recipe: &Recipe) -> bool {
+        match self.is_new {
+            true => recipe.known.rules.contains(&self.form.digest()),
+            false => self.items.iter().any(|item| recipe.known.items.contains(item)),
+        }
+    }
+
+    /// The difficulty of each level, as data has it.
+    pub(super) fn labels(&self) -> impl Iterator<Item = String> {
+        self.labels
+            .iter()
+            .flat_map(|(label, &levels)| std::iter::repeat_n(word(label), levels.max(0) as usize))
+    }
+}
+
+/// Whether a game comes from a generator.
+pub(super) fn is_new(card: &Card) -> bool {
+    matches!(card.origin, Origin::Generated { .. })
+}
+
+/// How many levels of a game have each difficulty; nothing if none was measured.
+fn labels(card: &Card) -> BTreeMap<Difficulty, i64> {
+    let mut labels = BTreeMap::new();
+    for ladder in card.levels.iter().filter_map(|level| level.ladder.as_ref()) {
+        *labels.entry(ladder.difficulty).or_default() += 1;
+    }
+    labels
+}
+
+/// What was asked for, and what there is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bin {
+    /// A difficulty, a goal, an avatar.
+    pub name: String,
+    /// The least number asked for.
+    pub least: i64,
+    /// The greatest.
+    pub most: i64,
+    /// How many there are.
+    pub there: i64,
+}
+
+impl Bin {
+    /// By how much it is missed.
+    pub(super) fn missed(&self) -> i64 {
+        (self.least - self.there).max(self.there - self.most).max(0)
+    }
+}
+
+/// How many levels of each difficulty are asked for, in the order of difficulty; empty if none are.
+pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
+    let shares: Vec<f64> = recipe.difficulty.values().copied().collect();
+    let numbers = apportion(recipe.levels(), &shares);
+    recipe.difficulty.keys().copied().zip(numbers.into_iter().map(i64::from)).collect()
+}
+
+/// The numbers that a share of all games comes to.
+fn quota(recipe: &Recipe, (least, most): (f64, f64)) -> (i64, i64) {
+    let games = f64::from(recipe.corpus.games + recipe.generated.games);
+    // A little slack, so that 0.2 of 10 games is 2.
+    ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
+}
+
+/// Choices that are improved, each from a random one.
+const STARTS: u64 = 24;
+
+/// How much a choice misses: quotas, the histogram, titles that occur twice.
+type Miss = (i64, i64, i64);
+
+/// Chooses as many contenders of each part as the recipe asks for. Returns their places, in order.
+///
+/// # Errors
+/// There are too few of them, or no choice was found that meets the quotas, and the histogram within one item a bin.
+pub(super) fn select(
+    plan: &Plan<'_>,
+    contenders: &[Contender],
+    [old, new]: [&str; 2],
+) -> Result<Vec<usize>, MintError> {
+    let recipe = plan.recipe;
+    let fit = fit(recipe, contenders);
+    let asked = [(false, recipe.corpus.games as usize), (true, recipe.generated.games as usize)];
+    for (is_new, asked) in asked {
+        let there = fit.iter().filter(|&&at| contenders[at].is_new == is_new).count();
+        if there < asked {
+            let (part, why) = if is_new { ("generated", new) } else { ("corpus", old) };
+            return Err(MintError::TooFew { part, asked, there, why: why.to_owned() });
+        }
+    }
+    let mut best: Option<(Miss, Vec<usize>)> = None;
+    for start in 0..STARTS {
+        let mut order = fit.clone();
+        plan.seed.child("selection", start).sampler().shuffle(&mut order);
+        let mut choice = Choice::of(recipe, contenders, order, asked);
+        choice.improve();
+        let miss = choice.counts.miss();
+        if best.as_ref().is_none_or(|(known, _)| miss < *known) {
+            best = Some((miss, choice.taken));
+        }
+        if miss == (0, 0, 0) {
+            break;
+        }
+    }
+    let (_, mut taken) = best.unwrap_or_default();
+    taken.sort_unstable();
+    let missed: Vec<Bin> = bins(recipe, contenders, &taken);
+    let missed: Vec<String> = missed
+        .iter()
+        .filter(|bin| bin.missed() > 0)
+        .map(|bin| format!("{} {} (asked {} to {})", bin.name, bin.there, bin.least, bin.most))
+        .collect();
+    match missed.is_empty() {
+        true => Ok(taken),
+        false => Err(MintError::Uneven { candidates: fit.len(), missed: missed.join(", ") }),
+    }
+}
+
+/// Those that are near to no earlier one, and in no release before.
+fn fit(recipe: &Recipe, contenders: &[Contender]) -> Vec<usize> {
+    let mut fit: Vec<usize> = Vec::new();
+    for (at, contender) in contenders.iter().enumerate() {
+        let distinct: BTreeSet<&Digest> = contender.items.iter().collect();
+        let repeats = distinct.len() < contender.items.len();
+        let near =
+            |&other: &usize| contenders[other].is_new && contender.form.is_near(&contenders[other].form);
+        let near = contender.is_new && fit.iter().any(near);
+        if !(contender.is_known(recipe) || repeats || near) {
+            fit.push(at);
+        }
+    }
+    fit
+}
+
+/// What a choice is held to, with what it has: difficulties within one item, quotas as they are.
+pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -> Vec<Bin> {
+    let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
+    let mut bins = Vec::new();
+    for (label, asked) in &counts.histogram {
+        let there = counts.labels.get(label).copied().unwrap_or_default();
+        bins.push(Bin { name: word(label), least: (asked - 1).max(0), most: asked + 1, there });
+    }
+    let others: Vec<Difficulty> =
+        counts.labels.keys().filter(|label| !recipe.difficulty.contains_key(label)).copied().collect();
+    if !recipe.difficulty.is_empty() {
+        for label in others {
+            bins.push(Bin { name: word(&label), least: 0, most: 1, there: counts.labels[&label] });
+        }
+    }
+    for (&goal, &share) in &recipe.taxonomy.goals {
+        let (least, most) = quota(recipe, share);
+        let there = counts.goals.get(&goal).copied().unwrap_or_default();
+        bins.push(Bin { name: format!("goal {}", goal.name()), least, most, there });
+    }
+    for (&avatar, &share) in &recipe.taxonomy.avatars {
+        let (least, most) = quota(recipe, share);
+        let there = counts.avatars.get(&avatar).copied().unwrap_or_default();
+        bins.push(Bin { name: format!("avatar {}", avatar.name()), least, most, there });
+    }
+    if let Some(most) = counts.crowd {
+        let there = counts.kinds.values().copied().max().unwrap_or_default();
+        bins.push(Bin { name: "games of one goal and avatar".to_owned(), least: 0, most, there });
+    }
+    bins
+}
+
+/// A label as data has it.
+pub(super) fn word(label: &Difficulty) -> String {
+    serde_json::to_value(label).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
+}
+
+/// A choice that is being improved.
+struct Choice<'a> {
+    contenders: &'a [Contender],
+    taken: Vec<usize>,
+    left: Vec<usize>,
+    counts: Counts<'a>,
+}
+
+impl<'a> Choice<'a> {
+    /// The first of an order.
+    fn of(
+        recipe: &'a Recipe,
+        contenders: &'a [Contender],
+        order: Vec<usize>,
+        asked: [(bool, usize); 2],
+    ) -> Choice<'a> {
+        let mut room: BTreeMap<bool, usize> = asked.into();
+        let (mut taken, mut left) = (Vec::new(), Vec::new());
+        for at in order {
+            let room = room.entry(contenders[at].is_new).or_default();
+            match room.checked_sub(1) {
+                Some(less) => {
+                    *room = less;
+                    taken.push(at);
+                }
+                None => left.push(at),
+            }
+        }
+        let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
+        Choice { contenders, taken, left, counts }
+    }
+
+    /// Makes the swap that helps most, until none helps. Each makes the miss smaller, so this ends. Cost: candidates² a swap.
+    fn improve(&mut self) {
+        loop {
+            let now = self.counts.miss();
+            let mut best: Option<(Miss, usize, usize)> = None;
+            for place in 0..self.taken.len() {
+                let out = &self.contenders[self.taken[place]];
+                self.counts.add(out, -1);
+                for other in 0..self.left.len() {
+                    let instead = &self.contenders[self.left[other]];
+                    if instead.is_new != out.is_new {
+                        continue;
+                    }
+                    self.counts.add(instead, 1);
+                    let miss = self.counts.miss();
+                    self.counts.add(instead, -1);
+                    if miss < now && best.is_none_or(|(known, ..)| miss < known) {
+                        best = Some((miss, place, other));
+                    }
+                }
+                self.counts.add(out, 1);
+            }
+            let Some((_, place, other)) = best else { break };
+            self.counts.add(&self.contenders[self.taken[place]], -1);
+            self.counts.add(&self.contenders[self.left[other]], 1);
+            std::mem::swap(&mut self.taken[place], &mut self.left[other]);
+        }
+    }
+}
+
+/// What a choice has of everything that is asked for.
+struct Counts<'a> {
+    recipe: &'a Recipe,
+    histogram: Vec<(Difficulty, i64)>,
+    crowd: Option<i64>,
+    labels: BTreeMap<Difficulty, i64>,
+    goals: BTreeMap<GoalKind, i64>,
+    avatars: BTreeMap<AvatarKind, i64>,
+    kinds: BTreeMap<(GoalKind, AvatarKind), i64>,
+    titles: BTreeMap<&'a str, i64>,
+}
+
+impl<'a> Counts<'a> {
+    fn of(recipe: &'a Recipe, games: impl Iterator<Item = &'a Contender>) -> Counts<'a> {
+        let mut counts = Counts {
+            recipe,
+            histogram: histogram(recipe),
+            crowd: recipe.taxonomy.crowd.map(|crowd| quota(recipe, (0.0, crowd)).1.max(1)),
+            labels: BTreeMap::new(),
+            goals: BTreeMap::new(),
+            avatars: BTreeMap::new(),
+            kinds: BTreeMap::new(),
+            titles: BTreeMap::new(),
+        };
+        games.for_each(|game| counts.add(game, 1));
+        counts
+    }
+
+    fn add(&mut self, game: &'a Contender, times: i64) {
+        for (&label, levels) in &game.labels {
+            *self.labels.entry(label).or_default() += times * levels;
+        }
+        *self.goals.entry(game.goal).or_default() += times;
+        *self.avatars.entry(game.avatar).or_default() += times;
+        *self.kinds.entry((game.goal, game.avatar)).or_default() += times;
+        *self.titles.entry(&game.title).or_default() += times;
+    }
+
+    fn miss(&self) -> Miss {
+        let missed = |there: Option<&i64>, share: (f64, f64)| {
+            let (there, (least, most)) = (there.copied().unwrap_or_default(), quota(self.recipe, share));
+            (least - there).max(there - most).max(0)
+        };
+        let goals =
+            self.recipe.taxonomy.goals.iter().map(|(goal, share)| missed(self.goals.get(goal), *share));
+        let avatars = self
+            .recipe
+            .taxonomy
+            .avatars
+            .iter()
+            .map(|(avatar, share)| missed(self.avatars.get(avatar), *share));
+        let crowded =
+            self.crowd.map_or(0, |most| self.kinds.values().map(|there| (there - most).max(0)).sum());
+        let asked: BTreeMap<Difficulty, i64> = self.histogram.iter().copied().collect();
+        let apart = |label: &Difficulty, there: i64| there - asked.get(label).copied().unwrap_or_default();
+        let mut labels: BTreeSet<Difficulty> = asked.keys().copied().collect();
+        labels.extend(self.labels.keys());
+        let there = |label: &Difficulty| self.labels.get(label).copied().unwrap_or_default();
+        // Squares, so that what is missed is spread over the bins.
+        let histogram = match asked.is_empty() {
+            true => 0,
+            false => labels.iter().map(|label| apart(label, there(label)).pow(2)).sum(),
+        };
+        let twice = self.titles.values().map(|there| (there - 1).max(0)).sum();
+        (goals.chain(avatars).sum::<i64>() + crowded, histogram, twice)
+    }
+}

@@ -1,0 +1,146 @@
+//! Where finished lots are kept until all are there: in memory, or in a folder that survives the process.
+
+use super::lot::LotResult;
+use crate::canonical::to_canonical_json;
+use crate::folder;
+use crate::{Digest, SnapshotError};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// Where finished lots are kept, by name; from several threads.
+pub trait Shelf: Sync {
+    /// A lot that was put away before; none if it was not, or if what is there is damaged.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    fn get(&self, name: &str) -> Result<Option<LotResult>, SnapshotError>;
+
+    /// Puts a lot away. After it returns, the lot is kept whatever happens.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    fn put(&self, name: &str, lot: &LotResult) -> Result<(), SnapshotError>;
+}
+
+/// Keeps lots in memory.
+#[derive(Debug, Default)]
+pub struct Memory(Mutex<BTreeMap<String, LotResult>>);
+
+impl Shelf for Memory {
+    fn get(&self, name: &str) -> Result<Option<LotResult>, SnapshotError> {
+        let lots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(lots.get(name).cloned())
+    }
+
+    fn put(&self, name: &str, lot: &LotResult) -> Result<(), SnapshotError> {
+        let mut lots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        lots.insert(name.to_owned(), lot.clone());
+        Ok(())
+    }
+}
+
+/// Keeps lots as files, each complete or absent.
+#[derive(Debug)]
+pub struct LotFolder {
+    folder: PathBuf,
+    /// What decides the content of lots: those of another plan do not count.
+    plan: Digest,
+}
+
+/// The largest file of a lot, in bytes: 64 MiB.
+const LOT_LIMIT: u64 = 64 << 20;
+
+/// A file of a lot.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LotFile {
+    plan: Digest,
+    /// Of the result's canonical JSON: a file that was cut, or changed, does not count.
+    digest: Digest,
+    result: LotResult,
+}
+
+impl LotFolder {
+    /// Lots of this plan in a folder, which is created if it is not there.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn open(folder: &Path, plan: Digest) -> Result<LotFolder, SnapshotError> {
+        fs::create_dir_all(folder).map_err(SnapshotError::io("create", folder))?;
+        Ok(LotFolder { folder: folder.to_path_buf(), plan })
+    }
+
+    /// The text of a lot's file.
+    pub(super) fn text(plan: Digest, lot: &LotResult) -> Result<String, SnapshotError> {
+        let digest = Digest::of(to_canonical_json(lot)?.as_bytes());
+        Ok(to_canonical_json(&LotFile { plan, digest, result: lot.clone() })?)
+    }
+
+    /// Reads the text of a lot's file; none if it is cut, changed, or of another plan.
+    pub(super) fn parse(plan: Digest, bytes: &[u8]) -> Result<Option<LotResult>, SnapshotError> {
+        let Ok(file) = serde_json::from_slice::<LotFile>(bytes) else { return Ok(None) };
+        let sound =
+            file.plan == plan && Digest::of(to_canonical_json(&file.result)?.as_bytes()) == file.digest;
+        Ok(sound.then_some(file.result))
+    }
+
+    fn file(name: &str) -> String {
+        format!("{name}.json")
+    }
+}
+
+impl Shelf for LotFolder {
+    fn get(&self, name: &str) -> Result<Option<LotResult>, SnapshotError> {
+        let bytes = match folder::read(&self.folder, &LotFolder::file(name), LOT_LIMIT) {
+            Ok(bytes) => bytes,
+            Err(SnapshotError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        LotFolder::parse(self.plan, &bytes)
+    }
+
+    fn put(&self, name: &str, lot: &LotResult) -> Result<(), SnapshotError> {
+        let text = LotFolder::text(self.plan, lot)?;
+        let path = self.folder.join(LotFolder::file(name));
+        let fresh = path.with_extension("new");
+        let write = || {
+            let mut file = File::create(&fresh)?;
+            file.write_all(text.as_bytes())?;
+            file.sync_all()?;
+            fs::rename(&fresh, &path)
+        };
+        write().map_err(SnapshotError::io("write", &path))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mint::Tally;
+
+    #[test]
+    fn a_lot_that_is_cut_changed_or_of_another_plan_does_not_count() {
+        let home = tempfile::tempdir().unwrap();
+        let plan = Digest::of(b"plan");
+        let shelf = LotFolder::open(home.path(), plan).unwrap();
+        let tally = Tally { games_tried: 3, ..Tally::default() };
+        let lot = LotResult { games: Vec::new(), tally };
+        assert_eq!(shelf.get("a").unwrap(), None);
+        shelf.put("a", &lot).unwrap();
+        assert_eq!(shelf.get("a").unwrap(), Some(lot.clone()));
+        let other = LotFolder::open(home.path(), Digest::of(b"other")).unwrap();
+        assert_eq!(other.get("a").unwrap(), None);
+        let path = home.path().join("a.json");
+        let text = fs::read_to_string(&path).unwrap();
+        for damaged in [&text[..text.len() / 2], "", &text.replace(": 3", ": 4")] {
+            fs::write(&path, damaged).unwrap();
+            assert_eq!(shelf.get("a").unwrap(), None, "{damaged}");
+        }
+        shelf.put("a", &lot).unwrap();
+        assert_eq!(shelf.get("a").unwrap(), Some(lot));
+    }
+}

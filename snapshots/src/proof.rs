@@ -1,0 +1,205 @@
+//! Inclusion proofs: that one file of a release, or one game, is under a root, shown without the rest.
+//!
+//! A proof is a small file of canonical JSON. It holds no secret and needs no trust: what is trusted is the root that
+//! the one who checks it has from elsewhere.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+use crate::canonical::to_canonical_json;
+use crate::error::SnapshotError;
+use crate::manifest::Manifest;
+use crate::merkle::{self, Leaf, Proof};
+use crate::path::check_path;
+use engine::Digest;
+
+/// The largest proof, in bytes: 4 MiB, which is a game of some three thousand files.
+pub const MAX_PROOF: u64 = 4 << 20;
+/// The version of the proof's layout.
+const PROOF_FORMAT: u32 = 1;
+/// No tree of at most 2⁶⁴ leaves is higher.
+const MAX_HEIGHT: usize = 64;
+
+/// Why a proof cannot be made or read: about the question, not about the item.
+#[derive(Debug, thiserror::Error)]
+pub enum ProofError {
+    /// The release has no such item.
+    #[error("`{}` is no file and no game of `{release}`{}", id.escape_debug(), near.as_ref().map_or_else(String::new, |near| format!(": did you mean `{near}`?")))]
+    NoSuchItem {
+        /// What was asked for.
+        id: String,
+        /// The release's name.
+        release: String,
+        /// The nearest that there is.
+        near: Option<String>,
+    },
+    /// The proof is too large to be one.
+    #[error("the proof is larger than {MAX_PROOF} bytes: fetch it again")]
+    TooLarge,
+    /// The proof is not JSON of this shape.
+    #[error("it is no inclusion proof ({0}): fetch it again")]
+    Syntax(serde_json::Error),
+    /// The proof is well-formed and says what no proof can.
+    #[error("it is no sound inclusion proof ({0}): fetch it again")]
+    Unsound(String),
+    /// The manifest has no tree.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+}
+
+/// That an item, which is one file or all files of a game, is in a release.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ItemProof {
+    /// Version of this layout: 1.
+    pub format: u32,
+    /// Name of the release; a label, which proves nothing.
+    pub release: String,
+    /// The root that the proof leads to; what it is compared with has to come from elsewhere.
+    pub root: Digest,
+    /// The item: a path of the release such as `games/x/lvl0.txt`, or the name of a folder in `games/`.
+    pub item: String,
+    /// Its files, by the bytes of their paths: one for a path; those listed for a game.
+    pub files: Vec<FileProof>,
+}
+
+/// That a file is in a release.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FileProof {
+    /// Path in the release.
+    pub path: String,
+    /// Digest of the content.
+    pub digest: Digest,
+    /// The way from the file's leaf to the root.
+    pub proof: Proof,
+}
+
+impl ItemProof {
+    /// The proof for `id`: a path in the manifest, or a game's id for all of its files. Cost: O(n log n) in the
+    /// release's files for each file of the item.
+    ///
+    /// # Errors
+    /// There is no such item.
+    pub fn of(manifest: &Manifest, id: &str) -> Result<ItemProof, ProofError> {
+        let wanted = |path: &str| path == id || game_of(path) == Some(id);
+        let leaves = manifest.leaves()?;
+        let items = manifest.items.iter().filter(|item| wanted(&item.path));
+        let files: Vec<FileProof> = items
+            .filter_map(|item| {
+                let proof = merkle::prove(&leaves, &item.path)?;
+                Some(FileProof { path: item.path.clone(), digest: item.digest, proof })
+            })
+            .collect();
+        if files.is_empty() {
+            let games = manifest.items.iter().filter_map(|item| game_of(&item.path));
+            let known: BTreeSet<&str> =
+                manifest.items.iter().map(|item| item.path.as_str()).chain(games).collect();
+            let near = engine::nearest(id, known).map(str::to_owned);
+            return Err(ProofError::NoSuchItem { id: id.into(), release: manifest.name.clone(), near });
+        }
+        let (release, root) = (manifest.name.clone(), manifest.computed_root()?);
+        Ok(ItemProof { format: PROOF_FORMAT, release, root, item: id.into(), files })
+    }
+
+    /// The bytes of the proof's file: canonical JSON, which [`ItemProof::parse`] reads back.
+    ///
+    /// # Errors
+    /// It is larger than [`MAX_PROOF`].
+    pub fn to_bytes(&self) -> Result<Vec<u8>, ProofError> {
+        let bytes = to_canonical_json(self).map_err(SnapshotError::from)?.into_bytes();
+        if bytes.len() as u64 > MAX_PROOF { Err(ProofError::TooLarge) } else { Ok(bytes) }
+    }
+
+    /// Reads a proof from someone else, and checks all of it that can be checked without root and files.
+    ///
+    /// # Errors
+    /// It is too large, not canonical JSON of this shape, of another format, empty, or has files that are unsorted,
+    /// with unsafe paths, not of its item, or with a way to the root that no tree has.
+    pub fn parse(bytes: &[u8]) -> Result<ItemProof, ProofError> {
+        if bytes.len() as u64 > MAX_PROOF {
+            return Err(ProofError::TooLarge);
+        }
+        let proof: ItemProof = serde_json::from_slice(bytes).map_err(ProofError::Syntax)?;
+        let unsound = |what: String| Err(ProofError::Unsound(what));
+        if proof.format != PROOF_FORMAT {
+            return unsound(format!("its format is {}, and {PROOF_FORMAT} is understood here", proof.format));
+        }
+        if proof.files.is_empty() {
+            return unsound("it names no file".into());
+        }
+        for file in &proof.files {
+            let path = file.path.escape_debug();
+            if let Err(problem) = check_path(&file.path) {
+                return unsound(format!("`{path}` cannot be in a snapshot: {problem}"));
+            }
+            let of_the_game = game_of(&file.path) == Some(proof.item.as_str());
+            if file.path != proof.item && !of_the_game {
+                return unsound(format!("`{path}` is no file of `{}`", proof.item.escape_debug()));
+            }
+            if file.proof.siblings.len() > MAX_HEIGHT {
+                return unsound(format!("`{path}` has {} steps to the root", file.proof.siblings.len()));
+            }
+        }
+        if let Some(pair) = proof.files.windows(2).find(|pair| pair[0].path >= pair[1].path) {
+            return unsound(format!("`{}` is listed twice or out of order", pair[1].path));
+        }
+        if to_canonical_json(&proof).map_err(SnapshotError::from)?.as_bytes() != bytes {
+            return unsound("its text is not in canonical form".into());
+        }
+        Ok(proof)
+    }
+
+    /// All that speaks against the item `id` being under `root` with these files, each naming the file and the
+    /// digests; empty if it is. `content` gives the digest of the file at a path, none if there is no such file.
+    ///
+    /// # Errors
+    /// What `content` says.
+    pub fn check<E>(
+        &self,
+        id: &str,
+        root: &Digest,
+        mut content: impl FnMut(&str) -> Result<Option<Digest>, E>,
+    ) -> Result<Vec<String>, E> {
+        let mut problems = Vec::new();
+        if self.item != id {
+            problems.push(format!(
+                "the proof is for `{}`, not for `{}`",
+                self.item.escape_debug(),
+                id.escape_debug()
+            ));
+        }
+        if self.root != *root {
+            problems.push(format!("the proof leads to the root {}, not to {root}", self.root));
+        }
+        // What follows would only say the same for every file.
+        if !problems.is_empty() {
+            return Ok(problems);
+        }
+        for file in &self.files {
+            let path = file.path.as_str();
+            match content(path)? {
+                None => problems.push(format!("{path}: missing")),
+                Some(found) if found != file.digest => {
+                    problems
+                        .push(format!("{path}: altered (digest {found}, the proof says {})", file.digest));
+                }
+                Some(_) => {}
+            }
+            let leaf = Leaf { path: file.path.clone(), digest: file.digest };
+            if !file.proof.verify(&leaf, root) {
+                problems.push(format!(
+                    "{path}: the proof does not lead from digest {} to the root {root}",
+                    file.digest
+                ));
+            }
+        }
+        Ok(problems)
+    }
+}
+
+/// The game that a path of a release belongs to.
+fn game_of(path: &str) -> Option<&str> {
+    let (game, file) = path.strip_prefix("games/")?.split_once('/')?;
+    (!game.is_empty() && !file.is_empty()).then_some(game)
+}

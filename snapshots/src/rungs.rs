@@ -1,0 +1,325 @@
+//! How the players of the ladder fare over a whole release, and whether they fare otherwise in another one.
+//!
+//! A level counts by the share of its plays that were won, and all levels count alike. Levels of one game are alike, so an
+//! interval speaks of games like these: whole games are drawn again ([`statistics::clustered_mean`]). Where all games have the
+//! same rate, drawing tells nothing; Wilson's interval stands in, with one trial a game. The interval of a difference is put
+//! together from those of its two sides (G. Y. Zou and A. Donner, "Construction of confidence limits about effect measures: a
+//! general approach", 2008), as if the games of the two were drawn apart from each other. With fewer than about ten games
+//! intervals are too narrow. The same bits on every machine.
+
+use crate::card::Card;
+use engine::Seed;
+use serde::{Deserialize, Serialize};
+use statistics::{Interval, Z95, clustered_mean, wilson};
+use validators::Fared;
+
+/// Resamples of an interval.
+const RESAMPLES: usize = 4000;
+/// Standard errors of a difference that a two-sided test at 5 % sees in 80 of 100 cases: the normal quantiles of 0.975 and 0.8.
+const SEEN: f64 = Z95 + 0.8416212335729143;
+
+/// How a player fares over the games of a release.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RungRate {
+    /// Who: `mcts:100`.
+    pub player: String,
+    /// Whether it looks ahead.
+    pub looks_ahead: bool,
+    /// Whether only acceptance asks it, and no search.
+    pub held_out: bool,
+    /// Games with a level that it played.
+    pub games: u64,
+    /// Levels that it played.
+    pub levels: u64,
+    /// Plays of all levels.
+    pub plays: u64,
+    /// Plays won.
+    pub wins: u64,
+    /// The mean over levels of the share of plays won, from 0 to 1.
+    pub mean: f64,
+    /// Its interval, 95 %, clustered by game.
+    pub interval: [f64; 2],
+    /// Its standard error, clustered by game; none where all games have the same rate, as one game has.
+    pub error: Option<f64>,
+}
+
+impl RungRate {
+    /// The smallest difference of win rates that two releases of so many games like these would show, by a two-sided test at
+    /// 5 % that sees it in 80 of 100 cases. None where nothing is known of how games differ, or of no games.
+    ///
+    /// It takes for granted that those games have as many levels each, and differ as much as these do.
+    pub fn detectable(&self, games: u64) -> Option<f64> {
+        let error = self.error.filter(|_| games > 0)?;
+        let one = error * error * self.games as f64 / games as f64;
+        Some(SEEN * (2.0 * one).sqrt())
+    }
+
+    fn of(first: &Fared, held_out: bool, games: &[Vec<&Fared>]) -> RungRate {
+        let share = |fared: &&Fared| fared.rate.wins as f64 / fared.rate.plays as f64;
+        let shares: Vec<Vec<f64>> = games.iter().map(|levels| levels.iter().map(share).collect()).collect();
+        let all = || games.iter().flatten();
+        let levels = all().count() as u64;
+        let mean = (shares.iter().flatten().sum::<f64>() / levels as f64).clamp(0.0, 1.0);
+        let error = error(&shares, mean);
+        let interval = match error {
+            Some(_) => {
+                let seed = Seed::from_text("rungs").child(&first.player, 0);
+                clustered_mean(&shares, RESAMPLES, 0.95, *seed.as_bytes())
+                    .expect("there are levels, and their rates are numbers")
+            }
+            None => alike(mean, games.len() as u64),
+        };
+        RungRate {
+            player: first.player.clone(),
+            looks_ahead: first.looks_ahead,
+            held_out,
+            games: games.len() as u64,
+            levels,
+            plays: all().map(|fared| fared.rate.plays).sum(),
+            wins: all().map(|fared| fared.rate.wins).sum(),
+            mean,
+            interval: [interval.low.clamp(0.0, mean), interval.high.clamp(mean, 1.0)],
+            error,
+        }
+    }
+}
+
+/// The standard error of a mean over levels, games being what is drawn: that of a ratio of sums over games (W. G. Cochran,
+/// *Sampling Techniques*, 1977, §6.4).
+fn error(games: &[Vec<f64>], mean: f64) -> Option<f64> {
+    let own = |levels: &Vec<f64>| levels.iter().sum::<f64>() / levels.len() as f64;
+    let first = own(games.first()?);
+    if games.iter().all(|levels| own(levels) == first) {
+        return None;
+    }
+    let residue = |levels: &Vec<f64>| levels.iter().sum::<f64>() - mean * levels.len() as f64;
+    let squares: f64 = games.iter().map(residue).map(|residue| residue * residue).sum();
+    let (count, levels) = (games.len() as f64, games.iter().map(Vec::len).sum::<usize>() as f64);
+    Some((count / (count - 1.0) * squares).sqrt() / levels)
+}
+
+/// What is known where so many games have the same rate: at least what so many trials tell.
+fn alike(rate: f64, games: u64) -> Interval {
+    let won = rate * games as f64;
+    let (few, many) = (wilson(won.floor() as u64, games, Z95), wilson(won.ceil() as u64, games, Z95));
+    Interval { low: few.low, high: many.high }
+}
+
+/// How each player of the ladders fares over some games: rungs from the weakest to the strongest, as the first ladder names
+/// them, then those held out. Levels without a ladder are left out. Cost: some thousand resamples of the games for each player.
+pub fn rates(cards: &[Card]) -> Vec<RungRate> {
+    let ladders = || cards.iter().flat_map(|card| &card.levels).filter_map(|level| level.ladder.as_ref());
+    let mut players: Vec<(&Fared, bool)> = Vec::new();
+    for held_out in [false, true] {
+        for fared in ladders().flat_map(|ladder| if held_out { &ladder.held_out } else { &ladder.rungs }) {
+            let known = players.iter().any(|(known, held)| known.player == fared.player && *held == held_out);
+            if !known {
+                players.push((fared, held_out));
+            }
+        }
+    }
+    let rate = |(first, held_out): (&Fared, bool)| {
+        let of_game = |card| played(card, &first.player, held_out);
+        let mut games: Vec<Vec<&Fared>> = cards.iter().map(of_game).collect();
+        games.retain(|levels| !levels.is_empty());
+        (!games.is_empty()).then(|| RungRate::of(first, held_out, &games))
+    };
+    players.into_iter().filter_map(rate).collect()
+}
+
+/// How a player fared on those levels of a game that it played.
+fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a Fared> {
+    let ladders = card.levels.iter().filter_map(|level| level.ladder.as_ref());
+    let find = ladders.filter_map(|ladder| {
+        let players = if held_out { &ladder.held_out } else { &ladder.rungs };
+        players.iter().find(|fared| fared.player == player && fared.rate.plays > 0)
+    });
+    find.collect()
+}
+
+/// How much better a player fares in one release than in another.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RungDifference {
+    /// How it fares in the one.
+    pub ours: RungRate,
+    /// How it fares in the other.
+    pub theirs: RungRate,
+    /// The mean of ours less that of theirs, from −1 to 1.
+    pub difference: f64,
+    /// Its interval, 95 %, clustered by game.
+    pub interval: [f64; 2],
+    /// The smallest difference that two releases of these sizes would show, by a two-sided test at 5 % that sees it in 80 of
+    /// 100 cases; none where, in either, all games have the same rate.
+    pub detectable: Option<f64>,
+}
+
+impl RungDifference {
+    /// Whether the player may fare alike in both: the interval holds 0.
+    pub fn includes_zero(&self) -> bool {
+        self.interval[0] <= 0.0 && self.interval[1] >= 0.0
+    }
+
+    fn of(ours: RungRate, theirs: RungRate) -> RungDifference {
+        let apart = |x: f64, y: f64| (x * x + y * y).sqrt();
+        let difference = ours.mean - theirs.mean;
+        let below = apart(ours.mean - ours.interval[0], theirs.interval[1] - theirs.mean);
+        let above = apart(ours.interval[1] - ours.mean, theirs.mean - theirs.interval[0]);
+        let errors = ours.error.zip(theirs.error);
+        RungDifference {
+            difference,
+            interval: [(difference - below).max(-1.0), (difference + above).min(1.0)],
+            detectable: errors.map(|(ours, theirs)| SEEN * apart(ours, theirs)),
+            ours,
+            theirs,
+        }
+    }
+}
+
+/// How much better each player fares over the one games than over the other, for the players that both have, in the order of
+/// [`rates`]. Cost: that of `rates` for both.
+pub fn differences(ours: &[Card], theirs: &[Card]) -> Vec<RungDifference> {
+    let mut others = rates(theirs);
+    let pair = |ours: RungRate| {
+        let same = |theirs: &RungRate| theirs.player == ours.player && theirs.held_out == ours.held_out;
+        let at = others.iter().position(same)?;
+        Some(RungDifference::of(ours, others.remove(at)))
+    };
+    rates(ours).into_iter().filter_map(pair).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::card::{LevelCard, Origin};
+    use engine::Digest;
+    use validators::{Difficulty, Ladder, Rate};
+
+    fn fared(player: &str, wins: u64, plays: u64) -> Fared {
+        let rate = Rate { wins, plays, interval: [0.0, 1.0], calls: 0, mean_score: 0.0 };
+        let looks_ahead = player.contains(':');
+        Fared { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
+    }
+
+    /// A game on whose levels `random`, and held out `olets:9`, win so many of ten plays.
+    pub(crate) fn card(id: &str, wins: &[[u64; 2]]) -> Card {
+        let level = |[random, olets]: &[u64; 2]| LevelCard {
+            file: "lvl0.txt".to_owned(),
+            digest: Digest::of(b""),
+            columns: 9,
+            rows: 9,
+            generator: "g".to_owned(),
+            difficulty: 0.5,
+            candidate: 0,
+            witness_ticks: 9,
+            witness_score: 1.0,
+            optimal_ticks: None,
+            search_calls: 1,
+            mcts: fared("", 0, 4).rate,
+            random: fared("", 0, 4).rate,
+            idle: fared("", 0, 4).rate,
+            ladder: Some(Ladder {
+                rungs: vec![fared("random", *random, 10)],
+                held_out: vec![fared("olets:9", *olets, 10)],
+                ease: Some(0.5),
+                difficulty: Difficulty::Medium,
+            }),
+        };
+        Card {
+            canary: String::new(),
+            id: id.to_owned(),
+            title: id.to_owned(),
+            description: String::new(),
+            goal: String::new(),
+            kind: String::new(),
+            real_time: false,
+            deterministic: true,
+            digest: Digest::of(id.as_bytes()),
+            origin: Origin::Corpus { name: id.to_owned() },
+            rules: String::new(),
+            levels: wins.iter().map(level).collect(),
+        }
+    }
+
+    /// Forty games of three levels, of which every fourth is always won.
+    fn quarter() -> Vec<Card> {
+        let wins = |game: u64| [if game.is_multiple_of(4) { 10 } else { 0 }, 10];
+        (0..40).map(|game| card(&format!("g{game}"), &[wins(game); 3])).collect()
+    }
+
+    #[test]
+    fn games_count_and_not_levels() {
+        let found = rates(&quarter());
+        let [random, olets] = &found[..] else { panic!("{found:?}") };
+        assert_eq!((random.player.as_str(), random.held_out, random.looks_ahead), ("random", false, false));
+        assert_eq!((random.games, random.levels, random.plays, random.wins), (40, 120, 1200, 300));
+        assert_eq!(random.mean, 0.25);
+        // As 40 trials at 0.25 would tell, not as 120: ±13 points.
+        let error = random.error.unwrap();
+        assert!((error - (0.25 * 0.75 / 39.0_f64).sqrt()).abs() < 1e-12, "{error}");
+        let [low, high] = random.interval;
+        assert!((low - 0.116).abs() < 0.03 && (high - 0.384).abs() < 0.03, "{low} to {high}");
+        assert_eq!((olets.player.as_str(), olets.held_out, olets.looks_ahead), ("olets:9", true, true));
+        // Always won is not known to be always won.
+        let trials = wilson(40, 40, Z95);
+        assert_eq!((olets.mean, olets.interval, olets.error), (1.0, [trials.low, 1.0], None));
+        assert_eq!(olets.detectable(1000), None);
+    }
+
+    #[test]
+    fn levels_count_alike_however_often_they_were_played() {
+        let mut cards = vec![card("a", &[[10, 0], [0, 0]]), card("b", &[[0, 0]])];
+        cards[0].levels[0].ladder.as_mut().unwrap().rungs[0].rate.plays = 1000;
+        cards[0].levels[0].ladder.as_mut().unwrap().rungs[0].rate.wins = 1000;
+        let unmeasured = LevelCard { ladder: None, ..cards[1].levels[0].clone() };
+        cards[1].levels.push(unmeasured);
+        let found = &rates(&cards)[0];
+        assert_eq!((found.mean, found.levels, found.games), (1.0 / 3.0, 3, 2));
+    }
+
+    #[test]
+    fn one_game_tells_little_and_none_nothing() {
+        let found = &rates(&[card("a", &[[5, 5], [5, 5]])])[0];
+        assert_eq!((found.mean, found.interval, found.error), (0.5, [0.0, 1.0], None));
+        assert!(rates(&[]).is_empty());
+        assert!(differences(&quarter(), &[]).is_empty());
+    }
+
+    #[test]
+    fn the_same_release_differs_by_nothing() {
+        for found in differences(&quarter(), &quarter()) {
+            assert_eq!(found.difference, 0.0);
+            assert!(found.includes_zero(), "{found:?}");
+            assert!((found.interval[0] + found.interval[1]).abs() < 0.1, "{found:?}");
+        }
+    }
+
+    /// What the normal approximation says: ±1.96 √2 standard errors; a hundred games fewer show it less.
+    #[test]
+    fn differences_are_as_wide_as_theory_says() {
+        let half: Vec<Card> =
+            (0..40).map(|game| card(&format!("h{game}"), &[[10 * (game % 2), 0]; 3])).collect();
+        let found = differences(&half, &quarter());
+        let random = &found[0];
+        assert_eq!(random.difference, 0.25);
+        let error = ((0.25 + 0.25 * 0.75) / 39.0_f64).sqrt();
+        for (found, expect) in random.interval.iter().zip([0.25 - Z95 * error, 0.25 + Z95 * error]) {
+            assert!((found - expect).abs() < 0.03, "{random:?}, not {expect}");
+        }
+        assert!((random.detectable.unwrap() - 2.8015 * error).abs() < 1e-4, "{random:?}");
+        // The one always wins, the other never: 40 games a side are sure of it.
+        let olets = &found[1];
+        assert_eq!((olets.difference, olets.detectable), (-1.0, None));
+        assert!(olets.interval[0] == -1.0 && olets.interval[1] < -0.8 && !olets.includes_zero());
+    }
+
+    #[test]
+    fn more_games_show_less() {
+        let found = &differences(&quarter(), &quarter())[0];
+        let same = found.ours.detectable(40).unwrap();
+        assert!((same - found.detectable.unwrap()).abs() < 1e-12);
+        assert!((found.ours.detectable(160).unwrap() - same / 2.0).abs() < 1e-12);
+        assert_eq!(found.ours.detectable(0), None);
+    }
+}

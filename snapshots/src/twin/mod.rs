@@ -1,0 +1,240 @@
+//! Twins of games: the same mechanics with another surface, to test whether a model remembers or understands
+//! ([what each keeps and changes](../../../docs/twins.md)).
+
+mod mirrored;
+mod released;
+
+pub use released::of_released;
+
+use engine::describe::Guide;
+
+use engine::{Action, Analysis, Description, Diagnostics, Episode, Game, Level, Outcome, Seed, syntax};
+use generators::GenerateError;
+use generators::games::{Masked, Retold};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+/// What becomes of the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Twin {
+    /// Names and level characters tell nothing any more.
+    Masked,
+    /// The board is reflected left to right, and every direction in the rules with it.
+    Mirrored,
+    /// The game is told in another fiction.
+    Renamed,
+}
+
+impl Twin {
+    /// All kinds.
+    pub const ALL: [Twin; 3] = [Twin::Masked, Twin::Mirrored, Twin::Renamed];
+
+    /// As written on the command line and in data.
+    pub fn name(self) -> &'static str {
+        match self {
+            Twin::Masked => "masked",
+            Twin::Mirrored => "mirrored",
+            Twin::Renamed => "renamed",
+        }
+    }
+}
+
+impl fmt::Display for Twin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Twin {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Twin, String> {
+        let found = Twin::ALL.into_iter().find(|kind| kind.name() == text);
+        found.ok_or_else(|| format!("there is no twin `{text}`: choose masked, mirrored or renamed"))
+    }
+}
+
+/// A game with another surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TwinGame {
+    /// The rules, headed by title and canary.
+    pub text: String,
+    /// The levels, in their order.
+    pub levels: Vec<String>,
+    /// For each level an episode that wins it; none where there was none, or where what was done in the original does not
+    /// win here and no other way was found.
+    pub witnesses: Vec<Option<Episode>>,
+    /// Its title.
+    pub title: String,
+    /// Who the player is, and more, as far as the surface may tell.
+    pub description: String,
+    /// How to win, in one sentence.
+    pub goal: String,
+}
+
+/// Why a game has no twin.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum TwinError {
+    /// The text is no game.
+    #[error("not a game: {0}")]
+    Game(Diagnostics),
+    /// A level is no level of the game.
+    #[error("lvl{number}.txt is not a level of this game: {problems}")]
+    Level {
+        /// Counted from 0.
+        number: usize,
+        /// What is wrong.
+        problems: Diagnostics,
+    },
+    /// The rules cannot be mirrored faithfully.
+    #[error("the game cannot be mirrored: {0}")]
+    Unmirrorable(String),
+    /// No other fiction.
+    #[error(transparent)]
+    Untold(#[from] GenerateError),
+}
+
+/// The twin of a game: the same mechanics, level by level. `witnesses` are episodes that win the levels, in the order of the
+/// levels; fewer are none for the others. The same arguments give the same twin. Cost: well under a second, where no witness
+/// has to be searched anew.
+///
+/// # Errors
+/// Text or levels do not load, or the game has no twin of this kind.
+pub fn of_game(
+    kind: Twin,
+    source: &str,
+    levels: &[String],
+    witnesses: &[Episode],
+) -> Result<TwinGame, TwinError> {
+    let known = (0..levels.len()).map(|number| witnesses.get(number)).collect();
+    of_levels(kind, source, levels, known)
+}
+
+/// The same, where levels in between may have no witness.
+fn of_levels(
+    kind: Twin,
+    source: &str,
+    levels: &[String],
+    witnesses: Vec<Option<&Episode>>,
+) -> Result<TwinGame, TwinError> {
+    let game = Game::from_source(source).map_err(TwinError::Game)?;
+    let mut canonical = Vec::with_capacity(levels.len());
+    for (number, level) in levels.iter().enumerate() {
+        let level = game.level(level).map_err(|problems| TwinError::Level { number, problems })?;
+        canonical.push(level.to_string());
+    }
+    let original = Original { game, levels: canonical, witnesses };
+    match kind {
+        Twin::Masked => original.masked(),
+        Twin::Mirrored => mirrored::twin(&original),
+        Twin::Renamed => original.renamed(),
+    }
+}
+
+/// A game that a twin is made of.
+struct Original<'a> {
+    game: Game,
+    /// Canonical texts.
+    levels: Vec<String>,
+    /// One a level.
+    witnesses: Vec<Option<&'a Episode>>,
+}
+
+impl Original<'_> {
+    /// Where the draws for a twin come from: from nothing but the game.
+    fn seed(&self, kind: Twin) -> Seed {
+        Seed::from_text(&format!("twin {} of {}", kind.name(), self.game.digest()))
+    }
+
+    /// Its title, as releases write it above the rules.
+    fn title(&self) -> Option<String> {
+        let comments = self.game.description().header.trivia.above.iter().map(|line| line.trim());
+        comments.filter(|line| !line.is_empty() && !line.starts_with(CANARY)).map(str::to_owned).next()
+    }
+
+    fn masked(&self) -> Result<TwinGame, TwinError> {
+        let masked = Masked::of(self.game.description(), self.seed(Twin::Masked));
+        let levels = self.levels.iter().map(|level| masked.level(level)).collect();
+        let mut made = Made::of(self, masked.description(), levels, |action| action)?;
+        made.twin.title = made.plain_title();
+        Ok(made.headed(self))
+    }
+
+    fn renamed(&self) -> Result<TwinGame, TwinError> {
+        let retold = Retold::of(&self.game, self.seed(Twin::Renamed))?;
+        let levels = self.levels.iter().map(|level| retold.level(level)).collect();
+        let mut made = Made::of(self, &retold.description, levels, |action| action)?;
+        made.twin.title = retold.title;
+        made.twin.description = retold.summary;
+        made.twin.goal = retold.goal;
+        Ok(made.headed(self))
+    }
+}
+
+/// How comments begin that mark a text as one not to be trained on.
+const CANARY: &str = "canary ";
+
+/// A twin without its title and text, and the game that it is.
+struct Made {
+    twin: TwinGame,
+    game: Game,
+}
+
+impl Made {
+    /// From rules in which the image of an action does what the action did.
+    fn of(
+        original: &Original<'_>,
+        rules: &Description,
+        levels: Vec<String>,
+        image: fn(Action) -> Action,
+    ) -> Result<Made, TwinError> {
+        // From the print: what is frozen is what is played.
+        let game = Game::from_source(&syntax::print_bare(rules)).map_err(TwinError::Game)?;
+        let mut witnesses = Vec::new();
+        for (number, text) in levels.iter().enumerate() {
+            let level = game.level(text).map_err(|problems| TwinError::Level { number, problems })?;
+            let known = original.witnesses[number];
+            let again = |known: &Episode| replayed(&game, &level, known.seed, &known.actions, image);
+            witnesses.push(known.and_then(again));
+        }
+        let guide = Guide::from_analysis(&Analysis::of(&game));
+        let (description, goal) = (guide.controls.join(" "), guide.goal());
+        let twin =
+            TwinGame { text: String::new(), levels, witnesses, title: String::new(), description, goal };
+        Ok(Made { twin, game })
+    }
+
+    /// A title that tells nothing.
+    fn plain_title(&self) -> String {
+        format!("Game {}", self.game.digest().short())
+    }
+
+    /// With its text: headed by the title, and by the canary of the original if that has one.
+    fn headed(self, original: &Original<'_>) -> TwinGame {
+        let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
+        let canaries = comments.filter(|line| line.starts_with(CANARY));
+        let mut tree = self.game.description().clone();
+        let above = [self.twin.title.as_str()].into_iter().chain(canaries);
+        tree.header.trivia.above = above.map(str::to_owned).collect();
+        TwinGame { text: syntax::print(&tree), ..self.twin }
+    }
+}
+
+/// The episode of the images of some actions, if it wins.
+fn replayed(
+    game: &Game,
+    level: &Level,
+    seed: Seed,
+    actions: &[Action],
+    image: fn(Action) -> Action,
+) -> Option<Episode> {
+    let (mut episode, mut state) = Episode::begin(game, level, seed);
+    for &action in actions {
+        if episode.play(game, &mut state, image(action)) != Outcome::Ongoing {
+            break;
+        }
+    }
+    (episode.outcome == Outcome::Won).then_some(episode)
+}

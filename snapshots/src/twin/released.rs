@@ -1,0 +1,44 @@
+//! Twins of games of a release.
+
+use super::{Twin, TwinError, TwinGame, of_levels};
+use crate::released::ReleasedGame;
+
+/// Words that tell a side. (What is `left` is most often over.)
+const SIDES: [&str; 7] = ["leftward", "leftwards", "right", "rightward", "rightwards", "west", "east"];
+
+/// The twin of a game of a release. What its card tells of it is told of its mirror image too, unless it tells of a side.
+///
+/// # Errors
+/// The game has no twin of this kind.
+pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, TwinError> {
+    let levels: Vec<String> = released.levels.iter().map(|level| level.text.clone()).collect();
+    let witnesses = released.levels.iter().map(|level| level.witness.as_ref()).collect();
+    let mut twin = of_levels(kind, &released.source, &levels, witnesses)?;
+    if kind == Twin::Mirrored {
+        let card = &released.card;
+        for (own, told) in [(&mut twin.description, &card.description), (&mut twin.goal, &card.goal)] {
+            if !tells_a_side(told) {
+                own.clone_from(told);
+            }
+        }
+    }
+    Ok(twin)
+}
+
+fn tells_a_side(text: &str) -> bool {
+    let text = text.to_lowercase();
+    let mut words = text.split(|c: char| !c.is_alphabetic());
+    text.contains("the left") || text.contains("to left") || words.any(|word| SIDES.contains(&word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_that_tell_a_side() {
+        assert!(tells_a_side("Steam drifts to the left."));
+        assert!(tells_a_side("The wind is from the East, always."));
+        assert!(!tells_a_side("You win when no feast is left."));
+    }
+}

@@ -1,0 +1,106 @@
+//! Chains of releases in folders.
+
+use crate::small::{Small, home, small};
+use snapshots::archive::pack;
+use snapshots::chain::{Chain, Link, follow};
+use snapshots::{SnapshotError, verify};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::slice::from_ref;
+
+fn three() -> [Small; 3] {
+    let first = small("2026-12", None);
+    let second = small("2027-01", Some(first.manifest.root));
+    let third = small("2027-02", Some(second.manifest.root));
+    [first, second, third]
+}
+
+fn ask(start: &Path, folders: &[PathBuf]) -> Result<Chain, SnapshotError> {
+    let verification = verify(start)?;
+    assert!(verification.problems.is_empty(), "{:?}", verification.problems);
+    follow(Link::of(&verification.manifest, start), folders)
+}
+
+#[track_caller]
+fn check(start: &Path, folders: &[PathBuf], names: &[&str], problems: &[&str]) {
+    let chain = ask(start, folders).expect("readable");
+    let found: Vec<&str> = chain.releases.iter().map(|link| link.name.as_str()).collect();
+    assert_eq!(found, names);
+    assert_eq!(chain.problems.len(), problems.len(), "{:?}", chain.problems);
+    for (problem, words) in chain.problems.iter().zip(problems) {
+        assert!(problem.contains(words), "{problem}");
+    }
+}
+
+#[test]
+fn a_folder_of_releases() {
+    let home = home();
+    let [first, second, third] = three().map(|release| release.write_in(&home));
+    fs::create_dir(home.path().join("notes")).expect("created");
+    fs::write(home.path().join("notes/todo.txt"), "x").expect("written");
+    fs::write(home.path().join("notes.txt"), "x").expect("written");
+    let all = home.path().to_path_buf();
+    check(&third, &[all], &["2027-02", "2027-01", "2026-12"], &[]);
+    check(&third, &[second.clone(), first.clone()], &["2027-02", "2027-01", "2026-12"], &[]);
+    check(&first, from_ref(&second), &["2026-12"], &[]);
+    let missing = format!("`2027-02` follows the release with root {}", verify(&second).expect("sound").root);
+    check(&third, from_ref(&first), &["2027-02"], &[&missing]);
+    let missing = format!("`2027-01` follows the release with root {}", verify(&first).expect("sound").root);
+    check(&third, &[second], &["2027-02", "2027-01"], &[&missing]);
+    let notes = home.path().join("notes");
+    assert!(matches!(ask(&third, from_ref(&notes)), Err(SnapshotError::NoRelease { path }) if path == notes));
+    assert!(matches!(ask(&third, &[home.path().join("absent")]), Err(SnapshotError::NotASnapshot { .. })));
+}
+
+#[test]
+fn a_sealed_release_lies_one_folder_deeper() {
+    let home = home();
+    let [first, _, _] = three();
+    let second = small("2027-01", Some(first.manifest.root)).write_in(&home);
+    let place = first.write_in(&home);
+    fs::create_dir(home.path().join("sealed")).expect("created");
+    fs::rename(place, home.path().join("sealed/public")).expect("moved");
+    check(&second, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[]);
+}
+
+#[test]
+fn archives_are_links_too() {
+    let home = home();
+    let [first, second, third] = three().map(|release| release.write_in(&home));
+    let archive = home.path().join("2026-12.tar.zst");
+    pack(&first, &archive).expect("packed");
+    // The same release twice is one.
+    check(&third, &[home.path().to_path_buf()], &["2027-02", "2027-01", "2026-12"], &[]);
+    fs::remove_dir_all(first).expect("removed");
+    check(&third, &[second, archive], &["2027-02", "2027-01", "2026-12"], &[]);
+}
+
+#[test]
+fn a_spoiled_link_is_named_and_not_followed() {
+    let home = home();
+    let [_, second, third] = three().map(|release| release.write_in(&home));
+    let all = [home.path().to_path_buf()];
+    fs::write(second.join("README.md"), "# 2027-01").expect("written");
+    check(&third, &all, &["2027-02"], &["2027-01: README.md: wrong size", "which is not among those given"]);
+    fs::write(second.join("MANIFEST.json"), "{ \"format\": 1").expect("written");
+    check(&third, &all, &["2027-02"], &["is not a snapshot manifest", "which is not among those given"]);
+    fs::write(second.join("MANIFEST.json"), "{ \"format\": 9 }").expect("written");
+    check(&third, &all, &["2027-02"], &["snapshot format 9 is newer", "which is not among those given"]);
+}
+
+#[test]
+fn two_histories_are_told() {
+    let home = home();
+    let [first, _, third] = three();
+    let second = small("2027-01", Some(first.manifest.root));
+    let fork = small("2027-01-b", Some(first.manifest.root));
+    let places: Vec<PathBuf> =
+        [&first, &second, &third, &fork].iter().map(|release| release.write_in(&home)).collect();
+    let all = [home.path().to_path_buf()];
+    check(&places[2], &all, &["2027-02", "2027-01", "2026-12"], &["`2027-01` in"]);
+    let chain = ask(&places[2], &all).expect("readable");
+    assert!(chain.problems[0].contains("`2027-01-b`") && chain.problems[0].contains("two histories"));
+    assert!(chain.complete && chain.others == 1);
+    // From the fork, the others are the other history.
+    check(&places[3], &all, &["2027-01-b", "2026-12"], &["two histories"]);
+}

@@ -1,0 +1,9 @@
+//! Releases in hostile hands: tampered with, packed and unpacked, chained, proved item by item, and grown old.
+
+mod archives;
+mod chains;
+mod old;
+mod proofs;
+mod small;
+#[cfg(unix)]
+mod tamper;

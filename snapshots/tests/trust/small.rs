@@ -1,0 +1,139 @@
+//! The smallest release that there can be: a game, a level, a witness that wins it.
+
+use engine::{Action, Digest, Episode, Game, Outcome, Seed};
+use serde::Serialize;
+use snapshots::canonical::to_canonical_json;
+use snapshots::card::{Card, LevelCard, Origin};
+use snapshots::{Draft, FORMAT, Item, Kind, MANIFEST_FILE, Manifest, Witness, canary};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+use validators::Rate;
+
+const GAME: &str = "\
+BasicGame
+    SpriteSet
+        earth > Immovable color=BLACK
+        wall > Immovable color=BROWN
+        door > Immovable color=GREEN
+        mole > MovingAvatar color=WHITE
+    LevelMapping
+        . > earth
+        w > wall
+        d > earth door
+        m > earth mole
+    InteractionSet
+        mole wall > stepBack
+        door mole > killSprite scoreChange=1
+    TerminationSet
+        SpriteCounter stype=door limit=0 win=True
+";
+const LEVEL: &str = "wwwwww\nwm..dw\nwwwwww\n";
+
+/// A release in memory.
+#[derive(Clone)]
+pub(crate) struct Small {
+    pub(crate) manifest: Manifest,
+    /// All files but the manifest, by path.
+    pub(crate) files: Vec<(String, Vec<u8>)>,
+}
+
+/// The release of this name, after the one with this root.
+pub(crate) fn small(name: &str, parent: Option<Digest>) -> Small {
+    let recipe = serde_json::json!({ "name": name, "seed": "a mole in the dark" });
+    let mark = canary(&Digest::of(recipe.to_string().as_bytes()));
+    let game = Game::from_source(GAME).expect("a game");
+    let level = game.level(LEVEL).expect("a level");
+    let (mut episode, mut state) = Episode::begin(&game, &level, Seed::from_text("small"));
+    while episode.play(&game, &mut state, Action::Right) == Outcome::Ongoing {}
+    assert_eq!(episode.outcome, Outcome::Won);
+    let never = Rate { wins: 0, plays: 8, interval: [0.0, 0.3], calls: 0, mean_score: 0.0 };
+    let id = format!("mole-{}", game.digest().short());
+    let card = Card {
+        canary: mark.clone(),
+        id: id.clone(),
+        title: "Mole".into(),
+        description: "A mole in a tunnel.".into(),
+        goal: "Go through the door.".into(),
+        kind: "travel".into(),
+        real_time: false,
+        deterministic: true,
+        digest: game.digest(),
+        origin: Origin::Corpus { name: "mole".into() },
+        rules: "The door goes when the mole comes.".into(),
+        levels: vec![LevelCard {
+            file: "lvl0.txt".into(),
+            digest: level.digest(),
+            columns: 6,
+            rows: 3,
+            generator: "constructive".into(),
+            difficulty: 0.0,
+            candidate: 0,
+            witness_ticks: episode.actions.len(),
+            witness_score: episode.score,
+            optimal_ticks: Some(episode.actions.len()),
+            search_calls: 3,
+            mcts: never.clone(),
+            random: never.clone(),
+            idle: never,
+            ladder: None,
+        }],
+    };
+    let files = vec![
+        ("README.md".to_owned(), format!("# {name}\n\nCanary: `{mark}`\n").into_bytes()),
+        (format!("games/{id}/card.json"), json(&card)),
+        (format!("games/{id}/game.vgdl"), GAME.as_bytes().to_vec()),
+        (format!("games/{id}/lvl0.txt"), LEVEL.as_bytes().to_vec()),
+        (format!("games/{id}/witness/lvl0.json"), json(&Witness { canary: mark.clone(), episode })),
+    ];
+    let mut manifest = Manifest {
+        format: FORMAT,
+        name: name.into(),
+        kind: Kind::Open,
+        semantics: engine::SEMANTICS,
+        generation: generators::GENERATION,
+        parent,
+        canary: mark,
+        commitment: None,
+        lockfile: Digest::of(b"the bytes of Cargo.lock"),
+        recipe,
+        items: files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect(),
+        root: Digest::of(b""),
+        checksum: Digest::of(b""),
+    };
+    manifest.seal_root().expect("distinct paths");
+    Small { manifest, files }
+}
+
+impl Small {
+    /// Writes it to a folder.
+    pub(crate) fn write(&self, out: &Path) {
+        let draft = Draft::create(out).expect("vacant");
+        for (path, content) in &self.files {
+            draft.write(path, content).expect("written");
+        }
+        draft.write(MANIFEST_FILE, &self.manifest.to_bytes().expect("sound")).expect("written");
+        draft.commit().expect("published");
+    }
+
+    /// Writes it to the folder of its name in `home`.
+    pub(crate) fn write_in(&self, home: &TempDir) -> PathBuf {
+        let out = home.path().join(&self.manifest.name);
+        self.write(&out);
+        out
+    }
+
+    /// States the files that are there now, and the root over them, as a forger would.
+    pub(crate) fn seal(&mut self) {
+        self.manifest.items =
+            self.files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect();
+        self.manifest.seal_root().expect("distinct paths");
+    }
+}
+
+fn json(value: &impl Serialize) -> Vec<u8> {
+    to_canonical_json(value).expect("plain data").into_bytes()
+}
+
+pub(crate) fn home() -> TempDir {
+    tempfile::tempdir().expect("temporary folder")
+}
