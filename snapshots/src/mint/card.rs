@@ -53,7 +53,12 @@ pub struct Rung {
     pub rate: RungRate,
     /// The difference of win rates that two releases of this size would show: at 5 %, seen in 80 of 100 cases.
     pub detectable: Option<f64>,
+    /// The same of two releases with [`MONTH`] games like these.
+    pub detectable_month: Option<f64>,
 }
+
+/// Games of a release of full size.
+const MONTH: u64 = 120;
 
 /// How new the games of a release are.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -108,7 +113,11 @@ impl ReleaseCard {
             new.iter().filter_map(|game| game.form.nearest(&plan.forms).map(|(_, apart)| apart)).collect();
         let rules: Vec<f64> = games().map(|game| game.rules as f64).collect();
         let ticks: Vec<f64> = levels().map(|level| level.witness_ticks as f64).collect();
-        let rung = |rate: RungRate| Rung { detectable: rate.detectable(rate.games), rate };
+        let rung = |rate: RungRate| Rung {
+            detectable: rate.detectable(rate.games),
+            detectable_month: rate.detectable(MONTH),
+            rate,
+        };
         ReleaseCard {
             canary: plan.canary(),
             games: cards.len() as u64,
@@ -148,18 +157,21 @@ impl ReleaseCard {
         if !self.ladder.is_empty() {
             let _ = writeln!(
                 text,
-                "| player | wins | 95 %, games drawn again | two such releases would show a difference of |\n|---|---|---|---|"
+                "| player | wins | 95 %, games drawn again | two such releases would show a difference of | two of {MONTH} games |\n\
+                 |---|---|---|---|---|"
             );
-            for Rung { rate, detectable } in &self.ladder {
-                let seen =
-                    detectable.map_or("-".to_owned(), |points| format!("{:.0} points", 100.0 * points));
+            let points = |share: f64| format!("{:.0} points", 100.0 * share);
+            let seen = |difference: &Option<f64>| difference.map_or("-".to_owned(), points);
+            for Rung { rate, detectable, detectable_month } in &self.ladder {
                 let held_out = if rate.held_out { ", held out" } else { "" };
                 let [low, high] = rate.interval.map(|bound| 100.0 * bound);
                 let _ = writeln!(
                     text,
-                    "| `{}`{held_out} | {:.0} % | {low:.0} to {high:.0} % | {seen} |",
+                    "| `{}`{held_out} | {:.0} % | {low:.0} to {high:.0} % | {} | {} |",
                     rate.player,
                     100.0 * rate.mean,
+                    seen(detectable),
+                    seen(detectable_month),
                 );
             }
             text.push('\n');
