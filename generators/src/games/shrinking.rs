@@ -1,14 +1,15 @@
 //! Smaller games: what is left when one thing is taken away.
 
-use super::composition;
 use super::edit::{Edit, RuleAt};
 use super::genome::GameGenome;
+use super::{assemble, composition};
 use std::collections::BTreeSet;
 
 impl GameGenome {
     /// All genomes with one thing less that still build, none of them twice: without an edit, without a pattern, without a
-    /// sprite type and the rules about it, without a rule, or with a rule for one partner less. Whether what is gone was
-    /// missed, others judge. Cost: some tens of builds.
+    /// sprite type and the rules about it, without a rule, or with a rule for one partner less. Taking away the edit that took
+    /// something away is not among them: whoever goes from genome to smaller genome comes to an end. Whether what is gone
+    /// was missed, others judge. Cost: some tens of builds.
     pub fn shrunk_once(&self) -> Vec<GameGenome> {
         let mut smaller: Vec<GameGenome> = Vec::new();
         for at in (0..self.edits.len()).rev() {
@@ -35,12 +36,19 @@ impl GameGenome {
             genome.edits.push(edit);
             smaller.push(genome);
         }
-        let mut seen = BTreeSet::from([self.key()]);
+        let (mut seen, size) = (BTreeSet::from([self.key()]), self.size());
         smaller.retain_mut(|genome| {
             genome.edits = genome.draft().1;
-            seen.insert(genome.key()) && genome.build().is_ok()
+            genome.size() < size && seen.insert(genome.key()) && genome.build().is_ok()
         });
         smaller
+    }
+
+    /// Sprite types and pairs with a rule, then what it takes to say them.
+    fn size(&self) -> (usize, usize) {
+        let game = assemble::describe(&self.draft().0);
+        let pairs: usize = game.interactions.iter().map(|line| line.second.len()).sum();
+        (game.sprite_lines().len() + pairs, self.genes.len() + self.edits.len())
     }
 }
 

@@ -23,7 +23,15 @@ pub(super) fn shrunk(
     levels: &[FoundLevel],
     candidate: impl Fn(&GameGenome) -> Option<Candidate>,
 ) -> Option<Candidate> {
-    let played = Played::of(levels);
+    smallest(genome, first, &Played::of(levels), candidate)
+}
+
+fn smallest(
+    genome: &GameGenome,
+    first: &Candidate,
+    played: &Played,
+    candidate: impl Fn(&GameGenome) -> Option<Candidate>,
+) -> Option<Candidate> {
     // What plays alike does the same in the same episodes: one recording serves all that come of this game.
     let uses = played.executions(&first.game);
     let mut smallest: Option<(GameGenome, Candidate)> = None;
@@ -105,7 +113,10 @@ fn ends_alike(game: &Game, level: &Level, episode: &Episode) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use engine::{Action, Seed};
+    use engine::{Action, Seed, syntax};
+    use generators::games::GameVariation;
+    use generators::levels::{ConstructiveLevels, LevelConfig};
+    use generators::{Generator as _, Variation as _};
 
     #[test]
     fn what_nothing_runs_can_go_and_what_decides_an_episode_stays() {
@@ -125,5 +136,28 @@ mod tests {
         assert!(played.alike(&game, &altered("    avatar wall > stepBack\n", ""), &uses));
         assert!(!played.alike(&game, &altered("scoreChange=1", ""), &uses));
         assert!(!played.alike(&game, &altered("gem avatar > killSprite", "gem avatar > stepBack"), &uses));
+    }
+
+    #[test]
+    fn rules_that_no_episode_needs_are_gone() {
+        let seed = Seed::from_text("shrunk");
+        let genome = GameVariation::default().create(seed).unwrap();
+        let candidate = |genome: &GameGenome| Candidate::generated(genome.build().ok()?, "test", 0).ok();
+        let first = candidate(&genome).unwrap();
+        let level = ConstructiveLevels::new(&first.game, LevelConfig::default())
+            .and_then(|levels| levels.generate(seed))
+            .unwrap();
+        let (mut episode, mut state) = Episode::begin(&first.game, &level, seed);
+        let mut sampler = seed.sampler();
+        while !state.is_over() && episode.actions.len() < 40 {
+            let action = *sampler.choose(first.game.actions(&state));
+            episode.play(&first.game, &mut state, action);
+        }
+        let played = Played { levels: vec![(level.to_string(), vec![episode])] };
+        let smaller = smallest(&genome, &first, &played, candidate).expect("40 ticks do not need all rules");
+        let size = |candidate: &Candidate| syntax::print(candidate.game.description()).len();
+        assert!(size(&smaller) < size(&first));
+        let (text, episodes) = &played.levels[0];
+        assert!(ends_alike(&smaller.game, &smaller.game.level(text).unwrap(), &episodes[0]));
     }
 }

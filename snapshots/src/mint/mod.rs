@@ -264,7 +264,9 @@ mod tests {
 
     #[test]
     fn a_corpus_game_without_new_levels_makes_room_for_the_next_of_the_draw() {
-        let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
+        let hopeless = FETCH
+            .replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack")
+            .replace("exit avatar > killSprite", "avatar exit > stepBack");
         let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
         // Whichever is drawn first: both orders are drawn.
         let mut first = Vec::new();
