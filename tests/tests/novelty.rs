@@ -2,6 +2,8 @@
 //! lies between copies with other numbers and other games (docs/novelty.md).
 
 use engine::{Game, Seed};
+use generators::Generator;
+use generators::games::{ConstructiveGames, Masked, Retold};
 use std::path::Path;
 use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
@@ -61,6 +63,31 @@ fn another_dress_of_an_invented_game_is_the_same_game() {
         tried += 1;
     }
     assert!(tried > 100, "{tried}");
+}
+
+/// Twins keep the names that the engine knows and choose other characters; those that they leave to the engine must not place
+/// what nothing in the game places.
+#[test]
+fn twins_are_the_same_game() {
+    let generated = (0..20).map(|number| {
+        let made =
+            ConstructiveGames::default().generate(Seed::from_text("twins").child("game", number)).unwrap();
+        (made.title, Game::compile(&made.description).unwrap())
+    });
+    for (name, game) in all().into_iter().chain(generated) {
+        let form = GameForm::of(&game);
+        for number in 0..8 {
+            let seed = Seed::from_text(&name).child("twin", number);
+            let masked = Masked::of(game.description(), seed).description().clone();
+            let retold = Retold::of(&game, seed).ok().map(|retold| retold.description);
+            for twin in [masked].into_iter().chain(retold) {
+                let text = engine::syntax::print(&twin);
+                let twin =
+                    Game::compile(&twin).unwrap_or_else(|problems| panic!("{name}: {problems}\n{text}"));
+                assert_eq!(form.digest(), GameForm::of(&twin).digest(), "{name} {number}\n{text}");
+            }
+        }
+    }
 }
 
 #[test]

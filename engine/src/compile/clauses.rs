@@ -213,7 +213,9 @@ fn mapping(rules: &Rules) -> Vec<(char, Vec<SpriteType>)> {
     let written = |symbol: char| rules.description.mapping.iter().any(|line| line.symbol == symbol);
     let all = (0u8..).map(char::from).zip(&rules.mapping).filter(|(_, types)| !types.is_empty());
     let meant = all.filter(|(symbol, types)| {
-        written(*symbol) || types.iter().all(|stype| declared(rules, &rules.types[stype.index()].name))
+        let info = |stype: &SpriteType| &rules.types[stype.index()];
+        let placeable = |stype| info(stype).class.is_some() && declared(rules, &info(stype).name);
+        written(*symbol) || types.iter().all(placeable)
     });
     meant.map(|(symbol, types)| (symbol, types.to_vec())).collect()
 }

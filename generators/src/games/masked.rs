@@ -72,8 +72,16 @@ impl Mask {
         let used = surface::symbols(description);
         let mut pool: Vec<char> = SYMBOLS.chars().collect();
         sampler.shuffle(&mut pool);
+        pool.extend(
+            ('!'..='~').filter(|symbol| symbol.is_ascii_punctuation() && !['#', '<', '>'].contains(symbol)),
+        );
         let silent = || surface::silent(description).map(|(symbol, _)| (symbol, symbol));
         pool.retain(|&symbol| !silent().any(|(kept, _)| kept == symbol));
+        let needed: Vec<char> = surface::overridden(description).collect();
+        pool.retain(|symbol| !needed.contains(symbol));
+        pool.truncate(used.len() - needed.len());
+        pool.extend(needed);
+        sampler.shuffle(&mut pool);
         // A game with more characters than the pool keeps the last ones.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
         let symbols = symbols.chain(silent());

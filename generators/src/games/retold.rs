@@ -275,6 +275,9 @@ fn symbols(analysis: &Analysis, cast: &BTreeMap<String, Part>) -> Result<Symbols
     settle('w', &|names| names.last() == Some(&"wall"));
     settle('A', &|names| names.iter().any(|name| uses(name) == Some(Use::Avatar)));
     settle('w', &|names| last(names) == Some(Use::Wall));
+    for symbol in surface::overridden(description) {
+        settle(symbol, &|_| true);
+    }
     for (old, names) in &lines {
         if symbols.contains_key(old) {
             continue;

@@ -52,11 +52,18 @@ pub(super) fn symbols(description: &Description) -> Vec<char> {
 /// What a character stands for in this game though it has no line.
 pub(super) fn builtin(symbol: char, description: &Description) -> Option<&'static str> {
     let name = unmapped(symbol, description)?;
-    let declared = description.sprite_lines().iter().any(|(_, line)| line.name.text == name);
-    declared.then_some(name)
+    declares_sprites(&description.sprites, name, false).then_some(name)
 }
 
-/// Characters that place types which the file neither maps nor declares, with these: they stay as they are, because a line
+/// Whether one of the lines declares the type, and a class for it or above it.
+fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
+    lines.iter().any(|line| {
+        let class = above || line.class.is_some();
+        (class && line.name.text == name) || declares_sprites(&line.children, name, class)
+    })
+}
+
+/// Characters that place types which the file neither maps nor declares with a class, with these: they stay as they are, because a line
 /// for them would be one rule more.
 pub(super) fn silent(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
     let undeclared = |symbol: char| {
@@ -64,6 +71,12 @@ pub(super) fn silent(description: &Description) -> impl Iterator<Item = (char, &
         builtin(symbol, description).is_none().then_some((symbol, name))
     };
     ['w', 'A'].into_iter().filter_map(undeclared)
+}
+
+/// Characters that place something in every game, and that this one maps otherwise: a twin has to map them too, or they
+/// would get a meaning that nothing has in this game.
+pub(super) fn overridden(description: &Description) -> impl Iterator<Item = char> {
+    ['w', 'A'].into_iter().filter(|&symbol| unmapped(symbol, description).is_none())
 }
 
 /// What a character places in every game that does not map it.

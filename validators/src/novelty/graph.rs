@@ -55,8 +55,6 @@ impl RuleGraph {
         let used = used(&clauses);
         let kept: Vec<&TypeClause> =
             clauses.types.iter().filter(|clause| clause.declared || used[clause.stype.index()]).collect();
-        // `w` and `A` place these alone in every game that gives the characters no other meaning.
-        let is_known = |stype: &SpriteType| ["wall", "avatar"].contains(&game.name(*stype));
         let mut place = vec![usize::MAX; clauses.types.len()];
         kept.iter().enumerate().for_each(|(at, clause)| place[clause.stype.index()] = at);
         let edges = |terms: &Terms, ordered: bool| {
@@ -74,7 +72,7 @@ impl RuleGraph {
             .iter()
             .map(|clause| {
                 // Without sprites of its own a parent is but the sum of those below it.
-                let stands = clause.leaf || is_known(&clause.stype) || analysis.facts(clause.stype).possible;
+                let stands = clause.leaf || analysis.facts(clause.stype).possible;
                 let terms = if stands { &clause.terms } else { &Terms::new() };
                 let mut edges = edges(terms, true);
                 edges.extend(clause.parent.map(|parent| ("below".to_owned(), place[parent.index()])));
@@ -101,9 +99,7 @@ impl RuleGraph {
             ];
             nodes.push(Node { labels, weight: ENDING, edges: edges(&clause.terms, false) });
         }
-        // So that another choice of characters is not another form, sets that are a part of others are left out.
-        let known = kept.iter().enumerate().filter(|(_, clause)| is_known(&clause.stype));
-        let mut sets: Vec<Vec<usize>> = known.map(|(at, _)| vec![at]).collect();
+        let mut sets: Vec<Vec<usize>> = Vec::new();
         for (_, placed) in &clauses.mapping {
             let mut set: Vec<usize> = placed.iter().map(|stype| place[stype.index()]).collect();
             set.retain(|&at| at != usize::MAX);
@@ -112,6 +108,8 @@ impl RuleGraph {
                 sets.push(set);
             }
         }
+        // What a character places besides more is left out: `w` and `A` place a wall and an avatar alone in every game that
+        // gives them no other meaning, so that another choice of characters would be another form.
         let within = |set: &[usize], other: &[usize]| {
             set.len() < other.len() && set.iter().all(|at| other.contains(at))
         };
