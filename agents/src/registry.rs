@@ -141,8 +141,9 @@ impl fmt::Display for UnknownPlanner {
             );
         }
         write!(f, "no planner named `{name}`")?;
-        if let Some(near) = engine::nearest(name, PLANNERS.iter().copied()) {
-            write!(f, "; did you mean `{near}`?")?;
+        match engine::nearest(name, PLANNERS.iter().copied()) {
+            Some(near) => write!(f, "; did you mean `{near}`?")?,
+            None => f.write_str(".")?,
         }
         write!(f, " There are {}; `mcts:500` is `mcts` with 500 calls a decision", PLANNERS.join(", "))
     }

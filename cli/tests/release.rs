@@ -57,6 +57,19 @@ fn the_starter_is_minted_and_verifies() {
     run(folder.path(), &["verify", "releases/starter"], 0);
 }
 
+/// The same seed gives the same candidates, most of which the parent has.
+#[test]
+fn what_a_release_before_has_is_not_minted_again() {
+    let folder = TINY.path();
+    let recipe = include_str!("../../seeds/tiny.toml").replacen("\"tiny\"", "\"next\"", 1);
+    fs::write(folder.join("next.toml"), recipe).unwrap();
+    let output = run(folder, &["release", "next.toml", "--parent", "tiny", "--out", "next"], 2);
+    let said = text(&output.stderr);
+    assert!(said.contains("can be taken") && said.contains("in a release before"), "{said}");
+    let output = run(folder, &["release", "tiny", "--parent", "tiny", "--out", "next"], 2);
+    assert!(text(&output.stderr).contains("a release needs a name of its own"), "{}", text(&output.stderr));
+}
+
 #[test]
 fn any_flipped_byte_is_named() {
     let (folder, root) = copy();

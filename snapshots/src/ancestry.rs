@@ -5,7 +5,8 @@ use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::recipe::{Known, Recipe};
 use crate::{Digest, SnapshotError};
-use engine::{Analysis, Game};
+use engine::{Analysis, Game, Seed, syntax};
+use generators::games::Masked;
 use generators::levels::Likeness;
 use std::path::Path;
 use validators::novelty::GameForm;
@@ -26,6 +27,11 @@ pub enum AncestryError {
     /// The parent is damaged.
     #[error("the parent does not verify: {0}")]
     Damaged(String),
+    /// What the parent tells of its own ancestors is of another version.
+    #[error(
+        "what the parent knows of the releases before it cannot be read ({0}): use the arcade that minted it"
+    )]
+    Unreadable(serde_json::Error),
     /// A release of the same name is among the ancestors.
     #[error("a release named `{0}` came before: a release needs a name of its own")]
     SameName(String),
@@ -55,8 +61,11 @@ pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
     if let Some(asked) = recipe.parent.filter(|asked| *asked != manifest.root) {
         return Err(AncestryError::OtherParent { asked, found: manifest.root, name: manifest.name.clone() });
     }
-    let before: Option<Recipe> = serde_json::from_value(manifest.recipe.clone()).ok();
-    let mut known: Known = before.map(|recipe| recipe.known).unwrap_or_default();
+    // Of the recipe this part alone, so that recipes with keys of other versions can be followed.
+    let mut known: Known = match manifest.recipe.get("known") {
+        None => Known::default(),
+        Some(known) => serde_json::from_value(known.clone()).map_err(AncestryError::Unreadable)?,
+    };
     known.releases.push(manifest.name.clone());
     if known.releases.contains(&recipe.name) {
         return Err(AncestryError::SameName(recipe.name.clone()));
@@ -72,7 +81,8 @@ pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
         let game = Game::from_source(&read(&source)?).map_err(|_| damaged(&source))?;
         let form = GameForm::of(&game);
         if matches!(card.origin, Origin::Generated { .. }) {
-            known.rules.insert(form.digest());
+            let bare = Masked::of(game.description(), Seed::from_text(&card.id));
+            known.games.push(syntax::print(bare.description()));
             continue;
         }
         let likeness = Likeness::of(&Analysis::of(&game));

@@ -82,6 +82,10 @@ pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     let mut partial_name = name.to_os_string();
     partial_name.push(".partial");
     let partial = out.with_file_name(partial_name);
+    let parent = partial.parent().filter(|parent| !parent.as_os_str().is_empty());
+    if let Some(parent) = parent {
+        fs::create_dir_all(parent).map_err(SnapshotError::io("create", parent))?;
+    }
     let mut file = claim(&partial)?;
     let publish = |packed| {
         // A file that somebody has put there in the meantime is not to be replaced.

@@ -2,6 +2,7 @@
 
 use engine::Digest;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use validators::{Ladder, Rate};
 
 /// Where a game comes from.
@@ -22,6 +23,16 @@ pub enum Origin {
         /// Which candidate for its place it was, counted from 0.
         candidate: u32,
     },
+}
+
+impl Origin {
+    /// The patterns of mechanics that a generated game was composed of, each once: without its fiction, and without what
+    /// search and shrinking did to it.
+    pub fn mechanics(&self) -> BTreeSet<&str> {
+        let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
+        let kept = |pattern: &&str| !["edit/", "fiction/"].iter().any(|other| pattern.starts_with(other));
+        patterns.iter().map(String::as_str).filter(kept).collect()
+    }
 }
 
 /// A level and what its judges found.

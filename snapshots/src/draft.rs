@@ -153,7 +153,11 @@ impl Drop for Draft {
     }
 }
 
-fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
+/// Whether a release can be written there, as far as can be told without trying.
+///
+/// # Errors
+/// Something is there that is not an empty folder, or the file system does not tell.
+pub fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
     let occupied = || SnapshotError::Occupied { path: out.to_path_buf() };
     match fs::symlink_metadata(out) {
         Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),

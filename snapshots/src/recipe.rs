@@ -1,12 +1,12 @@
 //! A recipe: what a release is minted from, in a TOML file of `seeds/`.
 
 use crate::sealed::Secret;
-use engine::{Digest, Seed};
+use engine::{Digest, Game, Seed};
 use generators::levels::LevelConfig;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GoalKind};
-use validators::{Criteria, CriteriaError, Difficulty};
+use validators::{Criteria, CriteriaError, Difficulty, GameForm};
 
 /// Bytes of a recipe that are read.
 pub const MAX_RECIPE: usize = 1 << 16;
@@ -155,13 +155,30 @@ pub struct Taxonomy {
 pub struct Known {
     /// Names of the releases, the oldest first.
     pub releases: Vec<String>,
-    /// Canonical forms of their generated games.
-    pub rules: BTreeSet<Digest>,
+    /// The rules of their generated games, without names: whole, so that any later arcade can tell how alike a game is.
+    pub games: Vec<String>,
     /// Canonical items, rules and level, of their corpus games.
     pub items: BTreeSet<Digest>,
 }
 
 impl Known {
+    /// The forms of the games. Cost: about a millisecond a game.
+    ///
+    /// # Errors
+    /// A text that is no game.
+    pub(crate) fn forms(&self) -> Result<Vec<GameForm>, RecipeError> {
+        let form = |(at, text): (usize, &String)| {
+            let wrong = |_| RecipeError::Value {
+                key: "known.games",
+                message: format!(
+                    "holds a text that is no game, number {at}: name the release before with --parent"
+                ),
+            };
+            Ok(GameForm::of(&Game::from_source(text).map_err(wrong)?))
+        };
+        self.games.iter().enumerate().map(form).collect()
+    }
+
     fn is_empty(&self) -> bool {
         *self == Known::default()
     }
@@ -205,8 +222,13 @@ pub enum RecipeError {
         message: String,
     },
     /// A criterion out of its range.
-    #[error("`criteria.{}` {}", .0.key, .0.message)]
-    Criteria(#[from] CriteriaError),
+    #[error("`{table}.{}` {}", .problem.key, .problem.message)]
+    Criteria {
+        /// Where the criterion stands.
+        table: &'static str,
+        /// What is wrong with it.
+        problem: CriteriaError,
+    },
     /// A sealed release whose secret was not given.
     #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
     Sealed,
@@ -274,6 +296,13 @@ impl Recipe {
             ("generated.levels", new.levels, 1, 20),
             ("generated.game_tries", new.game_tries, 1, 10_000),
             ("generated.level_tries", new.level_tries, 1, 10_000),
+            (
+                "generated.least_interactions",
+                u32::try_from(new.least_interactions).unwrap_or(u32::MAX),
+                0,
+                100,
+            ),
+            ("generated.least_mechanics", u32::try_from(new.least_mechanics).unwrap_or(u32::MAX), 0, 100),
         ] {
             if !(least..=most).contains(&value) {
                 return wrong(key, format!("is {value}; it takes {least} to {most}"));
@@ -298,12 +327,16 @@ impl Recipe {
                 );
             }
         }
-        for criteria in [Some(&self.criteria), self.corpus.criteria.as_ref()].into_iter().flatten() {
-            criteria.check()?;
+        let tables = [("criteria", Some(&self.criteria)), ("corpus.criteria", self.corpus.criteria.as_ref())];
+        for (table, criteria) in tables {
+            let Some(criteria) = criteria else { continue };
+            let named = |problem| RecipeError::Criteria { table, problem };
+            criteria.check().map_err(named)?;
             // What the cards show.
             let shown = ["not-idle", "not-random", "winnable"];
             if let Some(missing) = shown.into_iter().find(|name| !criteria.asks(name)) {
-                return wrong("criteria.ask", format!("lacks `{missing}`, which every card shows"));
+                let message = format!("lacks `{missing}`, which every card shows");
+                return Err(named(CriteriaError { key: "ask", message }));
             }
         }
         Ok(())
@@ -332,8 +365,19 @@ impl Recipe {
             if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
                 return wrong(key, "takes pairs of shares from 0 to 1, the smaller first".to_owned());
             }
-            if quotas.iter().map(|(least, _)| least).sum::<f64>() > 1.0 {
-                return wrong(key, "asks for more than all games together".to_owned());
+            let games = i64::from(self.corpus.games + self.generated.games);
+            let numbers = || quotas.iter().map(|&&share| self.quota(share));
+            if let Some((&&(low, high), _)) =
+                quotas.iter().zip(numbers()).find(|(_, (least, most))| least > most)
+            {
+                return wrong(
+                    key,
+                    format!("asks for a share from {low} to {high}, which no number of {games} games is"),
+                );
+            }
+            let least: i64 = numbers().map(|(least, _)| least).sum();
+            if least > games {
+                return wrong(key, format!("asks for at least {least} games, but there are {games}"));
             }
         }
         match self.taxonomy.crowd {
@@ -357,6 +401,23 @@ impl Recipe {
             (None, _, Some(_)) => Err(RecipeError::OtherSecret),
             (None, _, None) => Err(RecipeError::Sealed),
         }
+    }
+
+    /// How many games are asked for with each goal, at least and at most.
+    pub fn goal_quotas(&self) -> Vec<(GoalKind, (i64, i64))> {
+        self.taxonomy.goals.iter().map(|(&goal, &share)| (goal, self.quota(share))).collect()
+    }
+
+    /// How many games are asked for with each avatar, at least and at most.
+    pub fn avatar_quotas(&self) -> Vec<(AvatarKind, (i64, i64))> {
+        self.taxonomy.avatars.iter().map(|(&avatar, &share)| (avatar, self.quota(share))).collect()
+    }
+
+    /// The numbers that shares of all games come to.
+    pub(crate) fn quota(&self, (least, most): (f64, f64)) -> (i64, i64) {
+        let games = f64::from(self.corpus.games + self.generated.games);
+        // A little slack, so that 0.2 of 10 games is 2.
+        ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
     }
 
     /// Levels of all games.
@@ -410,9 +471,12 @@ mod tests {
         check(&format!("{GOOD}[taxonomy.goals]\nreach = [0.5, 0.2]"), "`taxonomy.goals`");
         check(
             &format!("{GOOD}[taxonomy.goals]\nreach = [0.6, 0.7]\nunlock = [0.6, 0.7]"),
-            "more than all games",
+            "at least 4 games, but there are 2",
         );
+        check(&format!("{GOOD}[taxonomy.avatars]\nwalker = [0.6, 0.9]"), "which no number of 2 games is");
         check(&GOOD.replace("= 2", "= 0"), "nothing to mint");
+        check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");
+        check(&format!("{GOOD}least_interactions = 1000"), "`generated.least_interactions` is 1000");
         check(&format!("{GOOD}levels = 0"), "`generated.levels` is 0");
         check(&format!("{GOOD}[criteria]\ndepths = []"), "`criteria.depths`");
         check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");

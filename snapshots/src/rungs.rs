@@ -90,7 +90,7 @@ impl RungRate {
 fn error(games: &[Vec<f64>], mean: f64) -> Option<f64> {
     let own = |levels: &Vec<f64>| levels.iter().sum::<f64>() / levels.len() as f64;
     let first = own(games.first()?);
-    if games.iter().all(|levels| own(levels) == first) {
+    if games.iter().all(|levels| (own(levels) - first).abs() < 1e-9) {
         return None;
     }
     let residue = |levels: &Vec<f64>| levels.iter().sum::<f64>() - mean * levels.len() as f64;

@@ -135,7 +135,7 @@ impl Criteria {
         let known = || LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).copied();
         if let Some(unknown) = self.ask.iter().find(|name| !known().any(|known| known == *name)) {
             let near = engine::nearest(unknown, known());
-            let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let help = near.map_or(".".to_owned(), |near| format!("; did you mean `{near}`?"));
             let all: Vec<&str> = known().collect();
             return wrong(
                 "ask",
@@ -170,7 +170,11 @@ impl Criteria {
         for (key, count, most) in [
             ("early_ticks", self.early_ticks as u64, 100),
             ("early_chances", u64::from(self.early_chances), 1000),
+            ("early_calls", self.early_calls, 1_000_000_000),
+            ("budget", self.budget, 1_000_000_000_000),
             ("mcts_plays", u64::from(self.mcts_plays), 1000),
+            ("idle_plays", u64::from(self.idle_plays), 10_000),
+            ("random_plays", u64::from(self.random_plays), 10_000),
             ("ladder_plays", self.ladder_plays, 1000),
             ("patience", self.patience as u64, 1000),
         ] {
@@ -178,13 +182,18 @@ impl Criteria {
                 return wrong(key, format!("is {count}; it takes 1 to {most}"));
             }
         }
+        if self.asks("skill") && self.ladder.len() < 2 {
+            let message =
+                "takes at least two players: skill is what a stronger one has before a weaker one".to_owned();
+            return wrong("ladder", message);
+        }
         if self.least_ticks > self.most_ticks {
             let message = format!("is {}, above `most_ticks`, {}", self.least_ticks, self.most_ticks);
             return wrong("least_ticks", message);
         }
         for (key, names) in [("ladder", &self.ladder), ("held_out", &self.held_out)] {
             if let Err(unknown) = self.rungs(names) {
-                return wrong(key, format!("names {unknown}"));
+                return wrong(key, format!("is not a list of players: {unknown}"));
             }
         }
         Ok(())
@@ -228,12 +237,14 @@ mod tests {
         assert_eq!(Criteria::full().check(), Ok(()));
         assert_eq!(Criteria::of_made_games().check(), Ok(()));
         check(|criteria| criteria.ask.push("winable".to_owned()), "did you mean `winnable`?");
-        check(|criteria| criteria.ladder.push("mtcs:9".to_owned()), "`ladder` names");
-        check(|criteria| criteria.held_out.push("mcts:x".to_owned()), "`held_out` names");
+        check(|criteria| criteria.ladder.push("mtcs:9".to_owned()), "`ladder` is not a list of players");
+        check(|criteria| criteria.held_out.push("mcts:x".to_owned()), "`held_out` is not a list of players");
         check(|criteria| criteria.depths.clear(), "`depths`");
         check(|criteria| criteria.skill_wins = 1.5, "`skill_wins` is 1.5");
         check(|criteria| criteria.least_ticks = 5000, "`least_ticks`");
         check(|criteria| criteria.ask = vec!["skill-overall".to_owned()], "needs the plays of `skill`");
+        check(|criteria| criteria.random_plays = 0, "`random_plays` is 0");
+        check(|criteria| criteria.ladder.clear(), "`ladder` takes at least two players");
         check(|criteria| criteria.patience = 0, "`patience` is 0");
     }
 }

@@ -10,7 +10,8 @@ use snapshots::export::{Export, ExportError, Exported, Format, export};
 use snapshots::released::{Released, ReleasedError};
 use snapshots::twin::Twin;
 use snapshots::{Draft, SnapshotError};
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// Writes a snapshot for other tools: as a dataset, as folders of games, as one file.
 ///
@@ -71,6 +72,12 @@ impl FormatName {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    if is_inside(&args.out, &args.snapshot) {
+        return Err(Failure::malformed(format!(
+            "`{}` is in the release itself, which would no longer verify: choose an --out elsewhere",
+            args.out.display()
+        )));
+    }
     let Some(format) = args.format.of_export() else { return archive(args, console) };
     // Who names a folder that is taken learns it before the work.
     let draft = Draft::create(&args.out).map_err(verify::failure)?;
@@ -109,6 +116,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(format_args!("left out: {id}: {why}"));
     }
     Ok(true)
+}
+
+/// Whether a place that may not be there yet is within a folder.
+fn is_inside(place: &Path, folder: &Path) -> bool {
+    let Ok(folder) = fs::canonicalize(folder) else { return false };
+    let there = place.ancestors().find_map(|above| fs::canonicalize(above).ok());
+    folder.is_dir()
+        && there.or_else(|| fs::canonicalize(".").ok()).is_some_and(|above| above.starts_with(folder))
 }
 
 /// The release itself, as one file.

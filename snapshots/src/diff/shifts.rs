@@ -5,7 +5,6 @@
 //! Phipson and G. K. Smyth, "Permutation p-values should never be zero", 2010).
 
 use super::Compared;
-use crate::card::Origin;
 use crate::figures::Quantiles;
 use engine::Seed;
 use serde::Serialize;
@@ -69,9 +68,8 @@ const SHIFTS: &[(&str, Values)] = &[
     }),
     ("chance in games", |game| vec![game.kind.chance.name().to_owned()]),
     ("origin of games", |game| vec![if game.is_generated() { "generated" } else { "corpus" }.to_owned()]),
-    ("patterns of generated games", |game| match &game.released.card.origin {
-        Origin::Generated { patterns, .. } => patterns.clone(),
-        Origin::Corpus { .. } => Vec::new(),
+    ("patterns of generated games", |game| {
+        game.released.card.origin.mechanics().into_iter().map(str::to_owned).collect()
     }),
     ("effects of rules", |game| game.kind.effects.iter().map(|family| family.name().to_owned()).collect()),
     ("generators of levels", |game| {

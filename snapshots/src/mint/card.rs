@@ -8,6 +8,7 @@ use crate::rungs::{RungRate, rates};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use validators::GameForm;
 
 /// What a release is like as a whole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,7 +36,7 @@ pub struct ReleaseCard {
     pub ladder: Vec<Rung>,
     /// How new the games are.
     pub novelty: Novelty,
-    /// Games in which each pattern of mechanics is found.
+    /// New games in which each pattern of mechanics is found.
     pub patterns: BTreeMap<String, u64>,
     /// Rules of a game.
     pub rules: Option<Quantiles>,
@@ -66,16 +67,17 @@ const MONTH: u64 = 120;
 pub struct Novelty {
     /// The releases before, the oldest first.
     pub ancestors: Vec<String>,
-    /// Canonical forms of new games that they hold.
-    pub known_rules: u64,
+    /// New games that they hold.
+    pub known_games: u64,
     /// Canonical items of corpus games that they hold.
     pub known_items: u64,
-    /// New games whose rules are in a release before, and items of corpus games that are: none, by how games are taken.
-    pub repeated: u64,
     /// From each new game to the most alike in the release: 0 is the same rules, 1 nothing in common.
     pub nearest: Option<Quantiles>,
     /// From each new game to the most alike of the corpus.
     pub nearest_corpus: Option<Quantiles>,
+    /// From each new game to the most alike of the releases before. None is nearer than
+    /// [`NEAR`](validators::novelty::NEAR), and no item of a corpus game is there already, by how games are taken.
+    pub nearest_known: Option<Quantiles>,
 }
 
 impl ReleaseCard {
@@ -99,18 +101,16 @@ impl ReleaseCard {
             Origin::Corpus { .. } => "corpus".to_owned(),
             Origin::Generated { generator, .. } => generator.clone(),
         };
-        let patterns = |card: &Card| match &card.origin {
-            Origin::Corpus { .. } => Vec::new(),
-            Origin::Generated { patterns, .. } => patterns.clone(),
-        };
         let new: Vec<&Contender> = games().filter(|game| game.is_new()).collect();
         let nearest = |at: usize| {
             let others = new.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, game)| &game.form);
             new[at].form.nearest(others).map(|(_, apart)| apart)
         };
         let nearest: Vec<f64> = (0..new.len()).filter_map(nearest).collect();
-        let nearest_corpus: Vec<f64> =
-            new.iter().filter_map(|game| game.form.nearest(&plan.forms).map(|(_, apart)| apart)).collect();
+        let nearest_of = |forms: &[GameForm]| {
+            let apart = new.iter().filter_map(|game| game.form.nearest(forms).map(|(_, apart)| apart));
+            Quantiles::of(&apart.collect::<Vec<f64>>())
+        };
         let rules: Vec<f64> = games().map(|game| game.rules as f64).collect();
         let ticks: Vec<f64> = levels().map(|level| level.witness_ticks as f64).collect();
         let rung = |rate: RungRate| Rung {
@@ -131,13 +131,13 @@ impl ReleaseCard {
             ladder: rates(cards).into_iter().map(rung).collect(),
             novelty: Novelty {
                 ancestors: recipe.known.releases.clone(),
-                known_rules: recipe.known.rules.len() as u64,
+                known_games: recipe.known.games.len() as u64,
                 known_items: recipe.known.items.len() as u64,
-                repeated: games().filter(|game| game.is_known(recipe)).count() as u64,
                 nearest: Quantiles::of(&nearest),
-                nearest_corpus: Quantiles::of(&nearest_corpus),
+                nearest_corpus: nearest_of(&plan.forms),
+                nearest_known: nearest_of(&plan.before),
             },
-            patterns: count(&mut cards.iter().flat_map(patterns)),
+            patterns: count(&mut cards.iter().flat_map(|card| card.origin.mechanics()).map(str::to_owned)),
             rules: Quantiles::of(&rules),
             witness_ticks: Quantiles::of(&ticks),
             tally,
@@ -176,12 +176,15 @@ impl ReleaseCard {
             }
             text.push('\n');
         }
-        let Novelty { ancestors, repeated, .. } = &self.novelty;
-        if !ancestors.is_empty() {
-            let names = ancestors.join(", ");
+        let Novelty { ancestors, known_games, nearest_known, .. } = &self.novelty;
+        if let Some(apart) = nearest_known {
             let _ = writeln!(
                 text,
-                "Of the games and items of the releases before ({names}), {repeated} are here again.\n"
+                "From a new game here to the most alike of the {known_games} in the releases before ({}): {:.2} at least, {:.2} in \
+                 the median (0 is the same rules, 1 nothing in common).\n",
+                ancestors.join(", "),
+                apart.min,
+                apart.median,
             );
         }
         text.truncate(text.trim_end().len());

@@ -76,23 +76,24 @@ pub enum MintError {
     Unsound(String),
     /// Too few candidates passed.
     #[error(
-        "`{part}.games` is {asked}, but only {there} candidates passed ({why}); raise `{part}.candidates` or the tries, or \
-         relax the criteria, and go on with --resume: what is made is kept"
+        "`{part}.games` is {asked}, but only {there} candidates can be taken ({why}); raise `{part}.candidates` and go on with \
+         --resume, which keeps what is made; or raise the tries or relax the criteria, and begin anew"
     )]
     TooFew {
         /// Of the recipe.
         part: &'static str,
         /// In the recipe.
         asked: usize,
-        /// That passed, near copies apart.
+        /// That passed and are no copies.
         there: usize,
-        /// How the others failed.
+        /// How the others failed, or what they are copies of.
         why: String,
     },
     /// No choice of candidates meets the quotas.
     #[error(
-        "no choice of games from {candidates} candidates is as the recipe asks: {missed}; raise `generated.candidates`, or \
-         ask for what they can give, and go on with --resume: what is made is kept"
+        "no choice of games was found among {candidates} candidates that is as the recipe asks: {missed}; raise \
+         `generated.candidates` or `corpus.candidates`, or ask for what they can give, and go on with --resume, which keeps what \
+         is made"
     )]
     Uneven {
         /// To choose from.
@@ -292,7 +293,9 @@ mod tests {
         let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
         let error = minted(&recipe("a"), &corpus(&[("hopeless", &hopeless)])).unwrap_err().to_string();
         assert!(
-            error.contains("`corpus.games` is 1, but only 0 candidates passed (winnable 96, no level 0 8)"),
+            error.contains(
+                "`corpus.games` is 1, but only 0 candidates can be taken (winnable 96, no level 0 8)"
+            ),
             "{error}"
         );
     }

@@ -16,8 +16,8 @@ use engine::{Game, Level, Sampler, Seed, syntax};
 use generators::games::Retold;
 use generators::levels::{Examples, LevelConfig};
 use std::sync::Arc;
-use validators::Panel;
 use validators::novelty::GameForm;
+use validators::{Criteria, Panel};
 
 /// A recipe with all that minting takes, in order.
 #[derive(Debug)]
@@ -28,14 +28,16 @@ pub struct Plan<'a> {
     /// By corpus game.
     games: Vec<Game>,
     pub(super) forms: Vec<GameForm>,
+    /// New games of the releases before.
+    pub(super) before: Vec<GameForm>,
     lots: Vec<Lot>,
 }
 
 /// A part of the work that depends on no other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lot {
-    /// An archive of so many new games, by its number.
-    Archive(u32, u32),
+    /// An archive of [`ISLAND`] new games, by its number.
+    Archive(u32),
     /// A new game that is searched for.
     Search(u32),
     /// A new game that is drawn.
@@ -44,7 +46,8 @@ pub enum Lot {
     Corpus(usize),
 }
 
-/// New games of one archive: few enough that archives are spread over machines, enough that they are bred.
+/// New games of one archive: few enough that archives are spread over machines, enough that they are bred. Archives are never
+/// smaller, so that one keeps its games when a recipe asks for more candidates.
 const ISLAND: u32 = 4;
 
 impl<'a> Plan<'a> {
@@ -64,7 +67,8 @@ impl<'a> Plan<'a> {
         };
         let games: Vec<Game> = corpus.games.iter().map(compile).collect::<Result<_, _>>()?;
         let forms = games.iter().map(GameForm::of).collect();
-        let mut plan = Plan { recipe, seed, corpus, games, forms, lots: Vec::new() };
+        let before = recipe.known.forms()?;
+        let mut plan = Plan { recipe, seed, corpus, games, forms, before, lots: Vec::new() };
         plan.lots = plan.generated().into_iter().chain(plan.of_corpus()?).collect();
         Ok(plan)
     }
@@ -82,17 +86,22 @@ impl<'a> Plan<'a> {
             .collect()
     }
 
-    /// What all lots together cost, roughly, in seconds of one core: as was measured with the default players.
-    pub fn seconds(&self) -> f64 {
+    /// What lots cost together, roughly, in seconds of one core: as was measured with the default players, of which more plays
+    /// cost more.
+    pub fn seconds(&self, lots: &[Lot]) -> f64 {
+        let usual = Criteria::default().ladder_plays as f64;
+        let played = |criteria: &Criteria| match criteria.asks("skill") {
+            true => 0.15 + 0.85 * criteria.ladder_plays as f64 / usual,
+            false => 0.15,
+        };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
         let cost = |lot: &Lot| match *lot {
-            Lot::Archive(_, games) => 5.0 * f64::from(games * new),
-            Lot::Search(_) => 4.0 * f64::from(new),
-            Lot::Constructive(_) => 3.0 * f64::from(new),
-            Lot::Corpus(_) => 3.0 * f64::from(old),
+            Lot::Archive(_) => 5.0 * f64::from(ISLAND * new) * played(&self.recipe.criteria),
+            Lot::Search(_) => 4.0 * f64::from(new) * played(&self.recipe.criteria),
+            Lot::Constructive(_) => 3.0 * f64::from(new) * played(&self.recipe.criteria),
+            Lot::Corpus(_) => 3.0 * f64::from(old) * played(self.corpus_criteria()),
         };
-        let played = if self.recipe.criteria.asks("skill") { 1.0 } else { 0.15 };
-        played * self.lots.iter().map(cost).sum::<f64>()
+        lots.iter().map(cost).sum()
     }
 
     /// Places of the lots in the order in which their games are told: those of the corpus first.
@@ -105,7 +114,7 @@ impl<'a> Plan<'a> {
     /// What a lot is called, as a file name is.
     pub fn name(&self, lot: Lot) -> String {
         match lot {
-            Lot::Archive(number, _) => format!("archive-{number}"),
+            Lot::Archive(number) => format!("archive-{number}"),
             Lot::Search(number) => format!("search-{number}"),
             Lot::Constructive(number) => format!("constructive-{number}"),
             Lot::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
@@ -153,8 +162,7 @@ impl<'a> Plan<'a> {
         let all = candidates(part.games, part.candidates);
         let weights = [part.mix.evolutionary, part.mix.search, part.mix.constructive];
         let [bred, searched, drawn] = apportion(all, &weights)[..] else { unreachable!("three weights") };
-        let archives =
-            (0..bred.div_ceil(ISLAND)).map(|number| Lot::Archive(number, ISLAND.min(bred - number * ISLAND)));
+        let archives = (0..bred.div_ceil(ISLAND)).map(Lot::Archive);
         archives.chain((0..searched).map(Lot::Search)).chain((0..drawn).map(Lot::Constructive)).collect()
     }
 
@@ -183,8 +191,9 @@ impl<'a> Plan<'a> {
                 self.one(Method::Constructive, number, self.seed.child("constructive", 0))
             }
             Lot::Search(number) => self.one(Method::Search, number, self.seed.child("search", 0)),
-            Lot::Archive(number, count) => {
-                let order = GameOrder { count, ..self.order(Method::Evolutionary, part.game_tries / 8) };
+            Lot::Archive(number) => {
+                let order =
+                    GameOrder { count: ISLAND, ..self.order(Method::Evolutionary, part.game_tries / 8) };
                 let seed = self.seed.child("archive", u64::from(number));
                 match make_games(&order, &self.forms, "", seed, &()) {
                     Ok(set) => (set.games, set.tally),
@@ -194,6 +203,11 @@ impl<'a> Plan<'a> {
             }
         };
         Ok(LotResult { games: games.into_iter().map(FrozenGame::of).collect(), tally })
+    }
+
+    /// What levels of corpus games must show.
+    fn corpus_criteria(&self) -> &Criteria {
+        self.recipe.corpus.criteria.as_ref().unwrap_or(&self.recipe.criteria)
     }
 
     fn one(&self, method: Method, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
@@ -246,7 +260,7 @@ impl<'a> Plan<'a> {
             game,
         };
         let config = like.map_or_else(|| recipe.board.levels(), LevelConfig::like);
-        let criteria = recipe.corpus.criteria.as_ref().unwrap_or(&recipe.criteria);
+        let criteria = self.corpus_criteria();
         let panel = Panel::new(criteria);
         let found = (0..recipe.corpus.game_tries).find_map(|number| {
             let levels = Levels {

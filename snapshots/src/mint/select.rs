@@ -7,12 +7,14 @@
 use super::MintError;
 use super::lot::FrozenGame;
 use super::plan::{Plan, apportion};
+use super::tally::reasons;
 use crate::Digest;
 use crate::ancestry::item;
 use crate::card::{Card, Origin};
 use crate::recipe::Recipe;
 use engine::{Analysis, Game};
 use generators::levels::Likeness;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GameKind, GoalKind};
@@ -66,11 +68,11 @@ impl Contender {
         self.is_new
     }
 
-    /// Whether a release before has the rules of this new game, or an item of this corpus game.
-    pub(super) fn is_known(&self, recipe: &Recipe) -> bool {
+    /// Whether a release before has a game nearly like this new one, or an item of this corpus game.
+    fn is_known(&self, plan: &Plan<'_>) -> bool {
         match self.is_new {
-            true => recipe.known.rules.contains(&self.form.digest()),
-            false => self.items.iter().any(|item| recipe.known.items.contains(item)),
+            true => plan.before.iter().any(|form| self.form.is_near(form)),
+            false => self.items.iter().any(|item| plan.recipe.known.items.contains(item)),
         }
     }
 
@@ -124,13 +126,6 @@ pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
     recipe.difficulty.keys().copied().zip(numbers.into_iter().map(i64::from)).collect()
 }
 
-/// The numbers that a share of all games comes to.
-fn quota(recipe: &Recipe, (least, most): (f64, f64)) -> (i64, i64) {
-    let games = f64::from(recipe.corpus.games + recipe.generated.games);
-    // A little slack, so that 0.2 of 10 games is 2.
-    ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
-}
-
 /// Choices that are improved, each from a random one.
 const STARTS: u64 = 24;
 
@@ -147,30 +142,28 @@ pub(super) fn select(
     [old, new]: [&str; 2],
 ) -> Result<Vec<usize>, MintError> {
     let recipe = plan.recipe;
-    let fit = fit(recipe, contenders);
+    let Fit { fit, dropped } = Fit::of(plan, contenders);
     let asked = [(false, recipe.corpus.games as usize), (true, recipe.generated.games as usize)];
     for (is_new, asked) in asked {
         let there = fit.iter().filter(|&&at| contenders[at].is_new == is_new).count();
         if there < asked {
-            let (part, why) = if is_new { ("generated", new) } else { ("corpus", old) };
-            return Err(MintError::TooFew { part, asked, there, why: why.to_owned() });
+            let (part, failed) = if is_new { ("generated", new) } else { ("corpus", old) };
+            let why: BTreeMap<String, u64> = dropped.get(&is_new).cloned().unwrap_or_default();
+            let why = [failed, &reasons(&why)].map(str::to_owned).into_iter().filter(|why| !why.is_empty());
+            let why = why.collect::<Vec<_>>().join(", ");
+            return Err(MintError::TooFew { part, asked, there, why });
         }
     }
-    let mut best: Option<(Miss, Vec<usize>)> = None;
-    for start in 0..STARTS {
+    let improved = |start: u64| {
         let mut order = fit.clone();
         plan.seed.child("selection", start).sampler().shuffle(&mut order);
         let mut choice = Choice::of(recipe, contenders, order, asked);
         choice.improve();
-        let miss = choice.counts.miss();
-        if best.as_ref().is_none_or(|(known, _)| miss < *known) {
-            best = Some((miss, choice.taken));
-        }
-        if miss == (0, 0, 0) {
-            break;
-        }
-    }
-    let (_, mut taken) = best.unwrap_or_default();
+        (choice.counts.miss(), start, choice.taken)
+    };
+    // The first of the best, whichever is ready first.
+    let best = (0..STARTS).into_par_iter().map(improved).min_by_key(|(miss, start, _)| (*miss, *start));
+    let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
     let missed: Vec<Bin> = bins(recipe, contenders, &taken);
     let missed: Vec<String> = missed
@@ -184,20 +177,38 @@ pub(super) fn select(
     }
 }
 
-/// Those that are near to no earlier one, and in no release before.
-fn fit(recipe: &Recipe, contenders: &[Contender]) -> Vec<usize> {
-    let mut fit: Vec<usize> = Vec::new();
-    for (at, contender) in contenders.iter().enumerate() {
-        let distinct: BTreeSet<&Digest> = contender.items.iter().collect();
-        let repeats = distinct.len() < contender.items.len();
-        let near =
-            |&other: &usize| contenders[other].is_new && contender.form.is_near(&contenders[other].form);
-        let near = contender.is_new && fit.iter().any(near);
-        if !(contender.is_known(recipe) || repeats || near) {
-            fit.push(at);
+/// Contenders that may be taken together.
+struct Fit {
+    /// Their places.
+    fit: Vec<usize>,
+    /// Why others may not, by whether they are new.
+    dropped: BTreeMap<bool, BTreeMap<String, u64>>,
+}
+
+impl Fit {
+    /// Those that are near to no earlier one, and in no release before.
+    fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
+        let mut fit: Vec<usize> = Vec::new();
+        let mut dropped: BTreeMap<bool, BTreeMap<String, u64>> = BTreeMap::new();
+        for (at, contender) in contenders.iter().enumerate() {
+            let distinct: BTreeSet<&Digest> = contender.items.iter().collect();
+            let repeats = distinct.len() < contender.items.len();
+            let near =
+                |&other: &usize| contenders[other].is_new && contender.form.is_near(&contenders[other].form);
+            let near = contender.is_new && fit.iter().any(near);
+            let why = match () {
+                () if contender.is_known(plan) => "in a release before",
+                () if repeats => "a level twice",
+                () if near => "near to another candidate",
+                () => {
+                    fit.push(at);
+                    continue;
+                }
+            };
+            *dropped.entry(contender.is_new).or_default().entry(why.to_owned()).or_default() += 1;
         }
+        Fit { fit, dropped }
     }
-    fit
 }
 
 /// What a choice is held to, with what it has: difficulties within one item, quotas as they are.
@@ -215,13 +226,11 @@ pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -
             bins.push(Bin { name: word(&label), least: 0, most: 1, there: counts.labels[&label] });
         }
     }
-    for (&goal, &share) in &recipe.taxonomy.goals {
-        let (least, most) = quota(recipe, share);
+    for &(goal, (least, most)) in &counts.goal_quotas {
         let there = counts.goals.get(&goal).copied().unwrap_or_default();
         bins.push(Bin { name: format!("goal {}", goal.name()), least, most, there });
     }
-    for (&avatar, &share) in &recipe.taxonomy.avatars {
-        let (least, most) = quota(recipe, share);
+    for &(avatar, (least, most)) in &counts.avatar_quotas {
         let there = counts.avatars.get(&avatar).copied().unwrap_or_default();
         bins.push(Bin { name: format!("avatar {}", avatar.name()), least, most, there });
     }
@@ -301,8 +310,9 @@ impl<'a> Choice<'a> {
 
 /// What a choice has of everything that is asked for.
 struct Counts<'a> {
-    recipe: &'a Recipe,
     histogram: Vec<(Difficulty, i64)>,
+    goal_quotas: Vec<(GoalKind, (i64, i64))>,
+    avatar_quotas: Vec<(AvatarKind, (i64, i64))>,
     crowd: Option<i64>,
     labels: BTreeMap<Difficulty, i64>,
     goals: BTreeMap<GoalKind, i64>,
@@ -312,11 +322,12 @@ struct Counts<'a> {
 }
 
 impl<'a> Counts<'a> {
-    fn of(recipe: &'a Recipe, games: impl Iterator<Item = &'a Contender>) -> Counts<'a> {
+    fn of(recipe: &Recipe, games: impl Iterator<Item = &'a Contender>) -> Counts<'a> {
         let mut counts = Counts {
-            recipe,
             histogram: histogram(recipe),
-            crowd: recipe.taxonomy.crowd.map(|crowd| quota(recipe, (0.0, crowd)).1.max(1)),
+            goal_quotas: recipe.goal_quotas(),
+            avatar_quotas: recipe.avatar_quotas(),
+            crowd: recipe.taxonomy.crowd.map(|crowd| recipe.quota((0.0, crowd)).1.max(1)),
             labels: BTreeMap::new(),
             goals: BTreeMap::new(),
             avatars: BTreeMap::new(),
@@ -334,22 +345,22 @@ impl<'a> Counts<'a> {
         *self.goals.entry(game.goal).or_default() += times;
         *self.avatars.entry(game.avatar).or_default() += times;
         *self.kinds.entry((game.goal, game.avatar)).or_default() += times;
-        *self.titles.entry(&game.title).or_default() += times;
+        // Without those of nobody: as many are looked at as are taken.
+        let same = self.titles.entry(&game.title).or_default();
+        *same += times;
+        if *same == 0 {
+            self.titles.remove(game.title.as_str());
+        }
     }
 
     fn miss(&self) -> Miss {
-        let missed = |there: Option<&i64>, share: (f64, f64)| {
-            let (there, (least, most)) = (there.copied().unwrap_or_default(), quota(self.recipe, share));
+        let missed = |there: Option<&i64>, (least, most): (i64, i64)| {
+            let there = there.copied().unwrap_or_default();
             (least - there).max(there - most).max(0)
         };
-        let goals =
-            self.recipe.taxonomy.goals.iter().map(|(goal, share)| missed(self.goals.get(goal), *share));
-        let avatars = self
-            .recipe
-            .taxonomy
-            .avatars
-            .iter()
-            .map(|(avatar, share)| missed(self.avatars.get(avatar), *share));
+        let goals = self.goal_quotas.iter().map(|(goal, asked)| missed(self.goals.get(goal), *asked));
+        let avatars =
+            self.avatar_quotas.iter().map(|(avatar, asked)| missed(self.avatars.get(avatar), *asked));
         let crowded =
             self.crowd.map_or(0, |most| self.kinds.values().map(|there| (there - most).max(0)).sum());
         let asked: BTreeMap<Difficulty, i64> = self.histogram.iter().copied().collect();

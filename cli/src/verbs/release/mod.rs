@@ -12,8 +12,8 @@ pub(crate) use bars::Bars;
 pub(crate) use sealed::read as read_secret_file;
 use serde_json::json;
 use snapshots::card::{Card, Origin};
-use snapshots::mint::{LotFolder, MintError, Minted, Plan, Shard, Shelf, lay_out, make_lots};
-use snapshots::{Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, Secret, follow};
+use snapshots::mint::{Lot, LotFolder, MintError, Minted, Plan, Shard, Shelf, lay_out, make_lots};
+use snapshots::{Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, Secret, check_vacant, follow};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -88,14 +88,15 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return sealed::outline(&recipe, console);
     }
     let plan = Plan::new(&recipe, secret.as_ref(), &corpus).map_err(mint_failure)?;
+    let lots = args.shard.map_or_else(|| plan.lots().to_vec(), |shard| shard.lots(&plan));
     if args.dry_run {
-        return outline(&plan, &recipe, &out, console);
+        check_vacant(&out).map_err(failure)?;
+        return outline(&plan, &lots, &recipe, &out, console);
     }
     // Before minutes of minting: is there a place to write to?
     let draft = if args.resume { Draft::resume(&out) } else { Draft::create(&out) }.map_err(failure)?;
     let digest = plan.digest().map_err(failure)?;
     let shelf = LotFolder::open(&draft.lots(), digest).map_err(failure)?;
-    let lots = args.shard.map_or_else(|| plan.lots().to_vec(), |shard| shard.lots(&plan));
     let bars = Bars::new(console);
     let started = Stopwatch::start();
     in_pool(args.jobs, || make_lots(&plan, &lots, &shelf, &bars))?.map_err(mint_failure)?;
@@ -159,10 +160,11 @@ impl Finished<'_> {
 }
 
 /// What would be minted.
-fn outline(plan: &Plan<'_>, recipe: &Recipe, out: &Path, console: &Console) -> Answer {
+fn outline(plan: &Plan<'_>, lots: &[Lot], recipe: &Recipe, out: &Path, console: &Console) -> Answer {
     let (old, new) = (&recipe.corpus, &recipe.generated);
-    let minutes = plan.seconds() / 60.0;
-    let lots: Vec<String> = plan.lots().iter().map(|&lot| plan.name(lot)).collect();
+    let seconds = plan.seconds(lots);
+    let minutes = seconds / 60.0;
+    let lots: Vec<String> = lots.iter().map(|&lot| plan.name(lot)).collect();
     console.document(&json!({ "recipe": recipe, "out": out, "lots": lots, "core_minutes": minutes }))?;
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     console.say(format_args!("would mint {} new games of {} levels", new.games, new.levels));
@@ -172,8 +174,18 @@ fn outline(plan: &Plan<'_>, recipe: &Recipe, out: &Path, console: &Console) -> A
         console
             .say(format_args!("with levels of each difficulty: {}", shares.collect::<Vec<_>>().join(", ")));
     }
+    let goals = recipe.goal_quotas().into_iter().map(|(goal, quota)| (goal.name(), quota));
+    let avatars = recipe.avatar_quotas().into_iter().map(|(avatar, quota)| (avatar.name(), quota));
+    let quotas: Vec<String> =
+        goals.chain(avatars).map(|(name, (least, most))| format!("{name} {least} to {most}")).collect();
+    if !quotas.is_empty() {
+        console.say(format_args!("with games of each kind: {}", quotas.join(", ")));
+    }
     console.say(format_args!("chosen from the candidates of {} lots", lots.len()));
-    console.say(format_args!("in about {minutes:.0} minutes of one core"));
+    match seconds < 60.0 {
+        true => console.say(format_args!("in about {seconds:.0} seconds of one core")),
+        false => console.say(format_args!("in about {minutes:.0} minutes of one core")),
+    }
     console.say(format_args!("into {}", out.display()));
     Ok(true)
 }
