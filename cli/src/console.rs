@@ -2,7 +2,9 @@
 
 use crate::failure::Failure;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use miette::GraphicalTheme;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
@@ -21,7 +23,7 @@ impl Console {
     /// The answer, for people; nothing where JSON is wanted.
     pub(crate) fn say(&self, text: impl Display) {
         if !self.json {
-            out(format_args!("{text}\n"));
+            out(format_args!("{}\n", shown(&text.to_string())));
         }
     }
 
@@ -43,13 +45,13 @@ impl Console {
     /// Remarks beside the answer.
     pub(crate) fn remark(&self, text: impl Display) {
         if !self.quiet {
-            let _ = writeln!(std::io::stderr(), "{text}");
+            let _ = writeln!(std::io::stderr(), "{}", shown(&text.to_string()));
         }
     }
 
     /// What went wrong: said even when quiet.
     pub(crate) fn error(&self, failure: &Failure) {
-        let _ = writeln!(std::io::stderr(), "error: {failure}");
+        let _ = writeln!(std::io::stderr(), "error: {}", shown(&failure.to_string()));
     }
 
     /// A bar on standard error if that is a terminal.
@@ -92,5 +94,73 @@ fn out(text: std::fmt::Arguments<'_>) {
     let mut stdout = std::io::stdout().lock();
     if stdout.write_fmt(text).and_then(|()| stdout.flush()).is_err() {
         std::process::exit(i32::from(crate::failure::SURROUNDINGS));
+    }
+}
+
+/// Text as a terminal may see it. It may quote what a stranger wrote, so that control characters are spelt out, but for
+/// the colours of our own diagnostics, which have some where standard error is a terminal.
+fn shown(text: &str) -> Cow<'_, str> {
+    let is_terminal = std::io::stderr().is_terminal();
+    escaped(text, &if is_terminal { colours() } else { Vec::new() })
+}
+
+/// The sequences that switch the colours of diagnostics on and off.
+fn colours() -> Vec<String> {
+    let styles = GraphicalTheme::unicode().styles;
+    let single = [styles.error, styles.warning, styles.advice, styles.help, styles.link, styles.linum];
+    let mut found = Vec::new();
+    for style in single.into_iter().chain(styles.highlights) {
+        let around = style.style('|').to_string();
+        found.extend(around.split('|').filter(|sequence| !sequence.is_empty()).map(str::to_owned));
+    }
+    found
+}
+
+/// Control characters but line feeds and tabs as `\u{1b}`, except in the sequences that are `kept`.
+fn escaped<'a>(text: &'a str, kept: &[String]) -> Cow<'a, str> {
+    let is_escaped = |character: char| character.is_control() && !matches!(character, '\n' | '\t');
+    if !text.contains(is_escaped) {
+        return Cow::Borrowed(text);
+    }
+    let mut escaped = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let sequence = kept.iter().find(|sequence| rest.starts_with(sequence.as_str()));
+        let length = sequence.map_or(first.len_utf8(), String::len);
+        match sequence.is_none() && is_escaped(first) {
+            true => escaped.extend(first.escape_unicode()),
+            false => escaped.push_str(&rest[..length]),
+        }
+        rest = &rest[length..];
+    }
+    Cow::Owned(escaped)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(text: &str, expect: &str) {
+        assert_eq!(escaped(text, &[]), expect);
+    }
+
+    #[test]
+    fn control_characters_are_spelt_out() {
+        check("tiny: verified\n\troot é ─ 🎮", "tiny: verified\n\troot é ─ 🎮");
+        check("a\u{1b}[2Jb", "a\\u{1b}[2Jb");
+        check("\0\u{7}\r\u{7f}\u{9b}2J", "\\u{0}\\u{7}\\u{d}\\u{7f}\\u{9b}2J");
+    }
+
+    #[test]
+    fn the_colours_of_diagnostics_are_kept() {
+        let styles = GraphicalTheme::unicode().styles;
+        for style in [styles.error, styles.help, styles.linum] {
+            let painted = style.style("x").to_string();
+            assert!(painted.contains('\u{1b}'));
+            assert_eq!(escaped(&painted, &colours()), painted);
+        }
+        // No colour hides anything.
+        assert_eq!(escaped("\u{1b}[8mx", &colours()), "\\u{1b}[8mx");
     }
 }

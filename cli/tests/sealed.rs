@@ -56,6 +56,17 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     let output = run(folder, &["regenerate", "out/public"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
     run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "revealed"], 0);
+    let archived = run(folder, &["export", "out/public", "--format", "archive", "--out", "x.tar.zst"], 2);
+    assert!(text(&archived.stderr).contains("pack it when it is revealed"), "{}", text(&archived.stderr));
+    run(folder, &["export", "revealed", "--format", "jsonl", "--solutions", "--out", "rows"], 0);
+    let rows = files(&folder.join("rows"));
+    let (_, rows) = rows.iter().find(|(name, _)| name.ends_with(".jsonl")).unwrap();
+    assert!(!text(rows).contains("\"solution\":[]"), "solutions are exported");
+    #[cfg(unix)]
+    for place in ["out/held/secret.json", "revealed/held/secret.json"] {
+        use std::os::unix::fs::PermissionsExt;
+        assert_eq!(fs::metadata(folder.join(place)).unwrap().permissions().mode() & 0o077, 0, "{place}");
+    }
     let output = run(folder, &["verify", "revealed"], 0);
     assert!(text(&output.stdout).contains("replayed to a win"), "{}", text(&output.stdout));
     run(folder, &["regenerate", "revealed"], 0);
@@ -93,6 +104,34 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     fs::remove_file(folder.join("copy/held").join(witness)).unwrap();
     let output = run(folder, &["release", "copy/public", "--reveal", "copy/held", "--out", "x"], 1);
     assert!(text(&output.stdout).contains("missing"), "{}", text(&output.stdout));
+}
+
+/// Else seed and witnesses would be published in the belief that they are held back.
+#[test]
+fn a_secret_for_an_open_release_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    run(folder, &["release", "tiny", "--commit"], 0);
+    let output = run(folder, &["release", "tiny", "--secret", "tiny.secret.json", "--out", "x"], 2);
+    assert!(text(&output.stderr).contains("the release is open"), "{}", text(&output.stderr));
+    assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
+}
+
+/// Hours of work are not to be lost to a wrong name on the command line.
+#[test]
+fn another_recipe_does_not_go_on_with_the_lots_of_one() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let one = recipe("x").replacen("commitment", "seed", 1);
+    fs::write(folder.join("one.toml"), format!("{one}[taxonomy.goals]\ndeliver = [1.0, 1.0]\n")).unwrap();
+    run(folder, &["release", "one.toml", "--out", "out"], 2);
+    let before = files(&folder.join("out.partial/lots"));
+    assert!(before.len() > 2, "{:?}", before.keys());
+    let output = run(folder, &["release", "tiny", "--resume", "--out", "out"], 2);
+    assert!(text(&output.stderr).contains("another recipe"), "{}", text(&output.stderr));
+    assert_eq!(files(&folder.join("out.partial/lots")), before);
+    fs::write(folder.join("one.toml"), one).unwrap();
+    run(folder, &["release", "one.toml", "--out", "out", "--resume"], 0);
 }
 
 #[test]

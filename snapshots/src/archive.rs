@@ -19,20 +19,24 @@ mod frame;
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 
 use crate::draft::Draft;
 use crate::error::SnapshotError;
 use crate::folder;
 use crate::integrity::{Integrity, check_integrity, manifest_problems};
-use crate::manifest::{Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::manifest::{Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
 use crate::problem::{Flaw, Problem};
+use crate::sealed::HELD;
 use engine::Digest;
 use entry::{BLOCK, END, padding};
-use frame::{Inside, Outside, Unreadable};
+use frame::{Inside, MAGIC, Outside, Unreadable};
 
 pub use frame::is_archive;
+
+/// How the name of an archive ends.
+pub const ARCHIVE_END: &str = ".tar.zst";
 
 /// The most that an archive may hold, in bytes: 512 MiB, because it is read in memory. A larger release is passed on
 /// as a folder.
@@ -110,7 +114,8 @@ fn claim(partial: &Path) -> Result<File, SnapshotError> {
     if fs::symlink_metadata(partial).is_ok_and(|found| !found.is_file()) {
         return Err(SnapshotError::Foreign { path: partial.to_path_buf() });
     }
-    let file = File::options().write(true).create(true).truncate(false).open(partial).map_err(io)?;
+    let mut file =
+        File::options().read(true).write(true).create(true).truncate(false).open(partial).map_err(io)?;
     match file.try_lock() {
         Ok(()) => {}
         Err(TryLockError::WouldBlock) => return Err(busy()),
@@ -123,7 +128,13 @@ fn claim(partial: &Path) -> Result<File, SnapshotError> {
     if !fs::symlink_metadata(partial).is_ok_and(|found| folder::same_file(&held, &found)) {
         return Err(busy());
     }
-    file.set_len(0).map_err(io)?;
+    // Somebody's own file of that name is not to be overwritten: one of ours is empty, or begins as archives do.
+    let mut magic = Vec::new();
+    Read::by_ref(&mut file).take(4).read_to_end(&mut magic).map_err(io)?;
+    if !(magic.is_empty() || magic == MAGIC) {
+        return Err(SnapshotError::Foreign { path: partial.to_path_buf() });
+    }
+    file.rewind().and_then(|()| file.set_len(0)).map_err(io)?;
     Ok(file)
 }
 
@@ -133,6 +144,10 @@ fn pack_into(
     file: &mut File,
     partial: &Path,
 ) -> Result<Packed, SnapshotError> {
+    let is_held = |item: &&Item| item.path.starts_with(HELD) && !folder::join(root, &item.path).exists();
+    if manifest.kind == Kind::Sealed && manifest.items.iter().any(|item| is_held(&item)) {
+        return Err(SnapshotError::HeldBack { path: root.to_path_buf() });
+    }
     let bytes = manifest.to_bytes()?;
     let top = Item::of(MANIFEST_FILE, &bytes);
     let unpacked = entry::total([&top].into_iter().chain(&manifest.items));
@@ -202,8 +217,8 @@ impl Archive {
     /// Cost: one pass; memory for what it holds, at most [`MAX_UNPACKED`] and a window of 8 MiB.
     ///
     /// # Errors
-    /// It is no zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot)), is damaged before the end of the manifest
-    /// ([`Archive`](SnapshotError::Archive)), has a manifest that is not sound in itself, or cannot be read.
+    /// It is no zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot); with the name of an archive it is a damaged one),
+    /// is damaged before the end of the manifest ([`Archive`](SnapshotError::Archive)), has a manifest that is not sound in itself, or cannot be read.
     pub fn open(path: &Path) -> Result<Archive, SnapshotError> {
         let io = |source| SnapshotError::io("read", path)(source);
         let broken = |message: String| SnapshotError::Archive { path: path.to_path_buf(), message };
@@ -213,7 +228,10 @@ impl Archive {
             return Err(SnapshotError::Kind { path: path.to_path_buf(), expected: "file" });
         }
         if !is_archive(path)? {
-            return Err(SnapshotError::NotASnapshot { path: path.to_path_buf() });
+            return Err(match is_called_archive(path) {
+                true => broken("it does not begin as an archive does: fetch it again".to_owned()),
+                false => SnapshotError::NotASnapshot { path: path.to_path_buf() },
+            });
         }
         let file = File::open(path).map_err(io)?;
         let mut inside = match Inside::enter(file, most(found.len())) {
@@ -273,6 +291,25 @@ impl Archive {
         draft.write(MANIFEST_FILE, &self.manifest_bytes)?;
         draft.commit()
     }
+}
+
+/// Whether a path has the name of an archive, which tells nothing of what is there.
+pub(crate) fn is_called_archive(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ARCHIVE_END))
+}
+
+/// Whether the regular file at `path` is no archive of a release, not even a damaged one. It has no seal, and holds
+/// something else than a manifest first; what cannot be unpacked so far does not begin as an archive of ours either.
+///
+/// # Errors
+/// It cannot be read.
+pub(crate) fn is_foreign(path: &Path) -> Result<bool, SnapshotError> {
+    if frame::is_sealed(path)? {
+        return Ok(false);
+    }
+    let Some(block) = frame::first_block(path)? else { return Ok(!frame::begins_as_packed(path)?) };
+    let first = entry::path_and_size(&block).map(|(path, _)| path).unwrap_or_default();
+    Ok(first != MANIFEST_FILE && !first.ends_with(&format!("/{MANIFEST_FILE}")))
 }
 
 /// The name of the top folder and the bytes of the manifest.

@@ -14,6 +14,9 @@
 mod float;
 mod node;
 
+use std::fmt::{self, Write};
+
+use engine::Digest;
 use serde::Serialize;
 
 use node::{Node, ToNode};
@@ -54,8 +57,8 @@ pub enum Fault {
     Other(String),
 }
 
-impl std::fmt::Display for CanonicalError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for CanonicalError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.at.as_str() {
             "" => write!(f, "the value has no canonical JSON: {}", self.fault),
             at => write!(f, "`{}` has no canonical JSON: {}", at.escape_debug(), self.fault),
@@ -71,57 +74,104 @@ impl std::error::Error for CanonicalError {}
 /// The first [`Fault`], in the order in which the value serialises itself.
 pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, CanonicalError> {
     let mut text = String::new();
-    write_node(&value.serialize(ToNode::top())?, 0, &mut text);
-    text.push('\n');
+    write_all(value, &mut text)?.expect("a string takes all that is written to it");
     Ok(text)
 }
 
-fn write_node(node: &Node, indent: usize, out: &mut String) {
+/// Whether `bytes` are the canonical JSON of `value`. The text is not built: it ends where it differs.
+///
+/// # Errors
+/// As for [`to_canonical_json`].
+pub(crate) fn is_canonical_json<T: Serialize + ?Sized>(
+    value: &T,
+    bytes: &[u8],
+) -> Result<bool, CanonicalError> {
+    let mut rest = Rest(bytes);
+    Ok(write_all(value, &mut rest)?.is_ok() && rest.0.is_empty())
+}
+
+/// The digest of the canonical JSON of `value`, without its text.
+///
+/// # Errors
+/// As for [`to_canonical_json`].
+pub(crate) fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Digest, CanonicalError> {
+    let mut hashed = Hashed(blake3::Hasher::new());
+    write_all(value, &mut hashed)?.expect("a hasher takes all that is written to it");
+    Ok(Digest::from_bytes(*hashed.0.finalize().as_bytes()))
+}
+
+/// What is still to come of a text that another is compared with.
+struct Rest<'a>(&'a [u8]);
+
+impl Write for Rest<'_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0 = self.0.strip_prefix(text.as_bytes()).ok_or(fmt::Error)?;
+        Ok(())
+    }
+}
+
+/// A text of which only the digest is wanted.
+struct Hashed(blake3::Hasher);
+
+impl Write for Hashed {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.update(text.as_bytes());
+        Ok(())
+    }
+}
+
+/// Writes the canonical JSON to `out`, and says what `out` says.
+fn write_all<T: Serialize + ?Sized>(value: &T, out: &mut impl Write) -> Result<fmt::Result, CanonicalError> {
+    let node = value.serialize(ToNode::top())?;
+    Ok(write_node(&node, 0, out).and_then(|()| out.write_str("\n")))
+}
+
+fn write_node(node: &Node, indent: usize, out: &mut impl Write) -> fmt::Result {
     match node {
-        Node::Null => out.push_str("null"),
-        Node::Bool(value) => out.push_str(if *value { "true" } else { "false" }),
-        Node::Integer(number) => out.push_str(&number.to_string()),
-        Node::Float(number) => out.push_str(&float::shortest(*number)),
+        Node::Null => out.write_str("null"),
+        Node::Bool(value) => out.write_str(if *value { "true" } else { "false" }),
+        Node::Integer(number) => write!(out, "{number}"),
+        Node::Float(number) => out.write_str(&float::shortest(*number)),
         Node::Text(text) => write_text(text, out),
         Node::Array(items) if items.iter().all(Node::is_scalar) => {
-            out.push('[');
+            out.write_str("[")?;
             for (index, item) in items.iter().enumerate() {
-                out.push_str(if index == 0 { "" } else { ", " });
-                write_node(item, indent, out);
+                out.write_str(if index == 0 { "" } else { ", " })?;
+                write_node(item, indent, out)?;
             }
-            out.push(']');
+            out.write_str("]")
         }
         Node::Array(items) => {
             for (index, item) in items.iter().enumerate() {
-                out.push_str(if index == 0 { "[" } else { "," });
-                new_line(indent + 1, out);
-                write_node(item, indent + 1, out);
+                out.write_str(if index == 0 { "[" } else { "," })?;
+                new_line(indent + 1, out)?;
+                write_node(item, indent + 1, out)?;
             }
-            new_line(indent, out);
-            out.push(']');
+            new_line(indent, out)?;
+            out.write_str("]")
         }
-        Node::Object(fields) if fields.is_empty() => out.push_str("{}"),
+        Node::Object(fields) if fields.is_empty() => out.write_str("{}"),
         Node::Object(fields) => {
             for (index, (key, value)) in fields.iter().enumerate() {
-                out.push_str(if index == 0 { "{" } else { "," });
-                new_line(indent + 1, out);
-                write_text(key, out);
-                out.push_str(": ");
-                write_node(value, indent + 1, out);
+                out.write_str(if index == 0 { "{" } else { "," })?;
+                new_line(indent + 1, out)?;
+                write_text(key, out)?;
+                out.write_str(": ")?;
+                write_node(value, indent + 1, out)?;
             }
-            new_line(indent, out);
-            out.push('}');
+            new_line(indent, out)?;
+            out.write_str("}")
         }
     }
 }
 
-fn write_text(text: &str, out: &mut String) {
-    out.push_str(&serde_json::to_string(text).expect("every string has a JSON form"));
+fn write_text(text: &str, out: &mut impl Write) -> fmt::Result {
+    out.write_str(&serde_json::to_string(text).expect("every string has a JSON form"))
 }
 
-fn new_line(indent: usize, out: &mut String) {
-    out.push('\n');
-    out.extend(std::iter::repeat_n("  ", indent));
+fn new_line(indent: usize, out: &mut impl Write) -> fmt::Result {
+    out.write_str("\n")?;
+    (0..indent).try_for_each(|_| out.write_str("  "))
 }
 
 #[cfg(test)]
@@ -136,6 +186,11 @@ mod tests {
     fn check<T: Serialize + ?Sized>(value: &T, expect: &str) {
         let text = to_canonical_json(value).expect("canonical");
         assert_eq!(text, format!("{expect}\n"));
+        assert_eq!(canonical_digest(value), Ok(Digest::of(text.as_bytes())));
+        assert_eq!(is_canonical_json(value, text.as_bytes()), Ok(true));
+        for other in [&text[..text.len() - 1], &format!("{text}\n"), &text.replacen('\n', " \n", 1), ""] {
+            assert_eq!(is_canonical_json(value, other.as_bytes()), Ok(false), "{other}");
+        }
         let read: Value = serde_json::from_str(&text).expect("canonical JSON is JSON");
         assert_eq!(to_canonical_json(&read).expect("canonical"), text, "not idempotent");
     }

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::archive::{is_called_archive, is_foreign};
 use crate::contents::Contents;
 use crate::error::SnapshotError;
 use crate::manifest::{MANIFEST_FILE, Manifest};
@@ -95,7 +96,8 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     }
 }
 
-/// The releases that are `folder` or lie in it, by name. What else lies there is left alone, and no link is followed.
+/// The releases that are `folder` or lie in it, by name. What else lies there, other archives too, is left alone, and no
+/// link is followed.
 fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
     let found = fs::metadata(folder).map_err(|source| match source.kind() {
@@ -111,9 +113,9 @@ fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
             return Err(SnapshotError::Crowded { path: folder.to_path_buf(), limit: MAX_RELEASES });
         }
         let entry = entry.map_err(SnapshotError::io("list", folder))?;
-        let (place, name) = (entry.path(), entry.file_name());
+        let place = entry.path();
         let kind = entry.file_type().map_err(SnapshotError::io("examine", &place))?;
-        let archive = kind.is_file() && name.to_string_lossy().ends_with(".tar.zst");
+        let archive = kind.is_file() && is_called_archive(&place) && !is_foreign(&place)?;
         // A sealed release is minted into `public/` and `held/`.
         let public = place.join("public");
         if archive || (kind.is_dir() && is_release(&place)) {

@@ -22,6 +22,7 @@ use std::path::{Path, PathBuf};
 use crate::error::SnapshotError;
 use crate::folder::{self, Limits};
 use crate::path::check_path;
+use crate::sealed::HELD;
 use lock::{LOCK, LOTS, TREE};
 
 /// A release folder in the making. Dropping it uncommitted removes what was written, as far as possible.
@@ -90,9 +91,16 @@ impl Draft {
             return Err(SnapshotError::TooLarge { path, limit });
         }
         let parent = parent_of(&path);
-        fs::create_dir_all(parent).map_err(SnapshotError::io("create", parent))?;
+        let is_secret = relative.starts_with(HELD);
+        create_folders(parent, is_secret).map_err(SnapshotError::io("create", parent))?;
         let write = || {
-            let mut file = File::create_new(&path)?;
+            let mut options = File::options();
+            options.write(true).create_new(true);
+            #[cfg(unix)]
+            if is_secret {
+                std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+            }
+            let mut file = options.open(&path)?;
             file.write_all(bytes)?;
             file.sync_all()
         };
@@ -126,6 +134,19 @@ impl Draft {
         Ok(())
     }
 
+    /// Keeps what is in the making to its owner: for sealed releases. What is held back stays so when it is published.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn keep_private(&self) -> Result<(), SnapshotError> {
+        #[cfg(unix)]
+        {
+            let owner = std::os::unix::fs::PermissionsExt::from_mode(0o700);
+            fs::set_permissions(&self.partial, owner).map_err(SnapshotError::io("protect", &self.partial))?;
+        }
+        Ok(())
+    }
+
     /// A folder beside the draft, not created yet, whose content outlives a draft that is dropped or killed, and is removed
     /// with one that is committed.
     pub fn lots(&self) -> PathBuf {
@@ -151,6 +172,17 @@ impl Drop for Draft {
         // Nothing can be done here about a failure, and the next draft replaces what stays.
         drop(removed);
     }
+}
+
+/// With all folders above; those of secrets for their owner alone.
+fn create_folders(folder: &Path, is_secret: bool) -> io::Result<()> {
+    let mut builder = fs::DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    if is_secret {
+        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    }
+    builder.create(folder)
 }
 
 /// Whether a release can be written there, as far as can be told without trying.

@@ -34,9 +34,24 @@ pub enum SnapshotError {
         path: PathBuf,
     },
     /// The work of an interrupted mint is there.
-    #[error("`{}` holds what an interrupted mint has made: go on with --resume, or remove it to begin anew", .path.display())]
+    #[error("`{}` holds what an interrupted mint has made: go on with `arcade release --resume`, or remove it to begin anew", .path.display())]
     Interrupted {
         /// The folder.
+        path: PathBuf,
+    },
+    /// The finished lots are those of another mint.
+    #[error(
+        "`{}` holds what another recipe, or another arcade, has made: go on with that one, or choose another --out",
+        .path.display()
+    )]
+    OtherPlan {
+        /// The folder with the lots.
+        path: PathBuf,
+    },
+    /// What would be packed is in part held back.
+    #[error("`{}` is sealed, and an archive is a whole release: pack it when it is revealed", .path.display())]
+    HeldBack {
+        /// The public part.
         path: PathBuf,
     },
     /// A file of a shard is not the one that the shard lists.
@@ -99,6 +114,12 @@ pub enum SnapshotError {
     #[error("`{}` has no MANIFEST.json: name a snapshot folder or its .tar.zst", .path.display())]
     NotASnapshot {
         /// The folder.
+        path: PathBuf,
+    },
+    /// A file, where a folder is needed.
+    #[error("`{}` is not a folder: name the snapshot's folder; an archive is unpacked first, as with tar -xf", .path.display())]
+    NotAFolder {
+        /// The file.
         path: PathBuf,
     },
     /// The inside of a `.partial` folder.

@@ -1,6 +1,7 @@
 //! Whether a release folder holds exactly what its manifest says.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -35,12 +36,7 @@ impl Integrity {
 /// # Errors
 /// There is no manifest, it is not sound in itself (see [`Manifest::parse`]), or the file system refuses.
 pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
-    let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
-        SnapshotError::Io { source, .. } if source.kind() == ErrorKind::NotFound => {
-            SnapshotError::NotASnapshot { path: root.to_path_buf() }
-        }
-        other => other,
-    })?;
+    let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| absent(error, root))?;
     let manifest = Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
     let mut problems = manifest_problems(&manifest, &bytes)?;
     problems.extend(file_problems(root, &manifest)?);
@@ -48,11 +44,28 @@ pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     Ok(Integrity { manifest, problems })
 }
 
+/// What it means that there is no manifest to read.
+fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
+    let path = root.to_path_buf();
+    match error {
+        SnapshotError::Io { source, .. } if source.kind() == ErrorKind::NotFound => {
+            SnapshotError::NotASnapshot { path }
+        }
+        SnapshotError::Io { source, .. } if source.kind() == ErrorKind::NotADirectory => {
+            match fs::metadata(root).is_ok_and(|found| found.is_file()) {
+                true => SnapshotError::NotAFolder { path },
+                false => SnapshotError::NotASnapshot { path },
+            }
+        }
+        other => other,
+    }
+}
+
 /// What is wrong with a manifest that can be read: its text, its root, its checksum.
 pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec<Problem>, SnapshotError> {
     let problem = |flaw| Problem { path: MANIFEST_FILE.into(), flaw };
     let mut problems = Vec::new();
-    if manifest.text()?.as_bytes() != bytes {
+    if !manifest.is_text(bytes)? {
         problems.push(problem(Flaw::NotCanonical));
     }
     let (found, stated) = (manifest.computed_root()?, manifest.root);
@@ -102,8 +115,6 @@ fn file_problems(root: &Path, manifest: &Manifest) -> Result<Vec<Problem>, Snaps
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use tempfile::TempDir;
 
     use super::*;
@@ -318,11 +329,13 @@ mod tests {
         let error = check_integrity(&release.root).expect_err("cut off");
         assert!(error.to_string().contains(&path.display().to_string()), "{error}");
         fs::remove_file(&path).expect("removed");
-        for root in [release.root.clone(), release.root.join("absent")] {
+        let file = release.root.join("README.md");
+        for root in [release.root.clone(), release.root.join("absent"), file.join("x")] {
             assert!(
                 matches!(check_integrity(&root), Err(SnapshotError::NotASnapshot { path }) if path == root)
             );
         }
+        assert!(matches!(check_integrity(&file), Err(SnapshotError::NotAFolder { path }) if path == file));
     }
 
     /// Flaws do not hide each other.

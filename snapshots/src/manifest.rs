@@ -13,12 +13,13 @@
 //! itself and `lockfile`: the last is provenance only, since two builds with the same semantics mint the same
 //! release. `checksum` guards sizes and lock file against accidents, not against intent: it must not be relied on.
 
+mod bounded;
 mod check;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::canonical::to_canonical_json;
+use crate::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
 use crate::error::SnapshotError;
 use crate::merkle::{self, Leaf};
 use engine::Digest;
@@ -55,6 +56,7 @@ pub struct Manifest {
     /// Digest of the `Cargo.lock` of the binary that minted. Provenance only: not under the root.
     pub lockfile: Digest,
     /// The recipe in full.
+    #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
     /// Every file but `MANIFEST.json`, sorted by the bytes of the path.
     pub items: Vec<Item>,
@@ -115,7 +117,7 @@ impl Manifest {
     /// # Errors
     /// The recipe has no canonical JSON.
     pub fn leaves(&self) -> Result<Vec<Leaf>, SnapshotError> {
-        let header = to_canonical_json(&Header {
+        let header = canonical_digest(&Header {
             format: self.format,
             name: &self.name,
             kind: self.kind,
@@ -128,7 +130,7 @@ impl Manifest {
         })?;
         let items = self.items.iter().map(|item| Leaf { path: item.path.clone(), digest: item.digest });
         let mut leaves: Vec<Leaf> = items.collect();
-        leaves.push(Leaf { path: HEADER_LEAF.into(), digest: Digest::of(header.as_bytes()) });
+        leaves.push(Leaf { path: HEADER_LEAF.into(), digest: header });
         leaves.sort_by(|a, b| a.path.cmp(&b.path));
         Ok(leaves)
     }
@@ -168,7 +170,8 @@ impl Manifest {
     /// # Errors
     /// It is too large, of another format, no JSON of this shape, has items that are unsorted, listed twice,
     /// reserved, too large, too many, indistinguishable where capitals do not count, or with unsafe paths, has a
-    /// malformed name or canary, or a commitment exactly when it should not.
+    /// malformed name or canary, or a commitment exactly when it should not, or a recipe that nests too deeply or holds
+    /// too many values.
     pub fn parse(bytes: &[u8]) -> Result<Manifest, SnapshotError> {
         if bytes.len() as u64 > MANIFEST_LIMIT {
             return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
@@ -190,6 +193,7 @@ impl Manifest {
     /// Whatever `parse` would refuse, and a root that is not the one the header and the items give.
     pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
         check::check(self)?;
+        bounded::bounded(&self.recipe).map_err(|error| check::unsound(error.to_string()))?;
         if self.root != self.computed_root()? {
             return Err(check::unsound("its root is not that of its items: seal the root last".into()));
         }
@@ -205,6 +209,14 @@ impl Manifest {
         Ok(bytes)
     }
 
+    /// Whether these bytes are the text that this manifest has in this format. No other text is built.
+    ///
+    /// # Errors
+    /// The recipe has no canonical JSON.
+    pub(crate) fn is_text(&self, bytes: &[u8]) -> Result<bool, SnapshotError> {
+        Ok(is_canonical_json(self, bytes)?)
+    }
+
     /// The text that this manifest has in this format, sound or not.
     pub(crate) fn text(&self) -> Result<String, SnapshotError> {
         Ok(to_canonical_json(self)?)
@@ -214,11 +226,8 @@ impl Manifest {
 /// Whether a manifest is of this format whatever version it states: the root covers the version, so that no release of
 /// another format has the root that this one gives.
 fn commits_to_this_format(bytes: &[u8]) -> bool {
-    let Ok(mut fields) = serde_json::from_slice::<serde_json::Map<String, Value>>(bytes) else {
-        return false;
-    };
-    fields.insert("format".into(), FORMAT.into());
-    let Ok(manifest) = serde_json::from_value::<Manifest>(Value::Object(fields)) else { return false };
+    let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
+    manifest.format = FORMAT;
     manifest.computed_root().is_ok_and(|root| root == manifest.root)
 }
 
@@ -385,6 +394,8 @@ pub(crate) mod tests {
         refuse(&format!("{text}{{"), "trailing characters");
         let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
         refuse(&text.replace("0.1", &deep), "recursion limit");
+        let deep = format!("{}{}", "[".repeat(20), "]".repeat(20));
+        refuse(&text.replace("0.1", &deep), "the recipe is nested deeper than 16 levels");
         let oversize = " ".repeat(MANIFEST_LIMIT as usize + 1);
         refuse(&oversize, "larger than 67108864 bytes");
     }

@@ -235,6 +235,12 @@ pub enum RecipeError {
     /// A secret that is not the one committed to.
     #[error("the secret is not the one that the recipe's `commitment` was made from")]
     OtherSecret,
+    /// A secret for an open release.
+    #[error(
+        "the release is open: its recipe has a `seed`, so --secret is not for it; to seal it, put the secret's `commitment` in \
+             the place of `seed`"
+    )]
+    Open,
     /// Longer than [`MAX_RECIPE`].
     #[error("the recipe is larger than {MAX_RECIPE} bytes")]
     TooLarge,
@@ -391,9 +397,10 @@ impl Recipe {
     /// The seed that everything in the release comes from; `secret` is that of a sealed one.
     ///
     /// # Errors
-    /// A sealed release without its secret, or with another one.
+    /// A sealed release without its secret, or with another one; an open one with a secret.
     pub fn root_seed(&self, secret: Option<&Secret>) -> Result<Seed, RecipeError> {
         match (&self.seed, self.commitment, secret) {
+            (Some(_), _, Some(_)) => Err(RecipeError::Open),
             (Some(seed), ..) => Ok(Seed::from_text(seed)),
             (None, Some(commitment), Some(secret)) if secret.commitment() == commitment => {
                 Ok(Seed::from_text(&secret.seed))

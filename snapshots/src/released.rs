@@ -3,7 +3,8 @@
 use crate::card::Card;
 use crate::contents::Contents;
 use crate::integrity::Integrity;
-use crate::manifest::{MANIFEST_FILE, Manifest};
+use crate::manifest::{Kind, MANIFEST_FILE, Manifest};
+use crate::sealed::held_witness;
 use crate::verify::{Verification, verify};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
@@ -91,27 +92,34 @@ impl Released {
 
 fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<ReleasedGame, ReleasedError> {
     // All was well-formed when the release was verified; the digest tells whether it is still the same.
-    let read = |file: &str| -> Result<Option<String>, ReleasedError> {
-        let path = format!("{folder}/{file}");
+    let read = |path: String| -> Result<Option<String>, ReleasedError> {
         let found = manifest.items.binary_search_by(|item| item.path.as_str().cmp(&path));
         let Ok(at) = found else { return Ok(None) };
-        let bytes = contents.read(&path)?;
+        // Listed and not there is only what is held back.
+        let Some(bytes) = contents.find(&path)? else { return Ok(None) };
         if Digest::of(&bytes) != manifest.items[at].digest {
             return Err(ReleasedError::Changed { path });
         }
         String::from_utf8(bytes).map(Some).map_err(|_| ReleasedError::Changed { path })
     };
     let changed = |file: &str| ReleasedError::Changed { path: format!("{folder}/{file}") };
-    let need = |file: &str| read(file)?.ok_or_else(|| changed(file));
+    let need = |file: &str| read(format!("{folder}/{file}"))?.ok_or_else(|| changed(file));
     let card: Card = serde_json::from_str(&need("card.json")?).map_err(|_| changed("card.json"))?;
     let source = need("game.vgdl")?;
     let game = Game::from_source(&source).map_err(|_| changed("game.vgdl"))?;
     let level = |number: usize| {
-        let (file, witness) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
+        let file = format!("lvl{number}.txt");
+        let witness = match manifest.kind {
+            Kind::Open => format!("{folder}/witness/lvl{number}.json"),
+            Kind::Sealed => held_witness(&card.id, number),
+        };
         let text = need(&file)?;
         let level = game.level(&text).map_err(|_| changed(&file))?;
-        let parse = |text: String| serde_json::from_str::<Witness>(&text).map_err(|_| changed(&witness));
-        let witness = read(&witness)?.map(parse).transpose()?.map(|witness| witness.episode);
+        let text_of_witness = read(witness.clone())?;
+        let parse = |text: String| serde_json::from_str::<Witness>(&text);
+        let witness =
+            text_of_witness.map(parse).transpose().map_err(|_| ReleasedError::Changed { path: witness })?;
+        let witness = witness.map(|witness| witness.episode);
         Ok(ReleasedLevel { text, level, witness })
     };
     let levels = (0..card.levels.len()).map(level).collect::<Result<_, ReleasedError>>()?;

@@ -14,6 +14,11 @@ pub const SECRET_FILE: &str = "held/secret.json";
 /// Where the files of a sealed release lie that are held back until it is revealed.
 pub const HELD: &str = "held/";
 
+/// Where a sealed release has the witness of a level, by the game's folder below `games`.
+pub(crate) fn held_witness(game: &str, level: usize) -> String {
+    format!("{HELD}{game}/lvl{level}.json")
+}
+
 /// What a sealed release is minted from, and what its recipe commits to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -4,13 +4,13 @@ use crate::card::Card;
 use crate::contents::Contents;
 use crate::manifest::{Kind, Manifest};
 use crate::mint::RELEASE_CARD_FILE;
-use crate::sealed::{HELD, SECRET_FILE, Secret};
+use crate::sealed::{HELD, SECRET_FILE, Secret, held_witness};
 use crate::witness::Witness;
-use crate::{Digest, SnapshotError};
+use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
 use engine::{Game, Outcome};
 use rayon::prelude::*;
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// What was found out about the witnesses.
@@ -83,6 +83,14 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
             .collect::<Result<_, _>>()?;
         games = checked;
         problems.extend(games.iter_mut().flat_map(|game| std::mem::take(&mut game.problems)));
+        check_header(&manifest, &mut problems);
+        check_held(&manifest, &games, &mut problems);
+        for path in ["README.md", RELEASE_CARD_FILE] {
+            let listed = manifest.items.iter().any(|item| item.path == path);
+            if listed && !carries(&contents.read(path)?, &manifest.canary) {
+                problems.push(format!("{path}: without the release's canary"));
+            }
+        }
     }
     let levels = games.iter().map(|game| game.levels).sum();
     Ok(Verification {
@@ -101,14 +109,55 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     })
 }
 
+/// Whether what the manifest states of itself is what its recipe says.
+fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
+    let stated = [
+        ("name", Some(manifest.name.clone())),
+        ("parent", manifest.parent.map(|parent| parent.to_string())),
+        ("commitment", manifest.commitment.map(|commitment| commitment.to_string())),
+    ];
+    for (key, stated) in stated {
+        let recipe = manifest.recipe.get(key).and_then(|value| value.as_str());
+        if recipe != stated.as_deref() {
+            problems.push(format!("{MANIFEST_FILE}: its `{key}` is not that of its recipe"));
+        }
+    }
+    if manifest.commitment.is_some_and(|commitment| manifest.canary != canary(&commitment)) {
+        problems.push(format!("{MANIFEST_FILE}: its `canary` is not that of its commitment"));
+    }
+}
+
+/// Whether a sealed release commits to its secret and to a witness of every level, and to nothing else that nobody sees.
+fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<String>) {
+    if manifest.kind != Kind::Sealed {
+        return;
+    }
+    let witnesses = games.iter().flat_map(|game| &game.held).map(String::as_str);
+    let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).collect();
+    let listed = manifest.items.iter().map(|item| item.path.as_str());
+    let listed: BTreeSet<&str> = listed.filter(|path| path.starts_with(HELD)).collect();
+    let absent = awaited.difference(&listed).map(|path| format!("{path}: not committed to"));
+    let foreign =
+        listed.difference(&awaited).map(|path| format!("{path}: a sealed release has no such file"));
+    problems.extend(absent.chain(foreign));
+}
+
+/// Whether the release's mark is in a file.
+fn carries(content: &[u8], canary: &str) -> bool {
+    content.windows(canary.len()).any(|part| part == canary.as_bytes())
+}
+
 /// What is called `.partial`, and what is inside, may be complete but for its publication: it is no release.
 fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot { path: root.to_path_buf() },
         _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
     })?;
-    let unfinished =
-        real.ancestors().take(2).any(|folder| folder.extension().is_some_and(|end| end == "partial"));
+    // Far above, the name alone tells little: there has to be a draft.
+    let is_draft = |folder: &Path| folder.join(".lock").exists() && folder.join("tree").exists();
+    let unfinished = real.ancestors().enumerate().any(|(above, folder)| {
+        folder.extension().is_some_and(|end| end == "partial") && (above < 2 || is_draft(folder))
+    });
     if unfinished { Err(SnapshotError::Unfinished { path: root.to_path_buf() }) } else { Ok(()) }
 }
 
@@ -132,6 +181,8 @@ fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<Str
 struct GameCheck {
     levels: usize,
     replayed: usize,
+    /// Where a sealed release has its witnesses.
+    held: Vec<String>,
     problems: Vec<String>,
 }
 
@@ -142,7 +193,7 @@ fn check_game(
     files: &[String],
     replay: bool,
 ) -> Result<GameCheck, SnapshotError> {
-    let mut check = GameCheck { levels: 0, replayed: 0, problems: Vec::new() };
+    let mut check = GameCheck { levels: 0, replayed: 0, held: Vec::new(), problems: Vec::new() };
     let path = |file: &str| format!("games/{folder}/{file}");
     // The digests hold, so every listed file can be read as a text of its size; what is in it is another matter.
     let read = |file: &str| -> Result<Option<String>, SnapshotError> {
@@ -158,6 +209,9 @@ fn check_game(
         wrong("game.vgdl", "missing or not a text".to_owned());
         return Ok(check);
     };
+    if !carries(source.as_bytes(), &manifest.canary) {
+        wrong("game.vgdl", "without the release's canary".to_owned());
+    }
     let game = match Game::from_source(&source) {
         Ok(game) => game,
         Err(problems) => {
@@ -186,11 +240,14 @@ fn check_game(
         wrong("card.json", "the game has no levels".to_owned());
     }
     let mut known = vec!["game.vgdl".to_owned(), "card.json".to_owned()];
-    let mut levels = 0;
-    let mut replayed = 0;
+    let (mut levels, mut replayed) = (0, 0);
+    let mut held = Vec::new();
     for (number, level_card) in card.levels.iter().enumerate() {
         let (file, witness_file) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
         let is_sealed = manifest.kind == Kind::Sealed;
+        if is_sealed {
+            held.push(held_witness(folder, number));
+        }
         let level = match read(&file)?.map(|text| game.level(&text)) {
             Some(Ok(level)) => level,
             Some(Err(problems)) => {
@@ -208,7 +265,7 @@ fn check_game(
         }
         let witness = match is_sealed {
             true => {
-                let bytes = contents.find(&format!("{HELD}{folder}/lvl{number}.json"))?;
+                let bytes = contents.find(&held_witness(folder, number))?;
                 bytes.and_then(|bytes| String::from_utf8(bytes).ok())
             }
             false => read(&witness_file)?,
@@ -218,7 +275,17 @@ fn check_game(
                 wrong(&witness_file, "its canary is not the release's".to_owned());
             }
             Some(Ok(witness)) if replay => match witness.episode.replay(&game, &level) {
-                Ok(end) if end.outcome() == Outcome::Won => replayed += 1,
+                Ok(end) if end.outcome() == Outcome::Won => {
+                    replayed += 1;
+                    if witness.episode.actions.len() != level_card.witness_ticks
+                        || end.score() != level_card.witness_score
+                    {
+                        wrong(
+                            "card.json",
+                            format!("not the ticks and score of the episode that wins {file}"),
+                        );
+                    }
+                }
                 Ok(_) => wrong(&witness_file, "the episode does not win".to_owned()),
                 Err(divergence) => wrong(&witness_file, divergence.to_string()),
             },
@@ -236,6 +303,6 @@ fn check_game(
     for file in files.iter().filter(|file| !known.contains(file)) {
         wrong(file, "a game has no such file".to_owned());
     }
-    (check.levels, check.replayed) = (levels, replayed);
+    (check.levels, check.replayed, check.held) = (levels, replayed, held);
     Ok(check)
 }

@@ -42,6 +42,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         ));
     }
     let draft = Draft::create(&args.out).map_err(failure)?;
+    if plan.is_sealed() {
+        draft.keep_private().map_err(failure)?;
+    }
     let finished = Finished { plan: &plan, secret: secret.as_ref(), shelf: &shards, out: &args.out };
     finished.publish(draft, None, args.jobs, console)
 }

@@ -9,6 +9,7 @@ use serde::Serialize;
 use serde_json::json;
 use snapshots::chain::{Chain, Link, follow};
 use snapshots::{MANIFEST_FILE, SnapshotError, Verification, Witnesses, verify};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
@@ -97,7 +98,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn say(verification: &Verification, console: &Console) {
     let Verification { name, root, files, games, levels, witnesses, problems, .. } = verification;
     for problem in problems {
-        console.say(problem);
+        console.say(one_line(problem));
     }
     if !problems.is_empty() {
         return console.say(format_args!("{name}: does NOT verify; problems: {}", problems.len()));
@@ -124,7 +125,7 @@ fn say(verification: &Verification, console: &Console) {
 
 fn say_chain(chain: &Chain, console: &Console) {
     for problem in &chain.problems {
-        console.say(problem);
+        console.say(one_line(problem));
     }
     let [newest, before @ ..] = chain.releases.as_slice() else { return };
     console.say(match (chain.problems.is_empty(), before.len()) {
@@ -145,7 +146,12 @@ fn say_chain(chain: &Chain, console: &Console) {
 fn damage(error: &SnapshotError) -> bool {
     matches!(
         error,
-        SnapshotError::Syntax { .. } | SnapshotError::Manifest { .. } | SnapshotError::Archive { .. }
+        SnapshotError::Syntax { .. }
+            | SnapshotError::Manifest { .. }
+            | SnapshotError::Archive { .. }
+            | SnapshotError::Link { .. }
+            | SnapshotError::Kind { .. }
+            | SnapshotError::TooLarge { .. }
     )
 }
 
@@ -153,15 +159,33 @@ fn damaged(error: SnapshotError, snapshot: &Path, console: &Console) -> Answer {
     let place = if matches!(error, SnapshotError::Archive { .. }) { "" } else { "MANIFEST.json: " };
     let problem = format!("{place}{:#}", anyhow::Error::from(error));
     console.document(&json!({ "problems": [problem] }))?;
-    console.say(&problem);
+    console.say(one_line(&problem));
     console.say(format_args!("{}: does NOT verify", snapshot.display()));
     Ok(false)
 }
 
-/// A folder that is no snapshot is a malformed question; a disk that fails is not.
+/// A problem may quote what a stranger wrote, which must not look like a line of our own.
+fn one_line(problem: &str) -> String {
+    problem.replace('\n', "\\n")
+}
+
+/// A folder that is no snapshot, or is not there, is a malformed question; a disk that fails is not.
 pub(crate) fn failure(error: SnapshotError) -> Failure {
     match error {
+        SnapshotError::Io { action: "examine" | "list" | "open" | "read", ref path, ref source }
+            if matches!(source.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
+        {
+            absent(path)
+        }
         SnapshotError::Io { .. } => Failure::Surroundings(error.into()),
         _ => Failure::Malformed(error.into()),
     }
+}
+
+fn absent(path: &Path) -> Failure {
+    let shown = path.display();
+    Failure::malformed(match path.exists() {
+        true => format!("`{shown}` is not a folder: name one; an archive is unpacked first, as with tar -xf"),
+        false => format!("`{shown}` does not exist: check the path"),
+    })
 }

@@ -5,7 +5,7 @@
 //! the bytes before it.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use super::entry::BLOCK;
@@ -13,7 +13,7 @@ use crate::error::SnapshotError;
 use engine::Digest;
 
 /// How a zstd file begins (RFC 8878 §3.1.1).
-const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+pub(super) const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// The logarithm of how far back the compressor looks, in bytes: 8 MiB, which every reader grants.
 const WINDOW_LOG: u8 = 23;
 /// Compression is done once, reading often.
@@ -24,16 +24,61 @@ const LEVEL: i32 = 15;
 /// # Errors
 /// It cannot be read.
 pub fn is_archive(path: &Path) -> Result<bool, SnapshotError> {
-    let begin = || -> io::Result<Vec<u8>> {
-        let mut begin = Vec::new();
-        File::open(path)?.take(MAGIC.len() as u64).read_to_end(&mut begin)?;
-        Ok(begin)
-    };
-    Ok(begin().map_err(SnapshotError::io("read", path))? == MAGIC)
+    Ok(head(path)?.starts_with(&MAGIC))
+}
+
+/// Whether the regular file at `path` has the head that an archive is packed with.
+///
+/// # Errors
+/// It cannot be read.
+pub(super) fn begins_as_packed(path: &Path) -> Result<bool, SnapshotError> {
+    let head = head(path)?;
+    Ok(head.starts_with(&MAGIC) && stated_size(&head).is_ok())
+}
+
+/// As many bytes as the longest head of a frame has: magic number, descriptor, window, size.
+fn head(path: &Path) -> Result<Vec<u8>, SnapshotError> {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(4 + 1 + 1 + 8).read_to_end(&mut head));
+    read.map_err(SnapshotError::io("read", path))?;
+    Ok(head)
 }
 
 /// How the seal begins: a skippable frame's magic number, and that 32 bytes follow.
 const SEAL: [u8; 8] = [0x50, 0x2a, 0x4d, 0x18, 32, 0, 0, 0];
+/// How long the seal is.
+const SEAL_LENGTH: usize = SEAL.len() + 32;
+
+/// Whether the regular file at `path` ends with a seal, be it the right one or not.
+///
+/// # Errors
+/// It cannot be read.
+pub(super) fn is_sealed(path: &Path) -> Result<bool, SnapshotError> {
+    let end = || -> io::Result<Vec<u8>> {
+        let mut file = File::open(path)?;
+        let length = file.metadata()?.len();
+        file.seek(SeekFrom::Start(length.saturating_sub(SEAL_LENGTH as u64)))?;
+        let mut end = Vec::new();
+        file.take(SEAL_LENGTH as u64).read_to_end(&mut end)?;
+        Ok(end)
+    };
+    let end = end().map_err(SnapshotError::io("read", path))?;
+    Ok(end.len() == SEAL_LENGTH && end.starts_with(&SEAL))
+}
+
+/// The first block inside the regular file at `path`, whatever tool compressed it; none if there is no such thing.
+///
+/// # Errors
+/// It cannot be opened.
+pub(super) fn first_block(path: &Path) -> Result<Option<[u8; BLOCK]>, SnapshotError> {
+    let file = File::open(path).map_err(SnapshotError::io("read", path))?;
+    let mut block = [0; BLOCK];
+    let read = zstd::Decoder::new(file).and_then(|mut decoder| {
+        decoder.window_log_max(u32::from(WINDOW_LOG))?;
+        decoder.read_exact(&mut block)
+    });
+    Ok(read.is_ok().then_some(block))
+}
 
 /// Compresses into a file.
 pub(super) struct Outside<'a> {

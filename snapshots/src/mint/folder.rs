@@ -8,7 +8,7 @@ use crate::card::{Card, Origin};
 use crate::games::marked;
 use crate::manifest::{FORMAT, Item, Kind, Manifest};
 use crate::recipe::Recipe;
-use crate::sealed::{HELD, SECRET_FILE, Secret};
+use crate::sealed::{SECRET_FILE, Secret, held_witness};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
 use engine::syntax;
@@ -31,8 +31,13 @@ pub(super) struct Folder<'a, 'b> {
 
 impl<'a, 'b> Folder<'a, 'b> {
     pub(super) fn new(plan: &Plan<'_>, sink: &'a mut Sink<'b>) -> Folder<'a, 'b> {
-        let is_sealed = plan.recipe.commitment.is_some();
-        Folder { sink, canary: plan.canary(), is_sealed, items: Vec::new(), cards: Vec::new() }
+        Folder {
+            sink,
+            canary: plan.canary(),
+            is_sealed: plan.is_sealed(),
+            items: Vec::new(),
+            cards: Vec::new(),
+        }
     }
 
     fn file(&mut self, path: String, content: &[u8]) -> Result<(), SnapshotError> {
@@ -49,14 +54,14 @@ impl<'a, 'b> Folder<'a, 'b> {
         let text = marked(&syntax::parse(&text).0, &self.canary);
         self.file(format!("{folder}/game.vgdl"), text.as_bytes())?;
         self.file(format!("{folder}/card.json"), &json(&card)?)?;
-        let held = match self.is_sealed {
-            true => format!("{HELD}{}", card.id),
-            false => format!("{folder}/witness"),
-        };
         for (number, (level, episode)) in levels.iter().zip(witnesses).enumerate() {
             self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
             let witness = Witness { canary: self.canary.clone(), episode };
-            self.file(format!("{held}/lvl{number}.json"), &json(&witness)?)?;
+            let file = match self.is_sealed {
+                true => held_witness(&card.id, number),
+                false => format!("{folder}/witness/lvl{number}.json"),
+            };
+            self.file(file, &json(&witness)?)?;
         }
         self.cards.push(card);
         Ok(())

@@ -73,6 +73,11 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
+    /// Whether seed and witnesses are held back.
+    pub fn is_sealed(&self) -> bool {
+        self.recipe.commitment.is_some()
+    }
+
     /// The lots, those that take longest first.
     pub fn lots(&self) -> &[Lot] {
         &self.lots

@@ -49,7 +49,12 @@ pub struct LotFolder {
     folder: PathBuf,
     /// What decides the content of lots: those of another plan do not count.
     plan: Digest,
+    /// Whether the folder says so.
+    is_marked: Mutex<bool>,
 }
+
+/// Tells whose lots these are, so that those of another recipe are not thrown away.
+const WHOSE: &str = "plan.txt";
 
 /// The largest file of a lot, in bytes: 64 MiB.
 const LOT_LIMIT: u64 = 64 << 20;
@@ -68,10 +73,39 @@ impl LotFolder {
     /// Lots of this plan in a folder, which is created if it is not there.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// The folder has lots of another plan, or the file system refuses.
     pub fn open(folder: &Path, plan: Digest) -> Result<LotFolder, SnapshotError> {
         fs::create_dir_all(folder).map_err(SnapshotError::io("create", folder))?;
-        Ok(LotFolder { folder: folder.to_path_buf(), plan })
+        let whose = folder.join(WHOSE);
+        let is_marked = match fs::read_to_string(&whose) {
+            Ok(text) if text == plan.to_string() => true,
+            Ok(_) => return Err(SnapshotError::OtherPlan { path: folder.to_path_buf() }),
+            Err(error) if error.kind() == ErrorKind::NotFound => false,
+            Err(error) => return Err(SnapshotError::io("read", &whose)(error)),
+        };
+        Ok(LotFolder { folder: folder.to_path_buf(), plan, is_marked: Mutex::new(is_marked) })
+    }
+
+    /// Before the first lot: says whose it is.
+    fn mark(&self) -> Result<(), SnapshotError> {
+        let mut is_marked = self.is_marked.lock().unwrap_or_else(PoisonError::into_inner);
+        if !*is_marked {
+            self.write(&self.folder.join(WHOSE), &self.plan.to_string())?;
+            *is_marked = true;
+        }
+        Ok(())
+    }
+
+    /// A file that is complete or absent.
+    fn write(&self, path: &Path, text: &str) -> Result<(), SnapshotError> {
+        let fresh = path.with_extension("new");
+        let write = || {
+            let mut file = File::create(&fresh)?;
+            file.write_all(text.as_bytes())?;
+            file.sync_all()?;
+            fs::rename(&fresh, path)
+        };
+        write().map_err(SnapshotError::io("write", path))
     }
 
     /// The text of a lot's file.
@@ -104,16 +138,9 @@ impl Shelf for LotFolder {
     }
 
     fn put(&self, name: &str, lot: &LotResult) -> Result<(), SnapshotError> {
+        self.mark()?;
         let text = LotFolder::text(self.plan, lot)?;
-        let path = self.folder.join(LotFolder::file(name));
-        let fresh = path.with_extension("new");
-        let write = || {
-            let mut file = File::create(&fresh)?;
-            file.write_all(text.as_bytes())?;
-            file.sync_all()?;
-            fs::rename(&fresh, &path)
-        };
-        write().map_err(SnapshotError::io("write", &path))
+        self.write(&self.folder.join(LotFolder::file(name)), &text)
     }
 }
 
@@ -132,7 +159,10 @@ mod tests {
         assert_eq!(shelf.get("a").unwrap(), None);
         shelf.put("a", &lot).unwrap();
         assert_eq!(shelf.get("a").unwrap(), Some(lot.clone()));
-        let other = LotFolder::open(home.path(), Digest::of(b"other")).unwrap();
+        let other = LotFolder::open(home.path(), Digest::of(b"other"));
+        assert!(matches!(other, Err(SnapshotError::OtherPlan { .. })), "{other:?}");
+        let (folder, is_marked) = (home.path().to_path_buf(), Mutex::new(true));
+        let other = LotFolder { folder, plan: Digest::of(b"other"), is_marked };
         assert_eq!(other.get("a").unwrap(), None);
         let path = home.path().join("a.json");
         let text = fs::read_to_string(&path).unwrap();

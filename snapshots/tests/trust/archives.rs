@@ -124,11 +124,15 @@ fn packing_is_careful() {
     assert!(matches!(pack(&folder, &file), Err(SnapshotError::Taken { .. })));
     assert_eq!(fs::read(&file).expect("there"), b"mine");
     fs::remove_file(&file).expect("removed");
-    // What a killed run left is replaced.
-    fs::write(home.path().join("mole.tar.zst.partial"), vec![7; 100_000]).expect("written");
+    // What a killed run left is replaced, and nothing else.
+    let partial = home.path().join("mole.tar.zst.partial");
+    fs::write(&partial, "mine").expect("written");
+    assert!(matches!(pack(&folder, &file), Err(SnapshotError::Foreign { .. })));
+    assert_eq!(fs::read(&partial).expect("there"), b"mine");
+    fs::write(&partial, [&b"\x28\xb5\x2f\xfd"[..], &[7; 100_000]].concat()).expect("written");
     pack(&folder, &file).expect("packed");
     assert!(Archive::open(&file).expect("sound").integrity.is_sound());
-    assert!(!home.path().join("mole.tar.zst.partial").exists());
+    assert!(!partial.exists());
     fs::write(folder.join("README.md"), "other").expect("written");
     let error = pack(&folder, &home.path().join("b.tar.zst")).expect_err("altered").to_string();
     assert!(error.contains("README.md: wrong size"), "{error}");
@@ -286,7 +290,7 @@ fn ends() {
         "mole.tar.zst: not as packed",
         "not those that were sealed",
     );
-    check_bytes(&file, &[&skippable[..], &sound[..]].concat(), "mole.tar.zst", "no MANIFEST.json");
+    check_bytes(&file, &[&skippable[..], &sound[..]].concat(), "mole.tar.zst", "does not begin as");
     check_bytes(
         &file,
         &compress(&[&tar[..], &[0; 512]].concat()),
@@ -317,6 +321,12 @@ fn ends() {
     // Other ways to compress the same bytes are not ours.
     let plain = zstd::encode_all(&tar[..], 3).expect("in memory");
     check_bytes(&file, &plain, "mole.tar.zst", "not as packed");
+    // By its name an archive, it is a damaged one; by another name, it is none.
+    fs::write(&file, "BasicGame").expect("written");
+    assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
+    fs::write(&file, "").expect("written");
+    assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
+    let file = home.path().join("mole.vgdl");
     fs::write(&file, "BasicGame").expect("written");
     assert!(matches!(verify(&file), Err(SnapshotError::NotASnapshot { .. })));
 }
@@ -343,6 +353,46 @@ fn bombs() {
     check(&|e| e.list[0].0.set_size(1 << 40), "MANIFEST.json", "larger than 67108864 bytes");
     check(&|e| e.list[0].0.set_size(1 << 20), "MANIFEST.json", "too short");
     check(&|e| e.list[1].0.set_size(1 << 40), "README.md", "wrong size (1099511627776 bytes");
+}
+
+/// A recipe may be any JSON. One that nests deeply would be indented to hundreds of times its size, and is not read that
+/// far; here within the ratio that archives may have, 14 MB in some 2 kB.
+#[test]
+fn recipes_that_nest_deeply() {
+    let honest = small("mole", None);
+    let text = String::from_utf8(honest.manifest.to_bytes().expect("sound")).expect("JSON");
+    let nested = format!("{}{}", "[".repeat(120), "]".repeat(120));
+    let bomb = format!("\"deep\": [{}],\n    \"seed\": ", vec![nested; 60_000].join(","));
+    let bomb = text.replacen("\"seed\": ", &bomb, 1).into_bytes();
+    assert!(bomb.len() > 14_000_000);
+    let home = home();
+    let folder = honest.write_in(&home);
+    fs::write(folder.join(MANIFEST_FILE), &bomb).expect("written");
+    let mut entries = Entries::of(&honest);
+    entries.list[0] = (header("mole/MANIFEST.json", bomb.len() as u64), bomb);
+    let file = home.path().join("mole.tar.zst");
+    fs::write(&file, compress(&entries.tar())).expect("written");
+    for place in [folder, file] {
+        let error = verify(&place).expect_err("too deep");
+        assert!(error.to_string().contains(MANIFEST_FILE), "{error}");
+        let source = std::error::Error::source(&error).expect("a place").to_string();
+        assert!(source.contains("the recipe is nested deeper than 16 levels"), "{source}");
+    }
+}
+
+/// What is wide and flat costs as much as it is large, and is read.
+#[test]
+fn recipes_that_are_wide() {
+    let mut wide = small("mole", None);
+    wide.manifest.recipe["zeros"] = vec![0; 1_000_000].into();
+    wide.manifest.seal_root().expect("distinct paths");
+    let home = home();
+    let folder = wide.write_in(&home);
+    assert!(check_integrity(&folder).expect("readable").is_sound());
+    wide.manifest.recipe["zeros"] = vec![0; 2_000_000].into();
+    wide.manifest.seal_root().expect("distinct paths");
+    let error = wide.manifest.to_bytes().expect_err("too wide").to_string();
+    assert!(error.contains("more than 1048576 values in the recipe"), "{error}");
 }
 
 #[cfg(unix)]

@@ -75,6 +75,39 @@ fn archives_are_links_too() {
     check(&third, &[second, archive], &["2027-02", "2027-01", "2026-12"], &[]);
 }
 
+/// Somebody's own archives beside the releases are none of the chain, and a release's archive is, however damaged.
+#[test]
+fn other_archives_are_left_alone() {
+    let home = home();
+    let [first, _, _] = three();
+    let second = small("2027-01", Some(first.manifest.root)).write_in(&home);
+    let place = first.write_in(&home);
+    let all = [home.path().to_path_buf()];
+    let mut tar = tar::Builder::new(Vec::new());
+    tar.append_dir_all("photos", place.join("games")).expect("in memory");
+    let tar = zstd::encode_all(&tar.into_inner().expect("in memory")[..], 3).expect("in memory");
+    let backup = home.path().join("backup.tar.zst");
+    for content in [&tar[..], b"", b"no archive at all"] {
+        fs::write(&backup, content).expect("written");
+        check(&second, &all, &["2027-01", "2026-12"], &[]);
+    }
+    // Named, it is asked about.
+    let chain = ask(&second, &[place.clone(), backup.clone()]).expect("readable");
+    assert!(chain.problems[0].contains("backup.tar.zst"), "{:?}", chain.problems);
+    fs::remove_file(&backup).expect("removed");
+    let archive = home.path().join("a.tar.zst");
+    pack(&place, &archive).expect("packed");
+    let sound = fs::read(&archive).expect("there");
+    for (spoil, byte) in [(0, b'x'), (sound.len() / 2, sound[sound.len() / 2] ^ 1)] {
+        let mut spoilt = sound.clone();
+        spoilt[spoil] = byte;
+        fs::write(&archive, spoilt).expect("written");
+        check(&second, &all, &["2027-01", "2026-12"], &["a.tar.zst"]);
+    }
+    fs::write(&archive, &sound[..sound.len() - 50]).expect("written");
+    check(&second, &all, &["2027-01", "2026-12"], &["a.tar.zst"]);
+}
+
 #[test]
 fn a_spoiled_link_is_named_and_not_followed() {
     let home = home();

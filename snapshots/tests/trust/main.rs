@@ -5,5 +5,6 @@ mod chains;
 mod old;
 mod proofs;
 mod small;
+mod statements;
 #[cfg(unix)]
 mod tamper;

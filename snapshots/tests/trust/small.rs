@@ -39,7 +39,7 @@ pub(crate) struct Small {
 
 /// The release of this name, after the one with this root.
 pub(crate) fn small(name: &str, parent: Option<Digest>) -> Small {
-    let recipe = serde_json::json!({ "name": name, "seed": "a mole in the dark" });
+    let recipe = serde_json::json!({ "name": name, "seed": "a mole in the dark", "parent": parent });
     let mark = canary(&Digest::of(recipe.to_string().as_bytes()));
     let game = Game::from_source(GAME).expect("a game");
     let level = game.level(LEVEL).expect("a level");
@@ -81,7 +81,7 @@ pub(crate) fn small(name: &str, parent: Option<Digest>) -> Small {
     let files = vec![
         ("README.md".to_owned(), format!("# {name}\n\nCanary: `{mark}`\n").into_bytes()),
         (format!("games/{id}/card.json"), json(&card)),
-        (format!("games/{id}/game.vgdl"), GAME.as_bytes().to_vec()),
+        (format!("games/{id}/game.vgdl"), format!("# {mark}\n{GAME}").into_bytes()),
         (format!("games/{id}/lvl0.txt"), LEVEL.as_bytes().to_vec()),
         (format!("games/{id}/witness/lvl0.json"), json(&Witness { canary: mark.clone(), episode })),
     ];

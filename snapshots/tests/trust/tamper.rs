@@ -274,7 +274,7 @@ fn tamper_with_manifest(kind: &str, folder: &Path, sampler: &mut Sampler) -> Vec
             insert = Some(text.replacen('{', &format!("{{\n  \"{key}\": {value},"), 1));
         }
         "nest" => {
-            let depth = *sampler.choose(&[2, 126, 127, 128, 100_000]);
+            let depth = *sampler.choose(&[2, 15, 16, 127, 128, 100_000]);
             let deep = format!("{}{}", "[".repeat(depth), "]".repeat(depth));
             insert = Some(text.replacen("\"seed\": ", &format!("\"deep\": {deep},\n    \"seed\": "), 1));
         }
@@ -310,6 +310,24 @@ fn forgeries() {
         if path.ends_with("lvl0.txt") || path.ends_with("witness/lvl0.json") {
             assert!(said.contains(&path), "{path}, byte {place}: {said}");
         }
+    }
+}
+
+/// What lies in a draft, at any depth, is not published.
+#[test]
+fn drafts() {
+    let home = home();
+    let draft = home.path().join("mole.partial");
+    let public = draft.join("tree/public");
+    fs::create_dir_all(&public).expect("created");
+    let (_, files) = original();
+    write(&public, &files);
+    // Somebody's own folder may be called so.
+    assert_eq!(complaint(&public), "");
+    fs::write(draft.join(".lock"), "").expect("written");
+    for place in [public, draft.join("tree"), draft] {
+        let said = complaint(&place);
+        assert!(said.contains("is unfinished"), "{}: {said}", place.display());
     }
 }
 

@@ -95,6 +95,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     // Before minutes of minting: is there a place to write to?
     let draft = if args.resume { Draft::resume(&out) } else { Draft::create(&out) }.map_err(failure)?;
+    if plan.is_sealed() {
+        draft.keep_private().map_err(failure)?;
+    }
     let digest = plan.digest().map_err(failure)?;
     let shelf = LotFolder::open(&draft.lots(), digest).map_err(failure)?;
     let bars = Bars::new(console);
@@ -135,7 +138,7 @@ impl Finished<'_> {
         jobs: Option<usize>,
         console: &Console,
     ) -> Answer {
-        let is_sealed = self.secret.is_some();
+        let is_sealed = self.plan.is_sealed();
         let minted = in_pool(jobs, || {
             let mut write = |path: &str, content: &[u8]| match (is_sealed, path.starts_with(HELD)) {
                 (true, false) => draft.write(&format!("public/{path}"), content),

@@ -5,7 +5,7 @@ use crate::failure::{Answer, Failure};
 use crate::verbs::verify::failure;
 use serde_json::json;
 use snapshots::{Draft, Recipe, RevealError, Secret, read_secret};
-use std::fs::OpenOptions;
+use std::fs::{self, File, OpenOptions};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -24,9 +24,7 @@ pub(super) fn commit(recipe: &str, out: Option<&Path>, console: &Console) -> Ans
         options.write(true).create_new(true);
         #[cfg(unix)]
         std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-        let mut file = options.open(&out)?;
-        file.write_all(text.as_bytes())?;
-        file.sync_all()
+        fill(options.open(&out)?, &out, text.as_bytes())
     };
     write().map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => Failure::malformed(format!(
@@ -47,10 +45,15 @@ pub(super) fn commit(recipe: &str, out: Option<&Path>, console: &Console) -> Ans
     Ok(true)
 }
 
+/// Writes the new file at `place`; if not all of it can be written, no file is left that would be in the way.
+fn fill(mut file: File, place: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    file.write_all(bytes).and_then(|()| file.sync_all()).inspect_err(|_| drop(fs::remove_file(place)))
+}
+
 /// Chance from the operating system.
 fn entropy() -> std::io::Result<[u8; 64]> {
     let mut chance = [0; 64];
-    std::fs::File::open("/dev/urandom")?.read_exact(&mut chance)?;
+    File::open("/dev/urandom")?.read_exact(&mut chance)?;
     Ok(chance)
 }
 
@@ -102,4 +105,22 @@ pub(super) fn outline(recipe: &Recipe, console: &Console) -> Answer {
         recipe.levels()
     ));
     Ok(true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An empty secret would have to be removed by hand, because none is ever overwritten.
+    #[test]
+    fn what_cannot_be_written_is_not_left() {
+        let home = tempfile::tempdir().expect("temporary folder");
+        let place = home.path().join("new.secret.json");
+        fs::write(&place, "").expect("written");
+        let unwritable = File::open(&place).expect("there");
+        assert!(fill(unwritable, &place, b"secret").is_err());
+        assert!(!place.exists());
+        fill(File::create_new(&place).expect("vacant"), &place, b"secret").expect("written");
+        assert_eq!(fs::read(&place).expect("there"), b"secret");
+    }
 }

@@ -9,25 +9,32 @@ use snapshots::folder::{self, Limits};
 use snapshots::proof::{ItemProof, MAX_PROOF, ProofError};
 use snapshots::{Manifest, SnapshotError};
 use std::collections::BTreeSet;
-use std::fs;
-use std::io::{ErrorKind, Read};
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
 
 /// Writes the proof for an item of a snapshot that verifies, and says so.
 pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String, Failure> {
     let proof = ItemProof::of(manifest, id).map_err(malformed)?;
     let bytes = proof.to_bytes().map_err(malformed)?;
-    // Beside its place first: a full disk must not cost the file that is there.
-    let mut partial = file.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = Path::new(&partial);
-    fs::write(partial, bytes).and_then(|()| fs::rename(partial, file)).map_err(|error| {
-        drop(fs::remove_file(partial));
-        let file = file.display();
-        let next = "check that it may be accessed and that the disk has room";
-        Failure::surroundings(error, format_args!("cannot write `{file}`: {next}"))
+    let mut open = File::create_new(file).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => Failure::malformed(format_args!(
+            "`{}` exists: choose another --write-proof or remove it",
+            file.display()
+        )),
+        _ => unwritable(error, file),
+    })?;
+    open.write_all(&bytes).and_then(|()| open.sync_all()).map_err(|error| {
+        // Half a proof is none.
+        drop(fs::remove_file(file));
+        unwritable(error, file)
     })?;
     Ok(format!("proof of {} written to {}", files(proof.files.len()), file.display()))
+}
+
+fn unwritable(error: std::io::Error, file: &Path) -> Failure {
+    let next = "check that it may be accessed and that the disk has room";
+    Failure::surroundings(error, format_args!("cannot write `{}`: {next}", file.display()))
 }
 
 /// Checks an item by its proof, against a root that comes from elsewhere.
@@ -102,7 +109,7 @@ fn read(file: &Path) -> Result<Vec<u8>, Failure> {
         return Err(Failure::malformed(format_args!("`{}` is not a file", file.display())));
     }
     let mut bytes = Vec::new();
-    fs::File::open(file).and_then(|open| open.take(MAX_PROOF + 1).read_to_end(&mut bytes)).map_err(io)?;
+    File::open(file).and_then(|open| open.take(MAX_PROOF + 1).read_to_end(&mut bytes)).map_err(io)?;
     Ok(bytes)
 }
 
