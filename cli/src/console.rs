@@ -27,6 +27,13 @@ impl Console {
         }
     }
 
+    /// The content of a file, as it is, for people; nothing where JSON is wanted.
+    pub(crate) fn file(&self, content: &str) {
+        if !self.json {
+            out(format_args!("{content}"));
+        }
+    }
+
     /// The answer, for programs; nothing where text is wanted.
     pub(crate) fn document(&self, value: &impl Serialize) -> Result<(), Failure> {
         if self.json {

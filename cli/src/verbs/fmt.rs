@@ -30,7 +30,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let canonical = text == source.text;
     console.document(&json!({ "file": source.name, "canonical": canonical, "text": text }))?;
     match (args.check, canonical) {
-        (false, _) => console.say(text.trim_end()),
+        (false, _) => console.file(&text),
         (true, false) => console.say(format_args!("{}: not in canonical form", source.name)),
         (true, true) => {}
     }
