@@ -185,4 +185,8 @@ fn what_does_not_verify_is_not_exported() {
     assert!(text(&output.stderr).contains("jsonl"), "{}", text(&output.stderr));
     let output = run(folder.path(), &["export", "tampered", "--format", "jsonl", "--out", "tampered"], 2);
     assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
+    let output =
+        run(folder.path(), &["export", "tampered", "--format", "jsonl", "--out", "tampered/rows"], 2);
+    assert!(text(&output.stderr).contains("in the release itself"), "{}", text(&output.stderr));
+    assert!(!tampered.join("rows").exists() && !tampered.join("rows.partial").exists());
 }

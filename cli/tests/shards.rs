@@ -70,7 +70,11 @@ fn a_killed_mint_goes_on() {
         command.args(["release", "slices.toml", "--out", "out", "--jobs", "1"]).args(resume);
         command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
     };
-    let lots = || fs::read_dir(folder.join("out.partial/lots")).map_or(0, |lots| lots.count());
+    let is_lot = |entry: &fs::DirEntry| entry.path().extension().is_some_and(|end| end == "json");
+    let lots = || {
+        let there = fs::read_dir(folder.join("out.partial/lots"));
+        there.map_or(0, |there| there.flatten().filter(is_lot).count())
+    };
     let mut child = start(&[]);
     // Until a lot is there, however long that takes.
     while lots() == 0 && child.try_wait().unwrap().is_none() {
@@ -80,7 +84,7 @@ fn a_killed_mint_goes_on() {
     child.wait().unwrap();
     assert!(lots() > 0 && !folder.join("out").exists());
     let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);
-    assert!(said.contains("go on with --resume"), "{said}");
+    assert!(said.contains("go on with `arcade release --resume`"), "{said}");
     for milliseconds in [1, 30, 300] {
         let mut child = start(&["--resume"]);
         std::thread::sleep(Duration::from_millis(milliseconds));

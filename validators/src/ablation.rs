@@ -114,6 +114,7 @@ impl RulesMatter {
             }
         }
         let mut levels: Vec<usize> = uses.iter().map(|at| at.level).collect();
+        levels.sort_unstable();
         levels.dedup();
         for (number, level) in levels.into_iter().enumerate() {
             if calls >= self.calls {

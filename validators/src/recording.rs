@@ -24,7 +24,7 @@ pub(crate) struct Use {
 /// What a recording shows.
 #[derive(Clone, Debug)]
 pub(crate) struct Usage {
-    /// By interaction line: the first executions in some episodes, in the order of the recording.
+    /// By interaction line: the first executions in some episodes, of all levels in turn.
     pub(crate) lines: Vec<Vec<Use>>,
     /// By type: whether such a sprite was there, or was held.
     pub(crate) types: Vec<bool>,
@@ -77,10 +77,14 @@ impl Usage {
         let of_level =
             |&(number, recorded): &(usize, &Recorded<'_>)| Usage::of_level(game, number, *recorded);
         let mut usage = Usage::new(game);
-        for of_level in numbered.par_iter().map(of_level).collect::<Vec<Usage>>() {
-            for (all, uses) in usage.lines.iter_mut().zip(of_level.lines) {
-                all.extend(uses.into_iter().take(USES.saturating_sub(all.len())));
-            }
+        let levels: Vec<Usage> = numbered.par_iter().map(of_level).collect();
+        for (line, all) in usage.lines.iter_mut().enumerate() {
+            // The first of every level, then the second: what a rule is for may be seen on one level only.
+            let ranked =
+                (0..USES).flat_map(|rank| levels.iter().filter_map(move |of| of.lines[line].get(rank)));
+            all.extend(ranked.copied().take(USES));
+        }
+        for of_level in levels {
             for (all, there) in usage.types.iter_mut().zip(of_level.types) {
                 *all |= there;
             }

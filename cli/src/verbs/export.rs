@@ -118,10 +118,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Whether a place that may not be there yet is within a folder.
+/// Whether what is to be made is within a folder.
 fn is_inside(place: &Path, folder: &Path) -> bool {
     let Ok(folder) = fs::canonicalize(folder) else { return false };
-    let there = place.ancestors().find_map(|above| fs::canonicalize(above).ok());
+    let there = place.ancestors().skip(1).find_map(|above| fs::canonicalize(above).ok());
     folder.is_dir()
         && there.or_else(|| fs::canonicalize(".").ok()).is_some_and(|above| above.starts_with(folder))
 }
