@@ -477,7 +477,7 @@ mod tests {
         check(&format!("{GOOD}[taxonomy]\ncrowd = 0.0"), "`taxonomy.crowd`");
         check(&format!("{GOOD}[taxonomy.goals]\nreach = [0.5, 0.2]"), "`taxonomy.goals`");
         check(
-            &format!("{GOOD}[taxonomy.goals]\nreach = [0.6, 0.7]\nunlock = [0.6, 0.7]"),
+            &format!("{GOOD}[taxonomy.goals]\nreach = [0.6, 1.0]\nunlock = [0.6, 1.0]"),
             "at least 4 games, but there are 2",
         );
         check(&format!("{GOOD}[taxonomy.avatars]\nwalker = [0.6, 0.9]"), "which no number of 2 games is");
