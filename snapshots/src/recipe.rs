@@ -480,7 +480,7 @@ mod tests {
             &format!("{GOOD}[taxonomy.goals]\nreach = [0.6, 1.0]\nunlock = [0.6, 1.0]"),
             "at least 4 games, but there are 2",
         );
-        check(&format!("{GOOD}[taxonomy.avatars]\nwalker = [0.6, 0.9]"), "which no number of 2 games is");
+        check(&format!("{GOOD}[taxonomy.avatars]\nwalks = [0.6, 0.9]"), "which no number of 2 games is");
         check(&GOOD.replace("= 2", "= 0"), "nothing to mint");
         check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");
         check(&format!("{GOOD}least_interactions = 1000"), "`generated.least_interactions` is 1000");
