@@ -360,6 +360,14 @@ impl State {
             self.link(slot, after);
         }
         let contacts = &rules.contacts;
+        if (from.flags | to.flags) & (flag::RIGHT | flag::BELOW) == 0 {
+            // From one cell to another, as most moves on a grid go.
+            if before != after {
+                self.depart(contacts, kind, before);
+                self.arrive(contacts, kind, after);
+            }
+            return;
+        }
         let stride = (self.columns + 2) as usize;
         let changed = from.flags ^ to.flags;
         let (unit, across, reach) = if from.row == to.row && changed & flag::BELOW == 0 {
