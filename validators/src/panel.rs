@@ -144,12 +144,17 @@ impl Panel {
 
     /// Asks every validator of levels.
     pub fn judge(&self, game: &Game, level: &Level, seed: Seed) -> Report {
-        self.ask(game, level, seed, false)
+        self.ask(game, level, None, seed, false)
     }
 
     /// Asks until one does not pass: for minting, where candidates are many.
     pub fn screen(&self, game: &Game, level: &Level, seed: Seed) -> Report {
-        self.ask(game, level, seed, true)
+        self.ask(game, level, None, seed, true)
+    }
+
+    /// The same of a level that `witness` is known to win.
+    pub fn screen_won(&self, game: &Game, level: &Level, witness: Episode, seed: Seed) -> Report {
+        self.ask(game, level, Some(witness), seed, true)
     }
 
     /// Asks every validator, of the levels and of the game. Each level has a seed of its own, derived from its text, so that
@@ -193,9 +198,16 @@ impl Panel {
         self.of_game.iter().map(|validator| judge(&**validator)).collect()
     }
 
-    fn ask(&self, game: &Game, level: &Level, seed: Seed, screen: bool) -> Report {
+    fn ask(
+        &self,
+        game: &Game,
+        level: &Level,
+        witness: Option<Episode>,
+        seed: Seed,
+        screen: bool,
+    ) -> Report {
         let analysis = Analysis::of(game);
-        let mut report = Report { judgements: Vec::new(), witness: None };
+        let mut report = Report { judgements: Vec::new(), witness };
         let ask = |validator: &(dyn Validator + Send), witness: Option<&Episode>| {
             let criterion = validator.name();
             let case = Case { game, level, seed: seed.child(criterion, 0), analysis: &analysis, witness };

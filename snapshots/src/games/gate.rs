@@ -23,6 +23,8 @@ pub(super) struct Gate<'a> {
 
 /// Why a game is turned down in which too little happens.
 const MEAGRE: &str = "meagre";
+/// Why a game is turned down that owes its first judges' verdict to luck.
+const SECOND_JUDGES: &str = "second judges";
 /// Why a game is turned down that is too much like another.
 pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
@@ -85,12 +87,12 @@ impl<'a> Gate<'a> {
             tally.game_rejected(MEAGRE);
             return None;
         }
-        // What only one half of the plays shows, or dice of one kind, would not be found by others either.
-        for (half, seed) in [(0, seed.child("half", 0)), (1, seed.child("half", 1))] {
-            levels.together(&candidate.game, &every_other_play(&found, half), seed, tally)?;
-        }
         let together =
             levels.together(&candidate.game, &found, seed.child("judges of the game", 0), tally)?;
+        if !levels.hold(&candidate.game, &found, seed.child("second judges", 0), tally) {
+            tally.game_rejected(SECOND_JUDGES);
+            return None;
+        }
         let found = levels.told(&candidate.game, found, together, tally);
         let made = candidate.finish(found, self.canary);
         if made.is_some() {
@@ -103,16 +105,6 @@ impl<'a> Gate<'a> {
         let form = GameForm::of(&candidate.game);
         form.nearest(self.known).is_some_and(|(_, apart)| apart < NEAR)
     }
-}
-
-/// The levels with every other play of their judges, from the first or the second on.
-fn every_other_play(levels: &[FoundLevel], from: usize) -> Vec<FoundLevel> {
-    let mut halved = levels.to_vec();
-    for judgement in halved.iter_mut().flat_map(|found| &mut found.report.judgements) {
-        let plays = std::mem::take(&mut judgement.finding.episodes);
-        judgement.finding.episodes = plays.into_iter().skip(from).step_by(2).collect();
-    }
-    halved
 }
 
 fn interactions(game: &Game) -> usize {
@@ -193,6 +185,28 @@ mod tests {
         check(&|order| order.criteria.least_ticks = 1000, &[], "length");
         check(&|order| order.criteria.skill_overall = 1.0, &[], "skill-overall");
         check(&|order| order.level_tries = 0, &[], "no level 0");
+    }
+
+    #[test]
+    fn second_judges_ask_again_what_chance_has_a_say_in() {
+        let variation = GameVariation::default();
+        let seed = Seed::from_text("gate");
+        let made = (0..20)
+            .filter_map(|number| variation.create(seed.child("game", number)))
+            .find_map(|genome| judge(&order(), &[], &genome).0)
+            .expect("one of them passes");
+        let hold = |alter: &dyn Fn(&mut Criteria)| {
+            let mut order = order();
+            alter(&mut order.criteria);
+            let GameOrder { levels: count, level_tries: tries, board, criteria, .. } = &order;
+            let (config, panel) = (&board.levels(), &Panel::new(criteria));
+            let levels = Levels { count: *count, tries: *tries, config, criteria, panel, seed };
+            levels.hold(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
+        };
+        assert!(hold(&|_| {}));
+        assert!(!hold(&|criteria| (criteria.skill_wins, criteria.skill_scores) = (2.0, 2.0)), "levels");
+        assert!(!hold(&|criteria| criteria.skill_overall = 1.0), "the game");
+        assert!(hold(&|criteria| (criteria.budget, criteria.least_ticks) = (1, 1000)), "what is certain");
     }
 
     fn genome_game(genome: &GameGenome) -> Game {

@@ -133,6 +133,28 @@ impl Levels<'_> {
         }
     }
 
+    /// Whether judges with other dice let the same levels in, as far as chance has a say. The first judges choose among
+    /// candidates, so that what they saw of those they chose is better than what there is: here nothing is chosen. Cost: as of
+    /// judging the levels that were let in, without the search for a win.
+    pub(crate) fn hold(&self, game: &Game, levels: &[FoundLevel], seed: Seed, tally: &mut Tally) -> bool {
+        let ask = self.criteria.ask.iter().filter(|name| !CERTAIN.contains(&name.as_str())).cloned().collect();
+        let panel = Panel::new(&Criteria { ask, ..self.criteria.clone() });
+        let (mut boards, mut reports) = (Vec::new(), Vec::new());
+        for (number, found) in (0..).zip(levels) {
+            let Some(witness) = found.report.witness.clone() else { return false };
+            let report = panel.screen_won(game, &found.level, witness, seed.child("level", number));
+            tally.calls(report.judgements.iter().map(|judgement| judgement.finding.calls()).sum());
+            if !report.passes() {
+                return false;
+            }
+            boards.push(found.level.clone());
+            reports.push(report);
+        }
+        let together = panel.judge_together(game, &boards, &reports, seed.child("game", 0));
+        tally.calls(together.iter().map(|judgement| judgement.finding.calls()).sum());
+        together.iter().all(|judgement| judgement.finding.verdict.is_pass())
+    }
+
     /// A level that was found for another game, in which all that was played ends as in this one: judged again, but for the
     /// ladder, whose plays are carried over. The dice are the same, so that what is played again ends as it did.
     pub(crate) fn again(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
@@ -203,6 +225,9 @@ impl Levels<'_> {
         })
     }
 }
+
+/// The criteria whose answer does not hang on dice once there is a witness.
+const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
 
 /// The criteria whose plays are dear.
 const PLAYED: [&str; 1] = ["skill"];
