@@ -101,9 +101,9 @@ impl<'a> Plan<'a> {
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
         let cost = |lot: &Lot| match *lot {
-            Lot::Archive(_) => 5.0 * f64::from(ISLAND * new) * played(&self.recipe.criteria),
-            Lot::Search(_) => 4.0 * f64::from(new) * played(&self.recipe.criteria),
-            Lot::Constructive(_) => 3.0 * f64::from(new) * played(&self.recipe.criteria),
+            Lot::Archive(_) => 7.0 * f64::from(ISLAND * new) * played(&self.recipe.criteria),
+            Lot::Search(_) => 6.0 * f64::from(new) * played(&self.recipe.criteria),
+            Lot::Constructive(_) => 5.5 * f64::from(new) * played(&self.recipe.criteria),
             Lot::Corpus(_) => 3.0 * f64::from(old) * played(self.corpus_criteria()),
         };
         lots.iter().map(cost).sum()
