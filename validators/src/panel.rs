@@ -198,14 +198,7 @@ impl Panel {
         self.of_game.iter().map(|validator| judge(&**validator)).collect()
     }
 
-    fn ask(
-        &self,
-        game: &Game,
-        level: &Level,
-        witness: Option<Episode>,
-        seed: Seed,
-        screen: bool,
-    ) -> Report {
+    fn ask(&self, game: &Game, level: &Level, witness: Option<Episode>, seed: Seed, screen: bool) -> Report {
         let analysis = Analysis::of(game);
         let mut report = Report { judgements: Vec::new(), witness };
         let ask = |validator: &(dyn Validator + Send), witness: Option<&Episode>| {

@@ -137,7 +137,8 @@ impl Levels<'_> {
     /// candidates, so that what they saw of those they chose is better than what there is: here nothing is chosen. Cost: as of
     /// judging the levels that were let in, without the search for a win.
     pub(crate) fn hold(&self, game: &Game, levels: &[FoundLevel], seed: Seed, tally: &mut Tally) -> bool {
-        let ask = self.criteria.ask.iter().filter(|name| !CERTAIN.contains(&name.as_str())).cloned().collect();
+        let ask =
+            self.criteria.ask.iter().filter(|name| !CERTAIN.contains(&name.as_str())).cloned().collect();
         let panel = Panel::new(&Criteria { ask, ..self.criteria.clone() });
         let (mut boards, mut reports) = (Vec::new(), Vec::new());
         for (number, found) in (0..).zip(levels) {
