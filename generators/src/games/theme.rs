@@ -77,4 +77,20 @@ mod tests {
             }
         }
     }
+
+    /// Sentences put an article before a word or make it plural ("bear traps lie in wait"): a word that is plural
+    /// already reads wrong in them. Ground, walls and rubble are told as they stand.
+    #[test]
+    fn words_are_singular() {
+        let singular = |word: &str| {
+            !word.ends_with('s') || word == "lens" || ["ss", "us", "is", "as"].iter().any(|ending| word.ends_with(ending))
+        };
+        for theme in Theme::ALL {
+            for &role in Role::ALL.iter().filter(|role| !matches!(role, Role::Floor | Role::Wall | Role::Rubble)) {
+                for word in theme.words(role) {
+                    assert!(singular(word), "{}: {role:?} {word}", theme.name);
+                }
+            }
+        }
+    }
 }

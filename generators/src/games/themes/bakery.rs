@@ -21,7 +21,7 @@ pub(crate) const THEME: Theme = Theme {
         charm: "truffle macaron",
         relic: "weddingCake sourdough",
         statue: "gingerbreadMan nutcracker",
-        lever: "bellows tap",
+        lever: "spigot tap",
         plate: "scale doormat",
         pushed: "flourSack butterTub",
         socket: "shelfBay rack",

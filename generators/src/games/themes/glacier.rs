@@ -74,7 +74,7 @@ pub(crate) const THEME: Theme = Theme {
         gate: "barricade snowfence",
         coin: "pebble medal",
         medicine: "soup cocoa",
-        ward: "parka snowGoggles",
+        ward: "parka visor",
         bush: "juniper heath",
         berry: "cranberry crowberry",
         blade: "iceAxe machete",

@@ -74,7 +74,7 @@ pub(crate) const THEME: Theme = Theme {
         gate: "railing grating",
         coin: "token sequin",
         medicine: "coffee elixir",
-        ward: "goggles halo",
+        ward: "visor halo",
         bush: "samovar tray",
         berry: "wafer sugarCube",
         blade: "compassPoint rapier",
