@@ -83,10 +83,14 @@ mod tests {
     #[test]
     fn words_are_singular() {
         let singular = |word: &str| {
-            !word.ends_with('s') || word == "lens" || ["ss", "us", "is", "as"].iter().any(|ending| word.ends_with(ending))
+            !word.ends_with('s')
+                || word == "lens"
+                || ["ss", "us", "is", "as"].iter().any(|ending| word.ends_with(ending))
         };
         for theme in Theme::ALL {
-            for &role in Role::ALL.iter().filter(|role| !matches!(role, Role::Floor | Role::Wall | Role::Rubble)) {
+            for &role in
+                Role::ALL.iter().filter(|role| !matches!(role, Role::Floor | Role::Wall | Role::Rubble))
+            {
                 for word in theme.words(role) {
                     assert!(singular(word), "{}: {role:?} {word}", theme.name);
                 }
