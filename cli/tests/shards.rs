@@ -57,17 +57,13 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
 }
 
-/// Killed again and again, and resumed, a mint gives the bytes of one that was left alone; what is made is not thrown away
-/// unless that is asked for.
+/// Kills a mint into the folder `out` again and again, and goes on with it; what is made is not thrown away unless that is
+/// asked for.
 #[cfg(unix)]
-#[test]
-fn a_killed_mint_goes_on() {
-    let home = tempfile::tempdir().unwrap();
-    let folder = home.path();
-    recipe(folder);
+fn kill_and_resume(folder: &Path, mint: &[&str]) {
     let start = |resume: &[&str]| {
         let mut command = arcade(folder);
-        command.args(["release", "slices.toml", "--out", "out", "--jobs", "1"]).args(resume);
+        command.args(mint).args(["--out", "out", "--jobs", "1"]).args(resume);
         command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
     };
     let is_lot = |entry: &fs::DirEntry| entry.path().extension().is_some_and(|end| end == "json");
@@ -83,8 +79,8 @@ fn a_killed_mint_goes_on() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(lots() > 0 && !folder.join("out").exists());
-    let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);
-    assert!(said.contains("go on with `arcade release --resume`"), "{said}");
+    let said = text(&run(folder, &[mint, &["--out", "out"]].concat(), 2).stderr);
+    assert!(said.contains("go on with --resume"), "{said}");
     for milliseconds in [1, 30, 300] {
         let mut child = start(&["--resume"]);
         std::thread::sleep(Duration::from_millis(milliseconds));
@@ -92,11 +88,25 @@ fn a_killed_mint_goes_on() {
         child.wait().unwrap();
     }
     if !folder.join("out").exists() {
-        run(folder, &["release", "slices.toml", "--out", "out", "--resume"], 0);
+        let output = run(folder, &[mint, &["--out", "out", "--resume"]].concat(), 0);
+        assert!(text(&output.stderr).contains("lots were made before"), "{}", text(&output.stderr));
     }
-    run(folder, &["release", "slices.toml", "--out", "alone"], 0);
-    assert_eq!(files(&folder.join("out")), files(&folder.join("alone")));
     assert!(!folder.join("out.partial").exists());
+}
+
+/// A mint that was interrupted gives the bytes of one that was left alone, and so does one that mints a release again.
+#[cfg(unix)]
+#[test]
+fn a_killed_mint_goes_on() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    recipe(folder);
+    run(folder, &["release", "slices.toml", "--out", "alone"], 0);
+    for mint in [["release", "slices.toml"], ["regenerate", "alone"]] {
+        kill_and_resume(folder, &mint);
+        assert_eq!(files(&folder.join("out")), files(&folder.join("alone")));
+        fs::remove_dir_all(folder.join("out")).unwrap();
+    }
 }
 
 /// What is made is kept when only the choice is asked for otherwise.

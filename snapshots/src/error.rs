@@ -34,7 +34,7 @@ pub enum SnapshotError {
         path: PathBuf,
     },
     /// The work of an interrupted mint is there.
-    #[error("`{}` holds what an interrupted mint has made: go on with `arcade release --resume`, or remove it to begin anew", .path.display())]
+    #[error("`{}` holds what an interrupted mint has made: go on with --resume, or remove it to begin anew", .path.display())]
     Interrupted {
         /// The folder.
         path: PathBuf,

@@ -3,12 +3,12 @@
 use crate::corpus::Corpus;
 use crate::folder::{self, Limits};
 use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
-use crate::mint::{MintError, Minted, Plan, Progress, Sink, mint};
+use crate::mint::{MintError, Minted, Plan, Shelf, Sink, lay_out};
 use crate::recipe::{Recipe, RecipeError};
-use crate::sealed::{SECRET_FILE, read_secret};
+use crate::sealed::{SECRET_FILE, Secret, read_secret};
 use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Why a release cannot be minted again here.
 #[derive(Debug, thiserror::Error)]
@@ -40,9 +40,6 @@ pub enum RegenerateError {
     /// The recipe in the manifest has a value out of range.
     #[error("the manifest's recipe: {0}")]
     Recipe(#[from] RecipeError),
-    /// It cannot be minted.
-    #[error(transparent)]
-    Mint(#[from] MintError),
     /// The folder cannot be read.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
@@ -59,48 +56,76 @@ pub struct Regenerated {
     pub other_lockfile: bool,
 }
 
-/// Mints the release in `root` again and compares every file. The digest of Cargo.lock in the manifest is provenance
-/// and may differ. Every file that was minted also goes to `also`, the manifest apart.
-///
-/// # Errors
-/// The folder is no release, or one that this binary cannot mint.
-pub fn regenerate(
-    root: &Path,
-    corpus: &Corpus,
-    lockfile: Digest,
-    progress: &dyn Progress,
-    also: &mut Sink<'_>,
-) -> Result<Regenerated, RegenerateError> {
-    if root.is_file() {
-        return Err(RegenerateError::Packed);
-    }
-    let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
-        SnapshotError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
-            SnapshotError::NotASnapshot { path: root.to_path_buf() }
+/// A release that is to be minted again. Its lots are made as those of any other ([`make_lots`](crate::mint::make_lots)).
+#[derive(Debug)]
+pub struct Regeneration {
+    root: PathBuf,
+    manifest: Manifest,
+    bytes: Vec<u8>,
+    recipe: Recipe,
+    secret: Option<Secret>,
+}
+
+impl Regeneration {
+    /// Reads what the release in the folder `root` was minted from.
+    ///
+    /// # Errors
+    /// The folder is no release, or one that this binary cannot mint.
+    pub fn of(root: &Path) -> Result<Regeneration, RegenerateError> {
+        if root.is_file() {
+            return Err(RegenerateError::Packed);
         }
-        other => other,
-    })?;
-    let manifest = Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
-    let Manifest { generation, semantics, .. } = manifest;
-    if generation != generators::GENERATION || semantics != engine::SEMANTICS {
-        return Err(RegenerateError::OtherVersion { generation, semantics });
+        let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
+            SnapshotError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+                SnapshotError::NotASnapshot { path: root.to_path_buf() }
+            }
+            other => other,
+        })?;
+        let manifest =
+            Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
+        let Manifest { generation, semantics, .. } = manifest;
+        if generation != generators::GENERATION || semantics != engine::SEMANTICS {
+            return Err(RegenerateError::OtherVersion { generation, semantics });
+        }
+        let secret = match manifest.kind {
+            Kind::Open => None,
+            Kind::Sealed if root.join(SECRET_FILE).exists() => Some(read_secret(root, SECRET_FILE)?),
+            Kind::Sealed => return Err(RegenerateError::Sealed),
+        };
+        let recipe: Recipe =
+            serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
+        recipe.check()?;
+        Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
-    let secret = match manifest.kind {
-        Kind::Open => None,
-        Kind::Sealed if root.join(SECRET_FILE).exists() => Some(read_secret(root, SECRET_FILE)?),
-        Kind::Sealed => return Err(RegenerateError::Sealed),
-    };
-    let recipe: Recipe =
-        serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
-    recipe.check()?;
-    let plan = Plan::new(&recipe, secret.as_ref(), corpus)?;
-    let mut comparison = Comparison::of(root)?;
-    let minted = mint(&plan, secret.as_ref(), lockfile, progress, &mut |path, content| {
-        comparison.file(path, content)?;
-        also(path, content)
-    })?;
-    let differences = comparison.finish(&manifest, &bytes, &minted)?;
-    Ok(Regenerated { other_lockfile: manifest.lockfile != lockfile, minted, differences })
+
+    /// What its recipe comes to.
+    ///
+    /// # Errors
+    /// The recipe cannot be minted with this corpus.
+    pub fn plan<'a>(&'a self, corpus: &'a Corpus) -> Result<Plan<'a>, MintError> {
+        Plan::new(&self.recipe, self.secret.as_ref(), corpus)
+    }
+
+    /// Lays the release out from lots that are all on the shelf, and compares every file. The digest of Cargo.lock in the
+    /// manifest is provenance and may differ. Every file also goes to `also`, the manifest apart.
+    ///
+    /// # Errors
+    /// A lot is missing or unsound, or the file system refuses.
+    pub fn compare(
+        &self,
+        plan: &Plan<'_>,
+        shelf: &dyn Shelf,
+        lockfile: Digest,
+        also: &mut Sink<'_>,
+    ) -> Result<Regenerated, MintError> {
+        let mut comparison = Comparison::of(&self.root)?;
+        let minted = lay_out(plan, self.secret.as_ref(), shelf, lockfile, &mut |path, content| {
+            comparison.file(path, content)?;
+            also(path, content)
+        })?;
+        let differences = comparison.finish(&self.manifest, &self.bytes, &minted)?;
+        Ok(Regenerated { other_lockfile: self.manifest.lockfile != lockfile, minted, differences })
+    }
 }
 
 /// What is in a folder, compared with what is minted.

@@ -3,10 +3,11 @@
 use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
-use crate::verbs::release::{Bars, in_pool};
+use crate::verbs::release::{Bars, in_pool, mint_failure};
 use crate::verbs::verify::failure;
 use serde_json::json;
-use snapshots::{Draft, MANIFEST_FILE, RegenerateError, regenerate};
+use snapshots::mint::{LotFolder, Memory, Shelf, make_lots};
+use snapshots::{Draft, MANIFEST_FILE, RegenerateError, Regeneration};
 use std::path::PathBuf;
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
@@ -22,6 +23,9 @@ pub(crate) struct Args {
     /// Also write the new snapshot to this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Go on where an interrupted run with the same --out stopped
+    #[arg(long, requires = "out")]
+    resume: bool,
     /// Threads; all cores if not given
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
@@ -29,20 +33,31 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let corpus = embedded::corpus()?;
+    let release = Regeneration::of(&args.snapshot).map_err(|error| match error {
+        RegenerateError::Snapshot(error) => failure(error),
+        other => Failure::Malformed(other.into()),
+    })?;
+    let plan = release.plan(&corpus).map_err(mint_failure)?;
+    let open = if args.resume { Draft::resume } else { Draft::create };
+    let draft = args.out.as_deref().map(open).transpose().map_err(failure)?;
+    let shelf: Box<dyn Shelf> = match &draft {
+        Some(draft) => {
+            let digest = plan.digest().map_err(failure)?;
+            Box::new(LotFolder::open(&draft.lots(), digest).map_err(failure)?)
+        }
+        None => Box::new(Memory::default()),
+    };
     let bars = Bars::new(console);
-    let draft = args.out.as_deref().map(Draft::create).transpose().map_err(failure)?;
-    let minted = in_pool(args.jobs, || {
+    let result = in_pool(args.jobs, || {
+        make_lots(&plan, plan.lots(), &*shelf, &bars)?;
         let mut also = |path: &str, content: &[u8]| match &draft {
             Some(draft) => draft.write(path, content),
             None => Ok(()),
         };
-        regenerate(&args.snapshot, &corpus, embedded::lockfile(), &bars, &mut also)
-    })?;
+        release.compare(&plan, &*shelf, embedded::lockfile(), &mut also)
+    })?
+    .map_err(mint_failure)?;
     bars.finish();
-    let result = minted.map_err(|error| match error {
-        RegenerateError::Snapshot(error) => failure(error),
-        other => Failure::Malformed(other.into()),
-    })?;
     if let Some(draft) = draft {
         let manifest = result.minted.manifest.to_bytes().map_err(failure)?;
         draft.write(MANIFEST_FILE, &manifest).map_err(failure)?;

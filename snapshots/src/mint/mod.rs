@@ -186,22 +186,6 @@ pub fn lay_out(
     Ok(Minted { manifest, cards, card })
 }
 
-/// Mints a release in memory: every file goes to the sink, the manifest apart. Cost: as [`make_lots`].
-///
-/// # Errors
-/// As [`make_lots`] and [`lay_out`].
-pub fn mint(
-    plan: &Plan<'_>,
-    secret: Option<&Secret>,
-    lockfile: Digest,
-    progress: &dyn Progress,
-    sink: &mut Sink<'_>,
-) -> Result<Minted, MintError> {
-    let shelf = Memory::default();
-    make_lots(plan, plan.lots(), &shelf, progress)?;
-    lay_out(plan, secret, &shelf, lockfile, sink)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -260,7 +244,9 @@ mod tests {
 
     fn minted(recipe: &Recipe, corpus: &Corpus) -> Result<Minted, MintError> {
         let plan = Plan::new(recipe, None, corpus)?;
-        mint(&plan, None, Digest::of(b""), &(), &mut |_, _| Ok(()))
+        let shelf = Memory::default();
+        make_lots(&plan, plan.lots(), &shelf, &())?;
+        lay_out(&plan, None, &shelf, Digest::of(b""), &mut |_, _| Ok(()))
     }
 
     #[test]
