@@ -446,7 +446,7 @@ impl State {
     }
 
     /// The slots of a type, in order of creation.
-    pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + '_ {
+    pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + Clone + '_ {
         let mut at = self.group(stype).head;
         std::iter::from_fn(move || {
             let slot = at;

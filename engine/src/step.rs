@@ -331,10 +331,13 @@ impl<'a> Step<'a> {
                         mover.foreseen && sprite.rest & mark::ASLEEP != 0
                             || sprites::stays(sprite, traits, self.state)
                     }
-                    Habit::Wanders => {
+                    Habit::Chooses => {
                         let waits = sprites::waits(sprite, traits, self.state);
                         if waits {
-                            npcs::random_move(self, slot, traits.cons);
+                            npcs::choose(self, slot, mover.class);
+                            if self.stopped.is_some() {
+                                return;
+                            }
                         }
                         waits
                     }

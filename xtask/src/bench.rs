@@ -53,6 +53,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(ticks) = args.ticks {
         for subject in &subjects {
             let mut course = Course::new(subject);
+            course.warm_up(ticks);
             while course.ticks < ticks {
                 course.batch(ticks);
             }

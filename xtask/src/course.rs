@@ -73,12 +73,23 @@ impl<'a> Course<'a> {
         Course { subject, episodes: 0, states, draws, ticks: 0, time: Duration::ZERO, digest }
     }
 
-    /// Plays [`BATCH`] episodes, or fewer if `ticks` are reached before.
-    pub(crate) fn batch(&mut self, ticks: u64) {
+    /// Lets the buffers of the states grow to what `ticks` of the first episodes need, off the clock.
+    pub(crate) fn warm_up(&mut self, ticks: u64) {
+        self.prepare();
+        self.play(ticks);
+        (self.episodes, self.ticks, self.digest) = (0, 0, 0);
+    }
+
+    fn prepare(&mut self) {
         for state in &mut self.states {
             state.fork_from(&self.subject.start, Chance::from_java(self.episodes as i64));
             self.episodes += 1;
         }
+    }
+
+    /// Plays [`BATCH`] episodes, or fewer if `ticks` are reached before.
+    pub(crate) fn batch(&mut self, ticks: u64) {
+        self.prepare();
         let clock = ThreadTime::now();
         self.play_on_the_clock(ticks);
         self.time += clock.elapsed();
@@ -87,6 +98,11 @@ impl<'a> Course<'a> {
     /// All that is on the clock, and, by its name, all of which instructions are counted.
     #[inline(never)]
     fn play_on_the_clock(&mut self, ticks: u64) {
+        self.play(ticks);
+    }
+
+    #[inline(always)]
+    fn play(&mut self, ticks: u64) {
         let mut draw = (self.episodes as usize).wrapping_mul(7919);
         for state in &mut self.states {
             for _ in 0..EPISODE {

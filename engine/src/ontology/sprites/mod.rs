@@ -74,8 +74,8 @@ pub(crate) enum Habit {
     Draws,
     /// With [`base`], and that is all.
     Moves,
-    /// With [`base`], which does nothing while the sprite waits; then all that it does is to choose a direction.
-    Wanders,
+    /// With a drift, which is none while the sprite waits; then all that it does is to choose where to go.
+    Chooses,
     Other,
 }
 
@@ -87,7 +87,7 @@ pub(crate) fn habit(class: SpriteClass, traits: &Traits) -> Habit {
         C::SpawnPoint | C::Bomber => Habit::Draws,
         C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => Habit::Moves,
         C::Portal | C::SpriteProducer | C::Missile | C::ErraticMissile => Habit::Moves,
-        C::RandomNPC | C::RandomInertial if !traits.rotate_in_place => Habit::Wanders,
+        class if class.is_a(C::RandomNPC) && !traits.rotate_in_place => Habit::Chooses,
         _ => Habit::Other,
     }
 }
@@ -101,14 +101,16 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
         C::RandomMissile => plain::random_missile(step, slot),
         C::Flicker | C::OrientedFlicker => plain::flicker(step, slot),
         C::Spreader => plain::spreader(step, slot),
-        C::RandomNPC | C::RandomInertial => npcs::random_npc(step, slot),
-        C::Chaser | C::Fleeing => npcs::chaser(step, slot),
-        C::LOSChaser => npcs::los_chaser(step, slot),
-        C::PathChaser => npcs::path_chaser(step, slot),
-        C::AlternateChaser => npcs::alternate_chaser(step, slot),
-        C::RandomAltChaser => npcs::or_random(step, slot, npcs::alternate_chaser),
-        C::PathAltChaser => npcs::path_alt_chaser(step, slot),
-        C::RandomPathAltChaser => npcs::or_random(step, slot, npcs::path_alt_chaser),
+        C::RandomNPC
+        | C::RandomInertial
+        | C::Chaser
+        | C::Fleeing
+        | C::LOSChaser
+        | C::PathChaser
+        | C::AlternateChaser
+        | C::RandomAltChaser
+        | C::PathAltChaser
+        | C::RandomPathAltChaser => npcs::update(step, slot, class),
         C::Walker => walkers::walker(step, slot),
         C::WalkerJumper => walkers::walker_jumper(step, slot),
         C::SpawnPoint | C::Bomber => producers::spawn_point(step, slot),

@@ -3,24 +3,46 @@
 use super::NO_HEADING;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
+use crate::ontology::class::SpriteClass;
 use crate::ontology::physics;
-use crate::state::{NONE, Slot, Target};
+use crate::state::{NONE, Slot, Sprite, State, Target};
 use crate::step::Step;
 use smallvec::SmallVec;
 
-/// Directions to choose among; a direction that several targets ask for is there several times.
-type Options = SmallVec<[Direction; 8]>;
+/// Directions to choose among, as indices of the base directions; one that several targets ask for is there several times.
+type Options = SmallVec<[u8; 16]>;
 
-pub(super) fn random_npc(step: &mut Step<'_>, slot: Slot) {
+/// Drifts, then goes where it wants to.
+#[inline(always)]
+pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     physics::passive(step, slot);
-    let cons = step.rules.types[step.state.sprite(slot).stype.index()].traits.cons;
-    let direction = random_move(step, slot, cons);
-    walk(step, slot, direction);
-}
-
-fn walk(step: &mut Step<'_>, slot: Slot, direction: Direction) {
+    let direction = choose(step, slot, class);
     let speed = step.state.sprite(slot).speed;
     physics::active(step, slot, direction, speed);
+}
+
+/// Where a character wants to go. That is all that one does that has to wait, see [`super::waits`].
+#[inline(always)]
+pub(crate) fn choose(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
+    if !matches!(class, SpriteClass::RandomNPC | SpriteClass::RandomInertial) {
+        return pursue(step, slot, class);
+    }
+    let cons = step.rules.types[step.state.sprite(slot).stype.index()].traits.cons;
+    random_move(step, slot, cons)
+}
+
+#[inline(never)]
+fn pursue(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
+    use SpriteClass as C;
+    match class {
+        C::LOSChaser => los_chaser(step, slot),
+        C::PathChaser => path_chaser(step, slot),
+        C::AlternateChaser => alternate_chaser(step, slot),
+        C::RandomAltChaser => or_random(step, slot, alternate_chaser),
+        C::PathAltChaser => path_alt_chaser(step, slot),
+        C::RandomPathAltChaser => or_random(step, slot, path_alt_chaser),
+        _ => chaser(step, slot),
+    }
 }
 
 /// A drawn direction, kept for `cons` more updates.
@@ -50,18 +72,23 @@ fn towards(heading: u16) -> Direction {
     }
 }
 
-/// One of the options, or a draw of the sprite's own.
-fn drawn(step: &mut Step<'_>, options: &Options) -> Option<Direction> {
-    (!options.is_empty()).then(|| options[step.state.chance.below(options.len() as i32) as usize])
+/// One of the options, if there are any.
+#[inline(always)]
+fn drawn(step: &mut Step<'_>, options: &[u8]) -> Option<Direction> {
+    if options.is_empty() {
+        return None;
+    }
+    let drawn = step.state.chance.below(options.len() as i32) as usize;
+    Some(Direction::BASE[usize::from(options[drawn])])
 }
 
 /// Chaser and Fleeing: a step that changes the distance to one of the closest targets in the wanted sense.
-pub(super) fn chaser(step: &mut Step<'_>, slot: Slot) {
-    chase_visible(step, slot, |_, _| true);
+fn chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
+    chase_visible(step, slot, |_, _| true)
 }
 
 /// LOSChaser: sees only along the direction that it drew last, through walls.
-pub(super) fn los_chaser(step: &mut Step<'_>, slot: Slot) {
+fn los_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let ahead = heading(step, slot);
     chase_visible(step, slot, |own, target| match ahead {
         Direction::DOWN => own.x == target.x && target.y >= own.y,
@@ -69,24 +96,37 @@ pub(super) fn los_chaser(step: &mut Step<'_>, slot: Slot) {
         Direction::LEFT => own.y == target.y && target.x <= own.x,
         Direction::RIGHT => own.y == target.y && target.x >= own.x,
         _ => false,
-    });
+    })
 }
 
-fn chase_visible(step: &mut Step<'_>, slot: Slot, sees: impl Fn(Rect, Rect) -> bool) {
-    physics::passive(step, slot);
-    let own = *step.state.sprite(slot);
-    let traits = &step.rules.types[own.stype.index()].traits;
+fn chase_visible(step: &mut Step<'_>, slot: Slot, sees: impl Fn(Rect, Rect) -> bool) -> Direction {
+    let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
+    let traits = &step.rules.types[stype.index()].traits;
     let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
-    let visible = targets.into_iter().map(|target| step.state.sprite(target).rect);
+    let visible = targets.rects(step.state).filter(|&target| sees(own, target));
+    let near = |distance: f64| traits.max_distance == -1.0 || distance <= traits.max_distance;
+    let options = options(traits.continuous, traits.fleeing, own, visible, near);
+    drawn(step, &options).unwrap_or_else(|| random_move(step, slot, traits.cons))
+}
+
+/// What to choose among because of the closest targets, if they are near enough.
+#[inline(always)]
+fn options(
+    continuous: bool,
+    flee: bool,
+    own: Rect,
+    targets: impl Iterator<Item = Rect> + Clone,
+    near: impl Fn(f64) -> bool,
+) -> Options {
     let mut options = Options::new();
-    for target in closest(traits.continuous, own.rect, visible.filter(|&target| sees(own.rect, target))) {
-        let distance = physics::distance(traits.continuous, own.rect, target);
-        if traits.max_distance == -1.0 || distance <= traits.max_distance {
-            add_options(traits.continuous, traits.fleeing, own.rect, target, &mut options);
-        }
+    let nearest = closest(continuous, own, targets.clone()).filter(|nearest| near(nearest.distance));
+    let Some(Closest { distance, first, tied }) = nearest else { return options };
+    add_options(continuous, flee, own, first, &mut options);
+    if tied {
+        let all = targets.filter(|&target| physics::distance(continuous, own, target) == distance);
+        all.skip(1).for_each(|target| add_options(continuous, flee, own, target, &mut options));
     }
-    let direction = drawn(step, &options).unwrap_or_else(|| random_move(step, slot, traits.cons));
-    walk(step, slot, direction);
+    options
 }
 
 /// The directions in which one pixel brings nearer to the target, or takes away from it.
@@ -96,7 +136,7 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
         // On the grid, the distance is one less if there is a gap that way, and one more otherwise.
         let (right, below) = (target.x - own.x, target.y - own.y);
         let gaps = [-below, -right, below, right];
-        for (direction, gap) in Direction::BASE.into_iter().zip(gaps) {
+        for (direction, gap) in (0..).zip(gaps) {
             if (gap > 0) != flee {
                 options.push(direction);
             }
@@ -104,64 +144,90 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
         return;
     }
     let distance = physics::distance(continuous, own, target);
-    for direction in Direction::BASE {
+    for (number, direction) in (0..).zip(Direction::BASE) {
         let (x, y) = (own.x.wrapping_add(direction.x as i32), own.y.wrapping_add(direction.y as i32));
         let then = physics::distance(continuous, own.at(x, y), target);
         if if flee { distance < then } else { distance > then } {
-            options.push(direction);
+            options.push(number);
         }
+    }
+}
+
+/// Whom a sprite is after: those of a type, then those of others.
+#[derive(Clone, Copy)]
+struct Targets<'a> {
+    first: Option<SpriteType>,
+    others: &'a [SpriteType],
+}
+
+impl<'a> Targets<'a> {
+    const NONE: Targets<'static> = Targets { first: None, others: &[] };
+
+    fn types(self) -> impl Iterator<Item = SpriteType> + Clone + use<'a> {
+        self.first.into_iter().chain(self.others.iter().copied())
+    }
+
+    fn slots(self, state: &State) -> impl Iterator<Item = Slot> + Clone {
+        self.types().flat_map(|stype| state.slots(stype))
+    }
+
+    fn rects(self, state: &State) -> impl Iterator<Item = Rect> + Clone {
+        self.slots(state).map(|slot| state.sprite(slot).rect)
+    }
+
+    fn count(self, state: &State) -> usize {
+        self.types().map(|stype| usize::from(state.group(stype).count)).sum()
     }
 }
 
 /// Sprites of exactly that type, or of its relatives if there are none.
-fn own_or_related(step: &mut Step<'_>, stype: SpriteType) -> SmallVec<[Slot; 8]> {
+fn own_or_related<'a>(step: &mut Step<'a>, stype: SpriteType) -> Targets<'a> {
     if stype == SpriteType::NONE {
         step.stop(Limit::NoType);
-        return SmallVec::new();
+        return Targets::NONE;
     }
-    let own = [stype];
-    let types: &[SpriteType] = match step.state.group(stype).head {
-        NONE => &step.rules.types[stype.index()].tree,
-        _ => &own,
+    let targets = match step.state.group(stype).head {
+        NONE => Targets { first: None, others: &step.rules.types[stype.index()].tree },
+        _ => Targets { first: Some(stype), others: &[] },
     };
-    let targets: SmallVec<[Slot; 8]> = types.iter().flat_map(|&stype| step.state.slots(stype)).collect();
-    step.work(types.len() + targets.len());
+    step.work(targets.types().count() + targets.count(step.state));
     targets
 }
 
-/// All at the least distance, in order.
-fn closest(continuous: bool, from: Rect, targets: impl Iterator<Item = Rect>) -> SmallVec<[Rect; 8]> {
-    let mut nearest = f64::INFINITY;
-    let mut found = SmallVec::new();
-    for rect in targets {
+/// The first of those at the least distance, and whether there are others.
+struct Closest {
+    distance: f64,
+    first: Rect,
+    tied: bool,
+}
+
+#[inline(always)]
+fn closest(continuous: bool, from: Rect, targets: impl Iterator<Item = Rect>) -> Option<Closest> {
+    let mut found: Option<Closest> = None;
+    targets.for_each(|rect| {
         let distance = physics::distance(continuous, from, rect);
-        if distance < nearest {
-            nearest = distance;
-            found.clear();
+        match &mut found {
+            Some(nearest) if distance > nearest.distance => {}
+            Some(nearest) if distance == nearest.distance => nearest.tied = true,
+            _ => found = Some(Closest { distance, first: rect, tied: false }),
         }
-        if distance == nearest {
-            found.push(rect);
-        }
-    }
+    });
     found
 }
 
 /// PathChaser: along the path to the first of the closest targets.
-pub(super) fn path_chaser(step: &mut Step<'_>, slot: Slot) {
-    physics::passive(step, slot);
-    let own = *step.state.sprite(slot);
-    let traits = &step.rules.types[own.stype.index()].traits;
+fn path_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
+    let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
+    let traits = &step.rules.types[stype.index()].traits;
     let targets = own_or_related(step, traits.stypes.first().copied().unwrap_or(SpriteType::NONE));
-    let rects = targets.into_iter().map(|target| step.state.sprite(target).rect);
-    let direction = match closest(traits.continuous, own.rect, rects).first() {
-        Some(target) => {
-            let way = first_step(step, own.rect, (target.x, target.y));
+    match closest(traits.continuous, own, targets.rects(step.state)) {
+        Some(Closest { first, .. }) => {
+            let way = first_step(step, own, (first.x, first.y));
             step.state.edit_motion(slot).count = traits.cons;
             way.unwrap_or(Direction::NONE)
         }
         None => random_move(step, slot, traits.cons),
-    };
-    walk(step, slot, direction);
+    }
 }
 
 /// The first step of the way to a place; a game without `obs=` has no paths, and asking for one is the end of it.
@@ -177,64 +243,48 @@ fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Directi
 
 /// The targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself among them, so
 /// that those of a leaf type are there twice.
-fn alternate_targets(step: &mut Step<'_>, slot: Slot) -> SmallVec<[Slot; 8]> {
+fn alternate_targets<'a>(step: &mut Step<'a>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
     let stypes = &rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
     if stypes.contains(&SpriteType::NONE) {
         step.stop(Limit::NoType);
-        return SmallVec::new();
+        return Targets::NONE;
     }
     let total: i32 = stypes.iter().map(|&stype| step.state.count(rules, stype)).sum();
     if total == 0 {
-        return SmallVec::new();
+        return Targets::NONE;
     }
     // Among several types the reference chooses with a generator of its own, without a seed.
     let chosen = match stypes.len() {
         1 => stypes[0],
         count => stypes[step.state.jumps.below(count as i32) as usize],
     };
-    let related = rules.types[chosen.index()].tree.iter().copied();
-    let listed = std::iter::once(chosen).chain(related);
-    let targets: SmallVec<[Slot; 8]> = listed.flat_map(|stype| step.state.slots(stype)).collect();
-    step.work(stypes.len() + targets.len());
+    let targets = Targets { first: Some(chosen), others: &rules.types[chosen.index()].tree };
+    step.work(stypes.len() + targets.count(step.state));
     targets
 }
 
 /// AlternateChaser: a step nearer to one of the closest targets; it never flees, whatever its parameters say.
-pub(super) fn alternate_chaser(step: &mut Step<'_>, slot: Slot) {
-    physics::passive(step, slot);
+fn alternate_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let targets = alternate_targets(step, slot);
-    approach(step, slot, &targets);
-}
-
-fn approach(step: &mut Step<'_>, slot: Slot, targets: &[Slot]) {
-    let own = *step.state.sprite(slot);
-    let continuous = step.rules.types[own.stype.index()].traits.continuous;
-    let rects = targets.iter().map(|&target| step.state.sprite(target).rect);
-    let mut options = Options::new();
-    for target in closest(continuous, own.rect, rects) {
-        add_options(continuous, false, own.rect, target, &mut options);
-    }
-    let direction =
-        drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.state.chance.below(4) as usize]);
-    walk(step, slot, direction);
+    let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
+    let continuous = step.rules.types[stype.index()].traits.continuous;
+    let options = options(continuous, false, own, targets.rects(step.state), |_| true);
+    drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.state.chance.below(4) as usize])
 }
 
 /// RandomAltChaser and RandomPathAltChaser: now and then a random step instead; the first draw is made in any case.
-pub(super) fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot)) {
+fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot) -> Direction) -> Direction {
     let epsilon = step.rules.types[step.state.sprite(slot).stype.index()].traits.epsilon;
     if step.state.chance.double() < epsilon {
-        physics::passive(step, slot);
-        let direction = Direction::BASE[step.state.chance.below(4) as usize];
-        walk(step, slot, direction);
+        Direction::BASE[step.state.chance.below(4) as usize]
     } else {
-        otherwise(step, slot);
+        otherwise(step, slot)
     }
 }
 
 /// PathAltChaser: keeps to one target until it stands on it, along paths.
-pub(super) fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) {
-    physics::passive(step, slot);
+fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let rules = step.rules;
     let own = step.state.sprite(slot).rect;
     let current = match step.state.extra(rules, slot).target {
@@ -248,12 +298,14 @@ pub(super) fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) {
         Some((target, rect)) if !own.contains(rect) => Some((target, rect)),
         _ => match new_target(step, slot) {
             Ok(chosen) => chosen,
-            Err(limit) => return step.stop(limit),
+            Err(limit) => {
+                step.stop(limit);
+                return Direction::NONE;
+            }
         },
     };
     let Some((target, rect)) = chosen else {
-        let direction = Direction::BASE[step.state.chance.below(4) as usize];
-        return walk(step, slot, direction);
+        return Direction::BASE[step.state.chance.below(4) as usize];
     };
     let mut way = first_step(step, own, (rect.x, rect.y));
     let extra = step.state.extra(rules, slot);
@@ -262,27 +314,29 @@ pub(super) fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) {
         (None, Some(known)) => way = first_step(step, own, known),
         _ => extra.last_known = Some((rect.x, rect.y)),
     }
-    walk(step, slot, way.unwrap_or(Direction::NONE));
+    way.unwrap_or(Direction::NONE)
 }
 
 /// The first of the closest targets, or a drawn one.
 fn new_target(step: &mut Step<'_>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
-    let own = *step.state.sprite(slot);
-    let traits = &step.rules.types[own.stype.index()].traits;
+    let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
+    let traits = &step.rules.types[stype.index()].traits;
     let targets = alternate_targets(step, slot);
     let rect = |step: &Step<'_>, target: Slot| step.state.sprite(target).rect;
     let chosen = if traits.random_target {
-        if targets.is_empty() {
+        let count = targets.count(step.state);
+        if count == 0 {
             return Err(Limit::NoSprite);
         }
-        Some(targets[step.state.chance.below(targets.len() as i32) as usize])
+        let drawn = step.state.chance.below(count as i32) as usize;
+        targets.slots(step.state).nth(drawn)
     } else {
-        let distance = |target: &Slot| physics::distance(traits.continuous, own.rect, rect(step, *target));
+        let distance = |target: &Slot| physics::distance(traits.continuous, own, rect(step, *target));
         let mut best: Option<(f64, Slot)> = None;
-        for target in &targets {
-            let distance = distance(target);
+        for target in targets.slots(step.state) {
+            let distance = distance(&target);
             if best.is_none_or(|(least, _)| distance < least) {
-                best = Some((distance, *target));
+                best = Some((distance, target));
             }
         }
         best.map(|(_, target)| target)
