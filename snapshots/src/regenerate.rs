@@ -95,6 +95,8 @@ impl Regeneration {
         let recipe: Recipe =
             serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
         recipe.check()?;
+        // Before minutes of minting: is there a folder to compare with?
+        Comparison::of(root)?;
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 

@@ -47,7 +47,7 @@ fn pursue(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
 
 /// A drawn direction, kept for `cons` more updates.
 #[inline]
-pub(crate) fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
+fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
     let mut chance = step.state.chance;
     let sprite = step.state.edit_motion(slot);
     if sprite.count < cons {
