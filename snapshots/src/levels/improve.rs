@@ -25,7 +25,8 @@ const FRESH: f64 = 0.1;
 const CHOOSY: u32 = 2;
 
 impl Maker<'_> {
-    /// Anneals a level until the panel lets one in: each round is a search of its own.
+    /// Anneals a level until the panel lets one in: each round is a search of its own, and there are more of them where most
+    /// looks are cheap.
     pub(super) fn searched(
         &self,
         variation: &LevelSearch<'_>,
@@ -38,13 +39,17 @@ impl Maker<'_> {
         let gate = Gate::new(self.analysis, self.order, seed.child("gate", 0));
         let looks = self.order.effort.looks as usize;
         let mut cost = Cost::default();
-        for round in 0..u64::from(self.order.effort.rounds) {
+        let mut left = f64::from(self.order.effort.rounds * self.order.effort.looks);
+        let mut round = 0;
+        while left > 0.0 {
             // Half of them to find a start that is worth improving: levels differ more than edits can change them.
             let config = AnnealingConfig { starts: looks / 2, ..AnnealingConfig::of(looks) };
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::new();
+            let mut spent = 0.0;
             self.strive(&mut search, looks, &looker, &mut cost, |level, look| {
-                best.note(level, level.digest(), &look.evaluation)
+                spent += look.effort.min(1.0);
+                best.note(level, level.digest(), &look.evaluation);
             });
             for level in best.into_candidates() {
                 if refused.contains(&self.likeness.digest(&level)) {
@@ -57,6 +62,9 @@ impl Maker<'_> {
                     return (Some(made(number, level, judged)), cost);
                 }
             }
+            // A round costs something even if nothing could be proposed.
+            left -= spent.max(LEAST_EFFORT * looks as f64);
+            round += 1;
         }
         (None, cost)
     }

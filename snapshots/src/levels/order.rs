@@ -84,7 +84,7 @@ pub struct Effort {
     pub looks: u32,
     /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
     pub batch: usize,
-    /// Attempts.
+    /// Attempts; more of them for a single level where most looks are cheap.
     pub rounds: u32,
     /// Forward-model calls of a look for a win: so many, or up to four times as many where plays are long.
     pub calls: u64,
