@@ -1,10 +1,10 @@
 //! Sprites in flight: those that go straight on as long as nothing happens to them.
 //!
 //! A car on its lane moves two pixels in every tick, and each tick does to it what the last one did. So it is not updated:
-//! where it is follows from where it was and how long ago, and its share of the hash stays the same (`hash.rs`). Only when it
-//! comes to cover other cells is it entered there, and in those ahead. Which rules are about sprites that share its cells is known all the while
-//! (`contacts.rs`), and whether it overlaps them is asked of where it is now. As soon as an effect is executed on it, or can
-//! reach it, it lands: it is an ordinary sprite again.
+//! where it is follows from where it was and how long ago, and so does its share of the hash (`hash.rs`). Only when it comes
+//! to cover other cells is it entered there, and in those ahead. Which rules are about sprites that share its cells is known
+//! all the while (`contacts.rs`), and whether it overlaps them is asked of where it is now. As soon as an effect is executed
+//! on it, or can reach it, it lands: it is an ordinary sprite again.
 //!
 //! Which types may fly is decided so that no one can tell the difference (`spec/01` §4): their movement draws nothing, counts
 //! nothing and does not wait, and no other sprite looks for them.
@@ -61,12 +61,12 @@ impl State {
 
     /// Ends a flight: the sprite is as it would be after its update in `tick`.
     fn land(&mut self, rules: &Rules, slot: Slot, tick: i32) {
-        let sprite = &mut self.sprites[usize::from(slot)];
+        let sprite = self.edit_motion(slot);
         fly_to(sprite, tick);
         sprite.rest = mark::TRIED;
         sprite.set(flag::MOVED, true);
-        self.groups[sprite.stype.index()].asleep -= 1;
-        let rect = sprite.rect;
+        let (stype, rect) = (sprite.stype, sprite.rect);
+        self.groups[stype.index()].asleep -= 1;
         self.moved.push(slot);
         self.enter_anew(rules, slot, rect);
     }
@@ -172,10 +172,11 @@ impl Step<'_> {
         if self.rules.any_rests {
             self.state.stamp(&sprite, due);
         }
-        let sprite = &mut self.state.sprites[usize::from(slot)];
+        let sprite = self.state.edit_motion(slot);
         sprite.rest = mark::FLYING;
         sprite.set(flag::MOVED, false);
-        self.state.groups[sprite.stype.index()].asleep += 1;
+        let stype = sprite.stype;
+        self.state.groups[stype.index()].asleep += 1;
         self.state.flights.push(Flight { slot, due });
         self.state.next_due = self.state.next_due.min(due);
         true

@@ -166,6 +166,8 @@ pub(crate) struct TypeInfo {
     pub(crate) leaf: bool,
     /// A termination may count its sprites.
     pub(crate) counted: bool,
+    /// Some effect can give speed to sprites that have none.
+    pub(crate) given_speed: bool,
     /// Lacks a parameter without which the reference dies of making such a sprite.
     pub(crate) incomplete: bool,
     /// Messages that the reference logs when it makes the first sprite: parameters that the class does not have.

@@ -6,7 +6,7 @@
 
 use crate::game::Game;
 use crate::rest::mark;
-use crate::state::{Extra, Share, Sprite, State, Target, flag};
+use crate::state::{Extra, Sprite, State, Target, flag};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::fmt;
@@ -77,11 +77,6 @@ impl Mixer {
         self.high = fold(self.high ^ b, SECRET[3] ^ a);
     }
 
-    /// The two lanes as they are: where sums of hashes are hashed again.
-    fn lanes(self) -> u128 {
-        u128::from(self.high) << 64 | u128::from(self.low)
-    }
-
     pub(crate) fn finish(self) -> u128 {
         let low = fold(self.low ^ SECRET[3], self.high ^ SECRET[2]);
         let high = fold(self.high ^ SECRET[0], self.low ^ SECRET[1]);
@@ -103,75 +98,171 @@ pub(crate) fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
 
-/// What seldom changes of a sprite, hashed.
-#[inline(never)]
-pub(crate) fn still_hash(sprite: &Sprite) -> u64 {
-    let mut mixer = Mixer::new(u64::from(sprite.id));
-    mixer.pair(two(sprite.rect.w, sprite.rect.h), two(sprite.last.w, sprite.last.h));
-    mixer.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
-    mixer.pair(bits(sprite.speed), two(sprite.health, sprite.max_health));
-    mixer.pair(u64::from(sprite.spawns.0), sprite.start as u64);
-    mixer.finish() as u64
-}
+/// Sums of products of words with keys in them (after NH of Black and others, "UMAC: fast and secure message authentication",
+/// 1999): half the multiplications of [`Mixer`]. What comes out is to be mixed once more.
+#[derive(Clone, Copy)]
+struct Products(u128);
 
-/// The share of one sprite in the state hash, given its [`still_hash`].
-///
-/// A sprite that keeps moving as it moves has the same share tick after tick: with the tick, which is hashed by itself,
-/// where it would have been at tick 0 says where it is.
-#[inline(always)]
-pub(crate) fn sprite_hash(sprite: &Sprite, still: u64, tick: i32) -> u128 {
-    let &Sprite { rect, last, .. } = sprite;
-    let tick = if sprite.rest == mark::FLYING { sprite.moved_at } else { tick };
-    // Of the flags, those that are not transient are the lowest eight bits; headings are less than eight.
-    let flags = sprite.flags & !flag::TRANSIENT & 0xFF;
-    let kind = u32::from(sprite.stype.0) << 16 | u32::from(sprite.heading) << 8 | flags;
-    // When it moved last matters only where a cooldown may hold it up, or where that is its age.
-    let moved_at = if sprite.is(flag::BRISK) && !sprite.is(flag::FROZEN) { 0 } else { sprite.moved_at };
-    let (dx, dy) = (rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
-    let origin = |at: i32, by: i32| at.wrapping_sub(by.wrapping_mul(tick));
-    let mut mixer = Mixer::new(still);
-    mixer.pair(two(origin(rect.x, dx), origin(rect.y, dy)), two(dx, dy));
-    mixer.pair(two(moved_at, kind as i32), two(sprite.count, sprite.time_to_live));
-    mixer.lanes()
-}
+impl Products {
+    const NONE: Products = Products(0);
 
-/// The share of a sprite, given what it was of it that seldom changes.
-#[inline(always)]
-fn share_of(sprite: &Sprite, still: u64, tick: i32) -> Share {
-    if sprite.is(flag::GONE) {
-        return Share::new(0, still);
+    #[inline(always)]
+    fn and(self, a: u64, b: u64, keys: [u64; 2]) -> Products {
+        Products(self.0.wrapping_add(u128::from(a ^ keys[0]) * u128::from(b ^ keys[1])))
     }
-    let still = if sprite.is(flag::CHANGED) { still_hash(sprite) } else { still };
-    Share::new(sprite_hash(sprite, still, tick), still)
+
+    #[inline(always)]
+    fn halves(self) -> (u64, u64) {
+        (self.0 as u64, (self.0 >> 64) as u64)
+    }
+}
+
+/// Keys of products, by their place: the fractions of the square roots of the first primes, as good as drawn.
+const KEYS: [[u64; 2]; 4] = [
+    [0x6A09_E667_F3BC_C908, 0xBB67_AE85_84CA_A73B],
+    [0x3C6E_F372_FE94_F82B, 0xA54F_F53A_5F1D_36F1],
+    [0x510E_527F_ADE6_82D1, 0x9B05_688C_2B3E_6C1F],
+    [0x1F83_D9AB_FB41_BD6B, 0x5BE0_CD19_137E_2179],
+];
+
+/// What seldom changes of a sprite, hashed.
+///
+/// The last rectangle becomes the rectangle before the next tick looks at it, but for sprites that are not updated.
+#[inline(never)]
+fn still_hash(sprite: &Sprite) -> u64 {
+    let spawns = u64::from(sprite.spawns.0) << 32 | u64::from(sprite.id);
+    let mut products = Products::NONE
+        .and(two(sprite.rect.w, sprite.rect.h), spawns, KEYS[0])
+        .and(bits(sprite.orientation.x), bits(sprite.orientation.y), KEYS[1])
+        .and(bits(sprite.speed), two(sprite.health, sprite.max_health), KEYS[2]);
+    if sprite.start != 0 {
+        products = products.and(sprite.start as u64, 0, KEYS[3]);
+    }
+    if sprite.is(flag::FROZEN) {
+        let last = sprite.last;
+        products = products.and(two(last.x, last.y), two(last.w, last.h), [KEYS[3][1], KEYS[0][0]]);
+    }
+    let (low, high) = products.halves();
+    fold(low ^ SECRET[0], high ^ SECRET[1])
+}
+
+/// What a sprite adds to the hash of its state when it was last settled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Share {
+    /// Where it is and what changes with moving, as one number; of a sprite in flight, as it would have been at tick 0. 0 if
+    /// the slot is free.
+    pub(crate) word: u64,
+    /// By how much `word` is more in each tick: only what flies moves by itself.
+    pub(crate) drift: u64,
+    /// What seldom changes of it, hashed: a key that no other sprite has.
+    pub(crate) still: u64,
+}
+
+/// What a pixel down is in [`Share::word`], when a pixel to the right is 1.
+const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
+
+impl Share {
+    /// The share of a sprite, given what it was.
+    #[inline(always)]
+    fn renewed(self, sprite: &Sprite) -> Share {
+        if sprite.flags & (flag::GONE | flag::CHANGED) == 0 {
+            return Share::of(sprite, self.still);
+        }
+        match sprite.is(flag::GONE) {
+            true => Share { word: 0, drift: 0, still: self.still },
+            false => Share::of(sprite, still_hash(sprite)),
+        }
+    }
+
+    /// The share of a sprite, given its [`still_hash`].
+    #[inline(always)]
+    fn of(sprite: &Sprite, still: u64) -> Share {
+        let &Sprite { rect, last, .. } = sprite;
+        let look =
+            u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading) << 32 | u64::from(sprite.flags);
+        let kind = look & (!0 << 32 | u64::from(flag::LASTING));
+        // When it moved last matters only where a cooldown may hold it up, or where that is its age.
+        let ages = sprite.flags & (flag::BRISK | flag::FROZEN) != flag::BRISK;
+        let moved_at = if ages { sprite.moved_at } else { 0 };
+        let point = |x: i32, y: i32| (x as u64).wrapping_add((y as u64).wrapping_mul(DOWN));
+        let since = kind ^ SECRET[2].wrapping_mul(moved_at as u64);
+        let rest = fold(since ^ SECRET[3], two(sprite.count, sprite.time_to_live) ^ SECRET[1]);
+        let word = point(rect.x, rect.y).wrapping_add(rest);
+        if sprite.rest != mark::FLYING {
+            return Share { word, drift: 0, still };
+        }
+        let drift = point(rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
+        Share { word: word.wrapping_sub(drift.wrapping_mul(sprite.moved_at as u64)), drift, still }
+    }
+}
+
+/// The sums of all shares, each times its keys, modulo 2⁶⁴.
+///
+/// A sprite that keeps moving as it moves has the same share tick after tick. That is what the sum of drifts is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Sums {
+    pub(crate) words: [u64; 2],
+    pub(crate) drifts: [u64; 2],
+}
+
+impl Sums {
+    #[inline(always)]
+    fn exchange(&mut self, old: Share, new: Share) {
+        if old.still == new.still {
+            self.add(new.word.wrapping_sub(old.word), new.drift.wrapping_sub(old.drift), new.still);
+        } else {
+            self.add(old.word.wrapping_neg(), old.drift.wrapping_neg(), old.still);
+            self.add(new.word, new.drift, new.still);
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, word: u64, drift: u64, still: u64) {
+        // Odd, so that no difference of two words is lost.
+        let keys = [still | 1, (still ^ still >> 32).wrapping_mul(SECRET[0]) | 1];
+        let add = |sums: &mut [u64; 2], by: u64| {
+            *sums = [0, 1].map(|at| sums[at].wrapping_add(by.wrapping_mul(keys[at])));
+        };
+        add(&mut self.words, word);
+        if drift != 0 {
+            add(&mut self.drifts, drift);
+        }
+    }
+
+    /// The sums in a tick.
+    #[inline(always)]
+    fn at(self, tick: i32) -> [u64; 2] {
+        [0, 1].map(|at| self.words[at].wrapping_add(self.drifts[at].wrapping_mul(tick as u64)))
+    }
 }
 
 impl State {
     /// The hash of all that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
     pub fn state_hash(&self) -> StateHash {
-        let mut sum = self.sprite_hash;
+        let mut sums = self.sums;
         for &slot in &self.stale {
-            let (sprite, share) = (self.sprite(slot), self.shares[usize::from(slot)]);
-            sum =
-                sum.wrapping_sub(share.hash()).wrapping_add(share_of(sprite, share.still, self.tick).hash());
+            let share = self.shares[usize::from(slot)];
+            sums.exchange(share, share.renewed(self.sprite(slot)));
         }
         let memory = if self.memory_is_stale { self.hash_memory() } else { self.memory_hash };
-        self.with_globals(sum, memory)
+        self.with_globals(sums, memory)
     }
 
-    /// Renews the running hash, so that [`State::state_hash`] need not look at what changed since the last time.
+    /// Renews the running sums, so that [`State::state_hash`] need not look at what changed since the last time.
     ///
     /// Stepping does not do so by itself: planners, which ask for few hashes, do not pay for all. Cost: O(sprites changed
     /// since the last time).
     pub fn settle_hash(&mut self) {
-        let State { sprites, shares, stale, sprite_hash, tick, .. } = self;
-        let mut sum = *sprite_hash;
+        let State { sprites, shares, stale, sums, .. } = self;
+        let (sprites, shares, mut running) = (&mut sprites[..], &mut shares[..], *sums);
         for &slot in &*stale {
             let (sprite, share) = (&mut sprites[usize::from(slot)], &mut shares[usize::from(slot)]);
-            let old = std::mem::replace(share, share_of(sprite, share.still, *tick));
+            let new = share.renewed(sprite);
+            running.exchange(*share, new);
+            *share = new;
             sprite.flags &= !(flag::STALE | flag::CHANGED);
-            sum = sum.wrapping_sub(old.hash()).wrapping_add(share.hash());
         }
-        *sprite_hash = sum;
+        *sums = running;
         stale.clear();
         if self.memory_is_stale {
             self.memory_hash = self.hash_memory();
@@ -181,9 +272,12 @@ impl State {
 
     /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).
     pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
-        let sprites = game.sprite_types().flat_map(|stype| self.slots(stype)).map(|slot| self.sprite(slot));
-        let shares = sprites.map(|sprite| sprite_hash(sprite, still_hash(sprite), self.tick));
-        self.with_globals(shares.fold(0u128, u128::wrapping_add), self.hash_memory())
+        let mut sums = Sums::default();
+        for slot in game.sprite_types().flat_map(|stype| self.slots(stype)) {
+            let sprite = self.sprite(slot);
+            sums.exchange(Share::default(), Share::of(sprite, still_hash(sprite)));
+        }
+        self.with_globals(sums, self.hash_memory())
     }
 
     /// What effects remember, and of which types there was a sprite.
@@ -197,15 +291,18 @@ impl State {
         mixer.finish() as u64
     }
 
-    fn with_globals(&self, sprites: u128, memory: u64) -> StateHash {
-        let mut mixer = Mixer::new(0x5374_6174);
-        mixer.pair(sprites as u64, (sprites >> 64) as u64);
-        mixer.pair(two(self.tick, self.messages as i32), self.score as u64);
-        mixer.pair(self.chance.state(), two(self.next_id as i32, self.population));
+    fn with_globals(&self, sums: Sums, memory: u64) -> StateHash {
+        let [one, other] = sums.at(self.tick);
         // No sprite has the largest number as its id.
         let avatar = u64::from(self.avatar_id().unwrap_or(u32::MAX));
         let few = self.outcome_code() << 1 | u64::from(self.can_end);
-        mixer.pair(avatar << 32 | few << 24 | self.timers.len() as u64, memory);
+        let (low, high) = Products::NONE
+            .and(one, other, KEYS[0])
+            .and(two(self.tick, self.messages as i32), self.score as u64, KEYS[1])
+            .and(self.chance.state(), two(self.next_id as i32, self.population), KEYS[2])
+            .and(avatar << 32 | few << 24 | self.timers.len() as u64, memory, KEYS[3])
+            .halves();
+        let mut mixer = Mixer { low, high };
         if self.jumps != self.chance {
             mixer.pair(self.jumps.state(), 0);
         }
@@ -283,6 +380,69 @@ impl State {
             Outcome::Lost => 2,
             Outcome::Ended => 3,
             Outcome::Stopped(limit) => 4 + limit as u64,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rect;
+    use std::collections::BTreeSet;
+
+    /// A share of a sprite with that number, which is at (x, y) and flies by (dx, dy) a tick since tick 5.
+    fn share(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Share {
+        let game = Game::from_source("BasicGame\n").unwrap();
+        let mut sprite = game.0.models[0];
+        (sprite.id, sprite.moved_at) = (id, 5);
+        (sprite.rect, sprite.last) =
+            (Rect { x, y, w: 10, h: 10 }, Rect { x: x - dx, y: y - dy, w: 10, h: 10 });
+        if (dx, dy) != (0, 0) {
+            sprite.rest = mark::FLYING;
+            sprite.flags |= flag::BRISK;
+            sprite.flags &= !flag::FROZEN;
+        }
+        Share::of(&sprite, still_hash(&sprite))
+    }
+
+    fn sums(shares: &[Share]) -> Sums {
+        let mut sums = Sums::default();
+        shares.iter().for_each(|&share| sums.exchange(Share::default(), share));
+        sums
+    }
+
+    #[test]
+    fn two_sprites_on_other_places_have_other_sums() {
+        let places = || (0..8).flat_map(|x| (0..8).map(move |y| (10 * x, 10 * y)));
+        let both = places().flat_map(|one| {
+            places().map(move |other| sums(&[share(1, one, (0, 0)), share(2, other, (0, 0))]).words)
+        });
+        let both: Vec<[u64; 2]> = both.collect();
+        for half in [0, 1] {
+            let distinct: BTreeSet<u64> = both.iter().map(|words| words[half]).collect();
+            assert_eq!(distinct.len(), both.len());
+        }
+    }
+
+    #[test]
+    fn sums_do_not_remember_what_was_exchanged() {
+        let (before, after) = (share(1, (3, 4), (0, 0)), share(1, (3, 4), (2, 0)));
+        let (other, newborn) = (share(2, (-7, 50), (0, -3)), share(3, (0, 0), (0, 0)));
+        let mut running = sums(&[before, other]);
+        running.exchange(before, after);
+        running.exchange(other, newborn);
+        assert_eq!(running, sums(&[newborn, after]));
+    }
+
+    #[test]
+    fn what_flies_is_in_the_sums_where_it_has_come_to() {
+        let flying = sums(&[share(1, (30, 40), (-4, 2))]);
+        for tick in [5, 6, 5000] {
+            let flown = (30 - 4 * (tick - 5), 40 + 2 * (tick - 5));
+            let mut there = share(1, flown, (-4, 2));
+            there.word = there.word.wrapping_add(there.drift.wrapping_mul(5));
+            there.drift = 0;
+            assert_eq!(flying.at(tick), sums(&[there]).at(tick), "tick {tick}");
         }
     }
 }

@@ -90,4 +90,4 @@ pub use step::{Meeting, Watch};
 pub use syntax::Description;
 
 /// Bumped when any golden trace moves: witnesses replay only under the same number.
-pub const SEMANTICS: u32 = 2;
+pub const SEMANTICS: u32 = 3;

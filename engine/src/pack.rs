@@ -9,8 +9,9 @@ use crate::contacts::Mask;
 use crate::flight::Flight;
 use crate::game::{Action, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
+use crate::hash::{Share, Sums};
 use crate::rest::Rest;
-use crate::state::{Extra, Group, Held, Replaced, Share, Sprite, State, Target, Timer};
+use crate::state::{Extra, Group, Held, Replaced, Sprite, State, Target, Timer};
 
 /// A state, as it differs from a base. Only [`State::unpack_from`] with the same base makes sense of it.
 #[derive(Clone, Debug)]
@@ -68,7 +69,7 @@ macro_rules! state_fields {
 }
 
 state_fields! {
-    scalars tick score chance avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
+    scalars tick score chance avatar next_id population messages block columns rows free can_end sums memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
     buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
     scratch touched ways
 }
@@ -215,7 +216,8 @@ fields! {
     Held { holder resource amount }
     Replaced { holder place stype }
     Group { head tail count disabled loose big off asleep }
-    Share { halves still }
+    Share { word drift still }
+    Sums { words drifts }
     Extra { holder rotation gravity facing block_time target last_known }
     Sprite { rect last orientation speed id moved_at health max_health time_to_live count start stype rest flags spawns extra heading next previous cell_next cell_previous column row }
 }

@@ -10,6 +10,7 @@ use crate::contacts::Mask;
 use crate::flight::Flight;
 use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
+use crate::hash::{Share, Sums};
 use crate::limits::MAX_SLOTS;
 use crate::ontology::class::SpriteClass;
 use crate::paths::Ways;
@@ -60,8 +61,8 @@ pub(crate) mod flag {
     pub(crate) const CHANGED: u32 = 65_536;
     /// How a sprite lies in its cell.
     pub(crate) const LYING: u32 = LOOSE | OFF;
-    /// Book-keeping that two equal states may differ in.
-    pub(crate) const TRANSIENT: u32 = MOVED | STALE | CHANGED | LYING | BRISK;
+    /// The others are book-keeping, in which two equal states may differ.
+    pub(crate) const LASTING: u32 = 0xFF;
 }
 
 /// One sprite.
@@ -83,16 +84,16 @@ pub(crate) struct Sprite {
     pub(crate) count: i32,
     /// Spawner: the tick of its first update.
     pub(crate) start: i32,
+    pub(crate) flags: u32,
+    /// NPC: the last drawn direction as an index into the base directions, 4 for none.
+    pub(crate) heading: u16,
     pub(crate) stype: SpriteType,
     /// What has happened to it in this tick, as far as rest is concerned (`rest.rs`).
     pub(crate) rest: u16,
-    pub(crate) flags: u32,
     /// Spawners: what they make now; updateSpawnType changes it.
     pub(crate) spawns: SpriteType,
     /// Index into `State::extras`, or NONE.
     pub(crate) extra: u16,
-    /// NPC: the last drawn direction as an index into the base directions, 4 for none.
-    pub(crate) heading: u16,
     /// The chain of the type.
     pub(crate) next: Slot,
     pub(crate) previous: Slot,
@@ -115,24 +116,6 @@ impl Sprite {
         } else {
             self.flags &= !flag;
         }
-    }
-}
-
-/// The share of a sprite in the hash of the state, and the part of it that moving does not change. Copies of states copy
-/// one for each slot, so it has no gaps, which a `u128` would bring.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Share {
-    pub(crate) halves: [u64; 2],
-    pub(crate) still: u64,
-}
-
-impl Share {
-    pub(crate) fn new(hash: u128, still: u64) -> Share {
-        Share { halves: [hash as u64, (hash >> 64) as u64], still }
-    }
-
-    pub(crate) fn hash(self) -> u128 {
-        u128::from(self.halves[1]) << 64 | u128::from(self.halves[0])
     }
 }
 
@@ -240,8 +223,8 @@ pub struct State {
     pub(crate) free: Slot,
     /// Written by StopCounter: whether counters may end the game.
     pub(crate) can_end: bool,
-    /// Sum of the hashes in `shares`.
-    pub(crate) sprite_hash: u128,
+    /// The sums of `shares`.
+    pub(crate) sums: Sums,
     /// How many sprites are larger than a cell.
     pub(crate) big: u32,
     /// How many are not wholly on the screen.
@@ -341,7 +324,7 @@ macro_rules! clone_fields {
 }
 
 clone_fields! { to, from;
-    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sprite_hash memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sums memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
     buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
     empty touched;
     shared ways

@@ -5,6 +5,7 @@ use crate::Seed;
 use crate::chance::Chance;
 use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::Direction;
+use crate::hash::Sums;
 use crate::level::Level;
 use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
 use crate::ontology::sprites::{Habit, Mover, npcs, producers};
@@ -101,7 +102,7 @@ impl Game {
             rows,
             free: NONE,
             can_end: rules.can_end,
-            sprite_hash: 0,
+            sums: Sums::default(),
             memory_hash: 0,
             memory_is_stale: true,
             big: 0,
@@ -258,28 +259,19 @@ impl<'a> Step<'a> {
     /// The last rectangle becomes the rectangle. The reference does so for every sprite before its own update; only
     /// those that moved since can tell the difference, and nothing reads another's last rectangle before the events.
     fn settle_moved(&mut self) {
-        let State { sprites, moved, stale, .. } = &mut *self.state;
+        let State { sprites, moved, .. } = &mut *self.state;
         let mut frozen = false;
         for &slot in &*moved {
             let sprite = &mut sprites[usize::from(slot)];
-            let mut flags = sprite.flags & !flag::MOVED;
-            if sprite.last != sprite.rect {
-                if flags & flag::STALE == 0 {
-                    flags |= flag::STALE;
-                    stale.push(slot);
-                }
-                if flags & flag::FROZEN == 0 {
-                    if (sprite.last.w, sprite.last.h) != (sprite.rect.w, sprite.rect.h) {
-                        flags |= flag::CHANGED;
-                    }
-                    sprite.last = sprite.rect;
-                } else {
-                    // It goes on as having moved, and its share of the hash with the tick.
-                    flags |= flag::MOVED;
-                    frozen = true;
-                }
+            if sprite.flags & flag::FROZEN == 0 {
+                sprite.last = sprite.rect;
+                sprite.flags &= !flag::MOVED;
+            } else if sprite.last == sprite.rect {
+                sprite.flags &= !flag::MOVED;
+            } else {
+                // It goes on as having moved.
+                frozen = true;
             }
-            sprite.flags = flags;
         }
         if frozen {
             moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));

@@ -7,7 +7,7 @@ use crate::game::{Counting, EffectInfo, Pass, SpriteType, Timed, TypeInfo};
 use crate::limits::MAX_INTERACTIONS;
 use crate::ontology::effects::{self, Arguments, Effect, Moves, Undeclared};
 use crate::syntax::{Description, InteractionLine, Param, Word};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 #[derive(Default)]
 pub(super) struct Program {
@@ -21,6 +21,18 @@ pub(super) struct Program {
 const NO_KEYWORD: u16 = u16::MAX;
 
 impl Program {
+    /// Types to whose sprites some effect can give speed.
+    pub(super) fn given_speed(&self, types: &[TypeInfo]) -> BTreeSet<SpriteType> {
+        let pairs = self.passes.iter().map(|pass| (pass.first, pass.effect));
+        let timed = self.timed.iter().map(|timed| (timed.target.unwrap_or(SpriteType::NONE), timed.effect));
+        let executed = pairs.chain(self.edge.iter().copied()).chain(timed);
+        // What dies at the edge executes none.
+        let given = executed
+            .filter_map(|(one, effect)| self.effects.get(usize::from(effect))?.effect.gives_speed(one));
+        let families = given.filter_map(|stype| types.get(stype.index()));
+        families.flat_map(|info| info.tree.iter().copied()).collect()
+    }
+
     /// Effects that credit by what an earlier execution found: those that an execution may leave alone, because what is
     /// collected is no resource, or because at the edge there is no partner.
     pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {

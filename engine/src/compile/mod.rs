@@ -97,18 +97,20 @@ fn compile_with(
         return Err(problems);
     }
 
-    let speeds_change = program.effects.iter().any(|info| info.effect.gives_speed());
     let counted: Vec<SpriteType> = terminations.iter().flat_map(Termination::counts).copied().collect();
     let counted = |info: &TypeInfo| info.tree.iter().any(|stype| counted.contains(stype));
     let counted: BTreeSet<SpriteType> =
         types.iter().filter(|info| counted(info)).flat_map(|info| info.tree.iter().copied()).collect();
     counted.iter().for_each(|stype| types[stype.index()].counted = true);
+    for stype in program.given_speed(&types) {
+        types[stype.index()].given_speed = true;
+    }
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
     let foresight = foresight(&types, &program.passes, &program.effects);
     let mover = |&stype: &SpriteType| {
         let info = &types[stype.index()];
-        let idle = |&class: &SpriteClass| behaviour::is_idle(class, &info.traits, speeds_change);
+        let idle = |&class: &SpriteClass| behaviour::is_idle(class, info);
         let class = info.class.filter(|class| !idle(class))?;
         Some(Mover {
             stype,

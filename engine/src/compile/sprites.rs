@@ -283,6 +283,7 @@ fn type_info<'a>(
         singleton: sprite.line.and_then(|line| line.params.iter().rev().find_map(singleton)) == Some(true),
         leaf: sprite.descendants.is_empty(),
         counted: false,
+        given_speed: false,
         incomplete: false,
         unknown_parameters,
         first_differs: scales || unknown_parameters > 0 || class == Some(SpriteClass::OngoingTurningAvatar),

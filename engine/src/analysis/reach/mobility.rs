@@ -117,7 +117,7 @@ impl Model<'_> {
         let always = class == C::RandomMissile || is_driven(class);
         let walker = class.is_a(C::Walker);
         let passive = if class.is_avatar() { always || traits.off_grid } else { always || drifts };
-        let passive = passive && (class.is_avatar() || !is_idle(class, traits, self.speeds_change));
+        let passive = passive && (class.is_avatar() || !is_idle(class, info));
         let steered = match class {
             C::HorizontalAvatar | C::FlakAvatar => Ways::LEFT.with(Ways::RIGHT),
             C::VerticalAvatar => Ways::UP.with(Ways::DOWN),

@@ -32,8 +32,6 @@ pub(super) struct Model<'a> {
     pub(super) smallest: f64,
     /// Whether some sprite is larger or smaller than a cell.
     pub(super) scales: bool,
-    /// Some effect can give speed to what has none.
-    pub(super) speeds_change: bool,
     /// By type: how many cells others can move it in a tick, at most.
     pub(super) pushed_far: Vec<i32>,
     /// By type: something accelerates it, apart from itself.
@@ -94,7 +92,6 @@ impl<'a> Model<'a> {
             smallest,
             pushed_far: vec![0; none.len()],
             scales: factors().any(|factor| factor != 1.0),
-            speeds_change: rules.effects.iter().any(|info| info.effect.gives_speed()),
             forced: none.clone(),
             takes_orientation: none,
         };

@@ -283,9 +283,13 @@ impl Effect {
         )
     }
 
-    /// Whether it can give speed to a sprite of grid physics that has none.
-    pub(crate) fn gives_speed(&self) -> bool {
-        matches!(self, Effect::ChangeSpeed { .. } | Effect::WallStop | Effect::WallReverse)
+    /// Whom it can give speed to, of sprites of grid physics that have none, when it is executed on sprites of the type.
+    pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
+        match self {
+            Effect::ChangeSpeed { stype, .. } => Some(*stype),
+            Effect::WallStop | Effect::WallReverse => Some(one),
+            _ => None,
+        }
     }
 
     /// Whether executing it can draw from the chance.

@@ -7,7 +7,7 @@ pub(in crate::ontology) mod walkers;
 
 use super::class::SpriteClass;
 use super::traits::Traits;
-use crate::game::SpriteType;
+use crate::game::{SpriteType, TypeInfo};
 use crate::ontology::physics;
 use crate::state::{Slot, Sprite, State, flag};
 use crate::step::Step;
@@ -15,16 +15,16 @@ use crate::step::Step;
 /// `heading` of an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u16 = 4;
 
-/// Whether the update of such sprites does anything at all: if not, they cost nothing in a tick. `speeds_change` says
-/// whether some effect of the game can give speed to what has none.
-pub(crate) fn is_idle(class: SpriteClass, traits: &Traits, speeds_change: bool) -> bool {
+/// Whether the update of such sprites does anything at all: if not, they cost nothing in a tick.
+pub(crate) fn is_idle(class: SpriteClass, info: &TypeInfo) -> bool {
     use SpriteClass as C;
+    let traits = &info.traits;
     match class {
         C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => {}
         C::Portal | C::SpriteProducer => {}
         class => return class.is_avatar(),
     }
-    let stands = traits.speed == 0.0 && !traits.continuous && !speeds_change;
+    let stands = traits.speed == 0.0 && !traits.continuous && !info.given_speed;
     let stays = traits.is_static || traits.only_active || stands;
     stays && traits.time_to_live < 0 && !traits.oriented_image
 }
