@@ -35,6 +35,11 @@ impl Kind {
     fn bit(&self) -> usize {
         self.own.trailing_zeros() as usize
     }
+
+    /// Whether someone is in a cell of such a mask that a rule pairs the type with.
+    pub(crate) fn has_partners_among(&self, mask: Mask) -> bool {
+        mask.any & self.partners != 0
+    }
 }
 
 /// The fixed tables of one game.

@@ -1,13 +1,14 @@
 //! Sprites in flight: those that go straight on as long as nothing happens to them.
 //!
-//! A car on its lane moves two pixels in every tick, and each tick does to it what the last one did. So it is not updated:
+//! A car on its lane moves two pixels in every tick, and each tick does to it what the last one did; an invader moves in every
+//! third tick, and does nothing else but draw whether to drop something. So what moves like that is not updated:
 //! where it is follows from where it was and how long ago, and so does its share of the hash (`hash.rs`). Only when it comes
 //! to cover other cells is it entered there, and in those ahead. Which rules are about sprites that share its cells is known
 //! all the while (`contacts.rs`), and whether it overlaps them is asked of where it is now. As soon as an effect is executed
 //! on it, or can reach it, it lands: it is an ordinary sprite again.
 //!
-//! Which types may fly is decided so that no one can tell the difference (`spec/01` §4): their movement draws nothing, counts
-//! nothing and does not wait, and no other sprite looks for them.
+//! Which types may fly is decided so that no one can tell the difference (`spec/01` §4): their movement draws nothing and counts
+//! nothing, and no other sprite looks for them. Those that draw go on drawing, and land when they have to do something.
 
 use crate::game::Rules;
 use crate::geometry::Rect;
@@ -23,38 +24,57 @@ pub(crate) struct Flight {
     pub(crate) due: i32,
 }
 
-/// Pixels that a sprite in flight moves in a tick at most, and that it is away from the board when it takes off: far from
-/// where numbers overflow.
+/// Pixels that a sprite is away from the board when it takes off, and that it moves at once, at most: far from where numbers
+/// overflow.
 const FARTHEST: i32 = 1 << 16;
+const FASTEST: i32 = 1 << 15;
+/// Ticks between the moves of what flies, at most.
+pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// Where a sprite in flight is in a tick.
-fn flown(sprite: &Sprite, tick: i32) -> Rect {
-    let Sprite { rect, last, .. } = *sprite;
-    let ticks = tick.wrapping_sub(sprite.moved_at);
-    let along = |at: i32, last: i32| at.wrapping_add(at.wrapping_sub(last).wrapping_mul(ticks));
-    rect.at(along(rect.x, last.x), along(rect.y, last.y))
+/// Makes a sprite in flight as it was right after its last move up to a tick. Returns how far it moves at once.
+fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
+    let Sprite { rect, last, moved_at, .. } = *sprite;
+    let (dx, dy) = (rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
+    let ticks = tick.wrapping_sub(moved_at);
+    let period = i32::from(sprite.period);
+    let moves = if period == 1 { ticks } else { ticks.div_euclid(period) };
+    let along = |at: i32, by: i32| at.wrapping_add(by.wrapping_mul(moves));
+    sprite.rect = rect.at(along(rect.x, dx), along(rect.y, dy));
+    (sprite.last.x, sprite.last.y) = (sprite.rect.x.wrapping_sub(dx), sprite.rect.y.wrapping_sub(dy));
+    sprite.moved_at = moved_at.wrapping_add(moves.wrapping_mul(period));
+    (dx, dy)
 }
 
-/// Makes a sprite in flight as it is in a tick. Returns how far it moves in one.
-fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
-    let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.last.x), sprite.rect.y.wrapping_sub(sprite.last.y));
-    sprite.rect = flown(sprite, tick);
-    (sprite.last.x, sprite.last.y) = (sprite.rect.x.wrapping_sub(dx), sprite.rect.y.wrapping_sub(dy));
-    sprite.moved_at = tick;
-    (dx, dy)
+/// Makes a sprite in flight as it is in a tick.
+fn settle_in(sprite: &mut Sprite, tick: i32) {
+    fly_to(sprite, tick);
+    if sprite.moved_at != tick {
+        sprite.last = sprite.rect;
+    }
+}
+
+/// The tick of the move after so many more.
+fn due(sprite: &Sprite, moves: i32) -> i32 {
+    let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
+    sprite.moved_at.saturating_add(ticks)
 }
 
 impl State {
     /// Where a sprite is, in flight or not; in the event phase and between steps.
     pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
-        if sprite.rest == mark::FLYING { flown(sprite, self.tick) } else { sprite.rect }
+        if sprite.rest != mark::FLYING {
+            return sprite.rect;
+        }
+        let mut sprite = *sprite;
+        fly_to(&mut sprite, self.tick);
+        sprite.rect
     }
 
     /// A sprite as it is now, in flight or not; in the event phase and between steps.
     pub(crate) fn present(&self, slot: Slot) -> Sprite {
         let mut sprite = *self.sprite(slot);
         if sprite.rest == mark::FLYING {
-            fly_to(&mut sprite, self.tick);
+            settle_in(&mut sprite, self.tick);
         }
         sprite
     }
@@ -62,12 +82,16 @@ impl State {
     /// Ends a flight: the sprite is as it would be after its update in `tick`.
     fn land(&mut self, rules: &Rules, slot: Slot, tick: i32) {
         let sprite = self.edit_motion(slot);
-        fly_to(sprite, tick);
-        sprite.rest = mark::TRIED;
-        sprite.set(flag::MOVED, true);
+        settle_in(sprite, tick);
         let (stype, rect) = (sprite.stype, sprite.rect);
+        if sprite.last == rect {
+            sprite.rest = mark::NOTHING;
+        } else {
+            sprite.rest = mark::TRIED;
+            sprite.set(flag::MOVED, true);
+            self.moved.push(slot);
+        }
         self.groups[stype.index()].asleep -= 1;
-        self.moved.push(slot);
         self.enter_anew(rules, slot, rect);
     }
 
@@ -104,9 +128,9 @@ impl State {
         if !self.rests.is_empty() {
             self.touch(slot);
         }
-        let due = self.tick.saturating_add(moves).saturating_add(1);
+        let sprite = *self.sprite(slot);
+        let due = due(&sprite, moves);
         if rules.any_rests {
-            let sprite = *self.sprite(slot);
             self.stamp(&sprite, due);
         }
         due
@@ -132,21 +156,38 @@ impl Step<'_> {
 
     #[inline(never)]
     fn land_now(&mut self, slot: Slot) {
+        self.strike_flight(slot);
+        self.state.land(self.rules, slot, self.state.tick);
+    }
+
+    /// A sprite is about to be updated after all, in this tick.
+    #[inline(never)]
+    pub(crate) fn land_before_update(&mut self, slot: Slot) {
+        self.strike_flight(slot);
+        self.land_late(slot);
+    }
+
+    fn strike_flight(&mut self, slot: Slot) {
         self.work(self.state.flights.len() / 64);
         let at = self.state.flights.iter().position(|flight| flight.slot == slot);
         self.state.flights.swap_remove(at.expect("what flies is in the list"));
-        self.state.land(self.rules, slot, self.state.tick);
+    }
+
+    /// Ends a flight before the update in this tick.
+    fn land_late(&mut self, slot: Slot) {
+        self.state.land(self.rules, slot, self.state.tick - 1);
+        let sprite = self.state.edit_motion(slot);
+        sprite.last = sprite.rect;
     }
 
     /// Nothing flies any more. In the middle of the updates, those are a tick behind that are yet to be updated.
     pub(crate) fn land_midway(&mut self) {
         let mut flights = std::mem::take(&mut self.state.flights);
         for flight in flights.drain(..) {
-            let late = !self.has_moved(flight.slot);
-            self.state.land(self.rules, flight.slot, self.state.tick - i32::from(late));
-            if late {
-                let sprite = self.state.edit(flight.slot);
-                sprite.last = sprite.rect;
+            if self.has_moved(flight.slot) {
+                self.state.land(self.rules, flight.slot, self.state.tick);
+            } else {
+                self.land_late(flight.slot);
             }
         }
         self.state.flights = flights;
@@ -157,8 +198,9 @@ impl Step<'_> {
     pub(crate) fn take_off(&mut self, slot: Slot) -> bool {
         let sprite = *self.state.sprite(slot);
         let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.last.x), sprite.rect.y.wrapping_sub(sprite.last.y));
-        let near =
-            [sprite.rect.x, sprite.rect.y, dx, dy].iter().all(|at| at.unsigned_abs() < FARTHEST as u32);
+        let within = |most: i32| move |at: &i32| at.unsigned_abs() < most as u32;
+        let near = [sprite.rect.x, sprite.rect.y].iter().all(within(FARTHEST));
+        let near = near && [dx, dy].iter().all(within(FASTEST));
         let tick = self.state.tick;
         if !near || sprite.is(flag::BIG | flag::KILLED) || sprite.moved_at != tick {
             return false;
@@ -168,14 +210,16 @@ impl Step<'_> {
         if physics::aim(self, slot) != Some(next) {
             return false;
         }
-        let due = tick.saturating_add(moves).saturating_add(1);
+        let period = self.rules.types[sprite.stype.index()].traits.cooldown.clamp(1, LONGEST_PERIOD) as u16;
+        let sprite = Sprite { period, ..sprite };
+        let due = due(&sprite, moves);
         if self.rules.any_rests {
             self.state.stamp(&sprite, due);
         }
-        let sprite = self.state.edit_motion(slot);
-        sprite.rest = mark::FLYING;
-        sprite.set(flag::MOVED, false);
         let stype = sprite.stype;
+        let sprite = self.state.edit_motion(slot);
+        (sprite.rest, sprite.period) = (mark::FLYING, period);
+        sprite.set(flag::MOVED, false);
         self.state.groups[stype.index()].asleep += 1;
         self.state.flights.push(Flight { slot, due });
         self.state.next_due = self.state.next_due.min(due);

@@ -146,20 +146,71 @@ fn still_hash(sprite: &Sprite) -> u64 {
     fold(low ^ SECRET[0], high ^ SECRET[1])
 }
 
-/// What a sprite adds to the hash of its state when it was last settled.
+/// What a sprite adds to the hash of its state when it was last settled: `word`, and what it has grown by since, times keys of
+/// the sprite's own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Share {
-    /// Where it is and what changes with moving, as one number; of a sprite in flight, as it would have been at tick 0. 0 if
-    /// the slot is free.
+    /// Where it is and what changes with moving, as one number; of a sprite in flight, before its first move from tick 0 on.
+    /// 0 if the slot is free.
     pub(crate) word: u64,
-    /// By how much `word` is more in each tick: only what flies moves by itself.
-    pub(crate) drift: u64,
-    /// What seldom changes of it, hashed: a key that no other sprite has.
+    /// How the word grows by itself.
+    pub(crate) steady: Steady,
+    /// What seldom changes of the sprite, hashed: no other sprite has the same.
     pub(crate) still: u64,
 }
 
-/// What a pixel down is in [`Share::word`], when a pixel to the right is 1.
+/// What a pixel down, and a tick later, are in [`Share::word`], when a pixel to the right is 1.
 const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
+const LATER: u64 = 0xD1B5_4A32_D192_ED03;
+
+fn point(x: i32, y: i32) -> u64 {
+    (x as u64).wrapping_add((y as u64).wrapping_mul(DOWN))
+}
+
+/// How a sprite in flight goes on, in one number: pixels right and down that it moves, every so many ticks, in which of them, and
+/// whether it matters when. 0 for all others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Steady(pub(crate) u64);
+
+impl Steady {
+    const NONE: Steady = Steady(0);
+    /// The bit that says that it matters when the sprite moved last.
+    const AGES: u64 = 1 << 63;
+
+    fn of(sprite: &Sprite, ages: bool) -> Steady {
+        let by = |at: i32, last: i32| u64::from(at.wrapping_sub(last) as u16);
+        let phase = match sprite.period {
+            1 => 0,
+            period => sprite.moved_at.rem_euclid(i32::from(period)) as u64,
+        };
+        let ages = if ages { Steady::AGES } else { 0 };
+        let ticks = ages | phase << 48 | u64::from(sprite.period) << 32;
+        Steady(ticks | by(sprite.rect.y, sprite.last.y) << 16 | by(sprite.rect.x, sprite.last.x))
+    }
+
+    fn period(self) -> u16 {
+        (self.0 >> 32) as u16
+    }
+
+    fn phase(self) -> u16 {
+        ((self.0 & !Steady::AGES) >> 48) as u16
+    }
+
+    /// By how much the word grows in a move.
+    fn growth(self) -> u64 {
+        let by = point(i32::from(self.0 as i16), i32::from((self.0 >> 16) as i16));
+        let later = if self.0 & Steady::AGES == 0 { 0 } else { LATER.wrapping_mul(u64::from(self.period())) };
+        by.wrapping_add(later)
+    }
+}
+
+/// How many moves there were from tick 0 to `tick`, of one every `period` ticks.
+fn moves(tick: i32, period: u16, phase: u16) -> u64 {
+    match period {
+        1 => tick as u64,
+        period => (tick - i32::from(phase)).div_euclid(i32::from(period)) as u64,
+    }
+}
 
 impl Share {
     /// The share of a sprite, given what it was.
@@ -169,7 +220,7 @@ impl Share {
             return Share::of(sprite, self.still);
         }
         match sprite.is(flag::GONE) {
-            true => Share { word: 0, drift: 0, still: self.still },
+            true => Share { word: 0, steady: Steady::NONE, still: self.still },
             false => Share::of(sprite, still_hash(sprite)),
         }
     }
@@ -177,92 +228,138 @@ impl Share {
     /// The share of a sprite, given its [`still_hash`].
     #[inline(always)]
     fn of(sprite: &Sprite, still: u64) -> Share {
-        let &Sprite { rect, last, .. } = sprite;
         let look =
             u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading) << 32 | u64::from(sprite.flags);
         let kind = look & (!0 << 32 | u64::from(flag::LASTING));
+        let rest = fold(kind ^ SECRET[3], two(sprite.count, sprite.time_to_live) ^ SECRET[1]);
         // When it moved last matters only where a cooldown may hold it up, or where that is its age.
         let ages = sprite.flags & (flag::BRISK | flag::FROZEN) != flag::BRISK;
-        let moved_at = if ages { sprite.moved_at } else { 0 };
-        let point = |x: i32, y: i32| (x as u64).wrapping_add((y as u64).wrapping_mul(DOWN));
-        let since = kind ^ SECRET[2].wrapping_mul(moved_at as u64);
-        let rest = fold(since ^ SECRET[3], two(sprite.count, sprite.time_to_live) ^ SECRET[1]);
-        let word = point(rect.x, rect.y).wrapping_add(rest);
+        let moved_at = if ages { LATER.wrapping_mul(sprite.moved_at as u64) } else { 0 };
+        let word = point(sprite.rect.x, sprite.rect.y).wrapping_add(moved_at).wrapping_add(rest);
         if sprite.rest != mark::FLYING {
-            return Share { word, drift: 0, still };
+            return Share { word, steady: Steady::NONE, still };
         }
-        let drift = point(rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
-        Share { word: word.wrapping_sub(drift.wrapping_mul(sprite.moved_at as u64)), drift, still }
-    }
-}
-
-/// The sums of all shares, each times its keys, modulo 2⁶⁴.
-///
-/// A sprite that keeps moving as it moves has the same share tick after tick. That is what the sum of drifts is for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Sums {
-    pub(crate) words: [u64; 2],
-    pub(crate) drifts: [u64; 2],
-}
-
-impl Sums {
-    #[inline(always)]
-    fn exchange(&mut self, old: Share, new: Share) {
-        if old.still == new.still {
-            self.add(new.word.wrapping_sub(old.word), new.drift.wrapping_sub(old.drift), new.still);
-        } else {
-            self.add(old.word.wrapping_neg(), old.drift.wrapping_neg(), old.still);
-            self.add(new.word, new.drift, new.still);
-        }
+        let steady = Steady::of(sprite, ages);
+        let moves = moves(sprite.moved_at, steady.period(), steady.phase());
+        Share { word: word.wrapping_sub(steady.growth().wrapping_mul(moves)), steady, still }
     }
 
+    /// The keys: odd, so that no difference of two words is lost.
     #[inline(always)]
-    fn add(&mut self, word: u64, drift: u64, still: u64) {
-        // Odd, so that no difference of two words is lost.
-        let keys = [still | 1, (still ^ still >> 32).wrapping_mul(SECRET[0]) | 1];
-        let add = |sums: &mut [u64; 2], by: u64| {
-            *sums = [0, 1].map(|at| sums[at].wrapping_add(by.wrapping_mul(keys[at])));
-        };
-        add(&mut self.words, word);
-        if drift != 0 {
-            add(&mut self.drifts, drift);
-        }
+    fn keys(self) -> [u64; 2] {
+        [self.still | 1, (self.still ^ self.still >> 32).wrapping_mul(SECRET[0]) | 1]
     }
 
-    /// The sums in a tick.
-    #[inline(always)]
+    /// Its part of the sum of a tick.
     fn at(self, tick: i32) -> [u64; 2] {
-        [0, 1].map(|at| self.words[at].wrapping_add(self.drifts[at].wrapping_mul(tick as u64)))
+        let grown = match self.steady {
+            Steady::NONE => 0,
+            steady => steady.growth().wrapping_mul(moves(tick, steady.period(), steady.phase())),
+        };
+        times(self.keys(), self.word.wrapping_add(grown))
     }
+}
+
+/// Two numbers modulo 2⁶⁴ that take the place of one modulo 2¹²⁸.
+type Sum = [u64; 2];
+
+#[inline(always)]
+fn times(keys: Sum, word: u64) -> Sum {
+    keys.map(|key| key.wrapping_mul(word))
+}
+
+#[inline(always)]
+fn plus(one: Sum, other: Sum) -> Sum {
+    [one[0].wrapping_add(other[0]), one[1].wrapping_add(other[1])]
+}
+
+#[inline(always)]
+fn minus(one: Sum, other: Sum) -> Sum {
+    [one[0].wrapping_sub(other[0]), one[1].wrapping_sub(other[1])]
+}
+
+/// The growth of all sprites in flight that move in the same ticks, times their keys.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Tide {
+    pub(crate) period: u16,
+    pub(crate) phase: u16,
+    /// How many sprites.
+    pub(crate) flights: u16,
+    pub(crate) growth: Sum,
+}
+
+/// Puts a share in the place of another.
+#[inline(always)]
+fn exchange(old: Share, new: Share, sum: &mut Sum, tides: &mut Vec<Tide>) {
+    if old.still == new.still {
+        *sum = plus(*sum, times(new.keys(), new.word.wrapping_sub(old.word)));
+    } else {
+        *sum = plus(minus(*sum, times(old.keys(), old.word)), times(new.keys(), new.word));
+    }
+    if old.steady.0 | new.steady.0 != 0 && (old.still, old.steady) != (new.still, new.steady) {
+        turn(old, new, tides);
+    }
+}
+
+/// The part of it that is about the tides.
+#[inline(never)]
+fn turn(old: Share, new: Share, tides: &mut Vec<Tide>) {
+    if old.steady != Steady::NONE {
+        let at = tide_of(old.steady, tides);
+        let tide = &mut tides[at];
+        tide.flights -= 1;
+        tide.growth = minus(tide.growth, times(old.keys(), old.steady.growth()));
+        if tide.flights == 0 {
+            tides.swap_remove(at);
+        }
+    }
+    if new.steady != Steady::NONE {
+        let at = tide_of(new.steady, tides);
+        let tide = &mut tides[at];
+        tide.flights += 1;
+        tide.growth = plus(tide.growth, times(new.keys(), new.steady.growth()));
+    }
+}
+
+/// The place of a tide, made if there is none yet.
+fn tide_of(steady: Steady, tides: &mut Vec<Tide>) -> usize {
+    let (period, phase) = (steady.period(), steady.phase());
+    tides.iter().position(|tide| (tide.period, tide.phase) == (period, phase)).unwrap_or_else(|| {
+        tides.push(Tide { period, phase, ..Tide::default() });
+        tides.len() - 1
+    })
 }
 
 impl State {
     /// The hash of all that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
     pub fn state_hash(&self) -> StateHash {
-        let mut sums = self.sums;
+        let mut sum = self.tides.iter().fold(self.sum, |sum, tide| {
+            plus(sum, times(tide.growth, moves(self.tick, tide.period, tide.phase)))
+        });
         for &slot in &self.stale {
             let share = self.shares[usize::from(slot)];
-            sums.exchange(share, share.renewed(self.sprite(slot)));
+            let new = share.renewed(self.sprite(slot));
+            sum = plus(minus(sum, share.at(self.tick)), new.at(self.tick));
         }
         let memory = if self.memory_is_stale { self.hash_memory() } else { self.memory_hash };
-        self.with_globals(sums, memory)
+        self.with_globals(sum, memory)
     }
 
-    /// Renews the running sums, so that [`State::state_hash`] need not look at what changed since the last time.
+    /// Renews the running sum, so that [`State::state_hash`] need not look at what changed since the last time.
     ///
     /// Stepping does not do so by itself: planners, which ask for few hashes, do not pay for all. Cost: O(sprites changed
     /// since the last time).
     pub fn settle_hash(&mut self) {
-        let State { sprites, shares, stale, sums, .. } = self;
-        let (sprites, shares, mut running) = (&mut sprites[..], &mut shares[..], *sums);
+        let State { sprites, shares, stale, sum, tides, .. } = self;
+        let (sprites, shares, mut running) = (&mut sprites[..], &mut shares[..], *sum);
         for &slot in &*stale {
             let (sprite, share) = (&mut sprites[usize::from(slot)], &mut shares[usize::from(slot)]);
             let new = share.renewed(sprite);
-            running.exchange(*share, new);
-            *share = new;
+            let old = std::mem::replace(share, new);
+            exchange(old, new, &mut running, tides);
             sprite.flags &= !(flag::STALE | flag::CHANGED);
         }
-        *sums = running;
+        *sum = running;
         stale.clear();
         if self.memory_is_stale {
             self.memory_hash = self.hash_memory();
@@ -272,12 +369,9 @@ impl State {
 
     /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).
     pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
-        let mut sums = Sums::default();
-        for slot in game.sprite_types().flat_map(|stype| self.slots(stype)) {
-            let sprite = self.sprite(slot);
-            sums.exchange(Share::default(), Share::of(sprite, still_hash(sprite)));
-        }
-        self.with_globals(sums, self.hash_memory())
+        let sprites = game.sprite_types().flat_map(|stype| self.slots(stype)).map(|slot| self.sprite(slot));
+        let shares = sprites.map(|sprite| Share::of(sprite, still_hash(sprite)).at(self.tick));
+        self.with_globals(shares.fold([0; 2], plus), self.hash_memory())
     }
 
     /// What effects remember, and of which types there was a sprite.
@@ -291,13 +385,12 @@ impl State {
         mixer.finish() as u64
     }
 
-    fn with_globals(&self, sums: Sums, memory: u64) -> StateHash {
-        let [one, other] = sums.at(self.tick);
+    fn with_globals(&self, [low, high]: Sum, memory: u64) -> StateHash {
         // No sprite has the largest number as its id.
         let avatar = u64::from(self.avatar_id().unwrap_or(u32::MAX));
         let few = self.outcome_code() << 1 | u64::from(self.can_end);
         let (low, high) = Products::NONE
-            .and(one, other, KEYS[0])
+            .and(low, high, KEYS[0])
             .and(two(self.tick, self.messages as i32), self.score as u64, KEYS[1])
             .and(self.chance.state(), two(self.next_id as i32, self.population), KEYS[2])
             .and(avatar << 32 | few << 24 | self.timers.len() as u64, memory, KEYS[3])
@@ -390,59 +483,55 @@ mod tests {
     use crate::geometry::Rect;
     use std::collections::BTreeSet;
 
-    /// A share of a sprite with that number, which is at (x, y) and flies by (dx, dy) a tick since tick 5.
+    /// A share of a sprite with that number, which is at (x, y) and moves by (dx, dy) every three ticks, the last time in tick 5.
     fn share(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Share {
         let game = Game::from_source("BasicGame\n").unwrap();
         let mut sprite = game.0.models[0];
-        (sprite.id, sprite.moved_at) = (id, 5);
+        (sprite.id, sprite.moved_at, sprite.period) = (id, 5, 3);
         (sprite.rect, sprite.last) =
             (Rect { x, y, w: 10, h: 10 }, Rect { x: x - dx, y: y - dy, w: 10, h: 10 });
         if (dx, dy) != (0, 0) {
             sprite.rest = mark::FLYING;
-            sprite.flags |= flag::BRISK;
-            sprite.flags &= !flag::FROZEN;
         }
         Share::of(&sprite, still_hash(&sprite))
     }
 
-    fn sums(shares: &[Share]) -> Sums {
-        let mut sums = Sums::default();
-        shares.iter().for_each(|&share| sums.exchange(Share::default(), share));
-        sums
+    fn of(shares: &[Share]) -> (Sum, Vec<Tide>) {
+        let (mut sum, mut tides) = ([0; 2], Vec::new());
+        shares.iter().for_each(|&share| exchange(Share::default(), share, &mut sum, &mut tides));
+        (sum, tides)
     }
 
     #[test]
     fn two_sprites_on_other_places_have_other_sums() {
         let places = || (0..8).flat_map(|x| (0..8).map(move |y| (10 * x, 10 * y)));
-        let both = places().flat_map(|one| {
-            places().map(move |other| sums(&[share(1, one, (0, 0)), share(2, other, (0, 0))]).words)
-        });
-        let both: Vec<[u64; 2]> = both.collect();
+        let of_two = |one, other| of(&[share(1, one, (0, 0)), share(2, other, (0, 0))]).0;
+        let both: Vec<Sum> = places().flat_map(|one| places().map(move |other| of_two(one, other))).collect();
         for half in [0, 1] {
-            let distinct: BTreeSet<u64> = both.iter().map(|words| words[half]).collect();
+            let distinct: BTreeSet<u64> = both.iter().map(|sum| sum[half]).collect();
             assert_eq!(distinct.len(), both.len());
         }
     }
 
     #[test]
-    fn sums_do_not_remember_what_was_exchanged() {
+    fn a_sum_does_not_remember_what_was_taken_out() {
         let (before, after) = (share(1, (3, 4), (0, 0)), share(1, (3, 4), (2, 0)));
         let (other, newborn) = (share(2, (-7, 50), (0, -3)), share(3, (0, 0), (0, 0)));
-        let mut running = sums(&[before, other]);
-        running.exchange(before, after);
-        running.exchange(other, newborn);
-        assert_eq!(running, sums(&[newborn, after]));
+        let (mut sum, mut tides) = of(&[before, other]);
+        for (old, new) in [(before, after), (other, newborn)] {
+            exchange(old, new, &mut sum, &mut tides);
+        }
+        assert_eq!((sum, tides), of(&[newborn, after]));
     }
 
     #[test]
-    fn what_flies_is_in_the_sums_where_it_has_come_to() {
-        let flying = sums(&[share(1, (30, 40), (-4, 2))]);
-        for tick in [5, 6, 5000] {
-            let flown = (30 - 4 * (tick - 5), 40 + 2 * (tick - 5));
-            let mut there = share(1, flown, (-4, 2));
-            there.word = there.word.wrapping_add(there.drift.wrapping_mul(5));
-            there.drift = 0;
-            assert_eq!(flying.at(tick), sums(&[there]).at(tick), "tick {tick}");
+    fn what_flies_is_in_the_sum_where_it_has_come_to() {
+        let flying = share(1, (30, 40), (-4, 2));
+        for tick in 5..50 {
+            let moves = (tick - 5) / 3;
+            let landed = share(1, (30 - 4 * moves, 40 + 2 * moves), (0, 0));
+            let later = LATER.wrapping_mul(3 * moves as u64);
+            assert_eq!(flying.at(tick), Share { word: landed.word.wrapping_add(later), ..landed }.at(tick));
         }
     }
 }

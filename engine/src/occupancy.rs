@@ -149,17 +149,27 @@ impl State {
     /// Enters a sprite in flight where it is now, and says for how many more moves by (`dx`, `dy`) that holds.
     ///
     /// One that goes along an axis is entered in two cells, where it is and ahead of it, so that it comes to other ones half
-    /// as often. Who looks for it there looks at where it is.
+    /// as often. Who looks for it there looks at where it is. A slow one is not, if it would stand there for long beside what a
+    /// rule pairs it with.
     #[inline(always)]
     pub(crate) fn enter_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> i32 {
         let (rect, from) = (self.sprite(slot).rect, self.located(slot));
         let exact = self.locate(rect, from.column, from.row);
-        let lane = self.lane(rect, exact, dx, dy);
+        let lane =
+            self.lane(rect, exact, dx, dy).filter(|(lane, _)| !self.is_beside_partners(rules, slot, *lane));
         let to = lane.map_or(exact, |(to, _)| to);
         if from != to {
             self.shift(rules, slot, from, to);
         }
         lane.map_or_else(|| self.moves_within(self.sprite(slot), dx, dy), |(_, moves)| moves)
+    }
+
+    fn is_beside_partners(&self, rules: &Rules, slot: Slot, lane: Located) -> bool {
+        let sprite = self.sprite(slot);
+        let kind = &rules.contacts.kinds[sprite.stype.index()];
+        let cell = self.cell(i32::from(lane.column), i32::from(lane.row));
+        let mut cells = self.span(cell, lane.flags).cells();
+        sprite.period != 1 && cells.any(|cell| kind.has_partners_among(self.masks[cell]))
     }
 
     /// The same for one that is in two cells now, and goes on to the second of them and the one after that, as most do.
@@ -181,14 +191,17 @@ impl State {
         if by == 0 || !ahead || !inside || next < 1 || next >= cells {
             return None;
         }
-        *low = next as i16;
+        let (after, gone, new) = if by > 0 {
+            (before + unit, before, before + 2 * unit)
+        } else {
+            (before - unit, before + unit, before - unit)
+        };
         let kind = &rules.contacts.kinds[sprite.stype.index()];
+        if sprite.period != 1 && kind.has_partners_among(self.masks[new]) {
+            return None;
+        }
+        *low = next as i16;
         if kind.own != 0 {
-            let (after, gone, new) = if by > 0 {
-                (before + unit, before, before + 2 * unit)
-            } else {
-                (before - unit, before + unit, before - unit)
-            };
             self.unlink(slot, before);
             self.link(slot, after);
             self.depart(&rules.contacts, kind, gone);

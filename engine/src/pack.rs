@@ -9,7 +9,7 @@ use crate::contacts::Mask;
 use crate::flight::Flight;
 use crate::game::{Action, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
-use crate::hash::{Share, Sums};
+use crate::hash::{Share, Steady, Tide};
 use crate::rest::Rest;
 use crate::state::{Extra, Group, Held, Replaced, Sprite, State, Target, Timer};
 
@@ -69,8 +69,8 @@ macro_rules! state_fields {
 }
 
 state_fields! {
-    scalars tick score chance avatar next_id population messages block columns rows free can_end sums memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
-    buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
+    scalars tick score chance avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
+    buffers sprites shares tides groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
     scratch touched ways
 }
 
@@ -216,10 +216,10 @@ fields! {
     Held { holder resource amount }
     Replaced { holder place stype }
     Group { head tail count disabled loose big off asleep }
-    Share { word drift still }
-    Sums { words drifts }
+    Share { word steady still }
+    Tide { period phase flights growth }
     Extra { holder rotation gravity facing block_time target last_known }
-    Sprite { rect last orientation speed id moved_at health max_health time_to_live count start stype rest flags spawns extra heading next previous cell_next cell_previous column row }
+    Sprite { rect last orientation speed id moved_at health max_health time_to_live count start stype rest period flags spawns extra heading next previous cell_next cell_previous column row }
 }
 
 macro_rules! wrapped {
@@ -240,7 +240,7 @@ macro_rules! wrapped {
     )*};
 }
 
-wrapped! { SpriteType Chance }
+wrapped! { SpriteType Chance Steady }
 
 impl<T: Bytes, U: Bytes> Bytes for (T, U) {
     fn put(self, to: &mut Vec<u8>) {

@@ -41,6 +41,7 @@ pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
         extra: NONE,
         stype,
         rest: mark::NOTHING,
+        period: 1,
         flags: flags.into_iter().fold(0, |all, (bit, on)| if on { all | bit } else { all }),
         heading: sprites::NO_HEADING,
         next: NONE,

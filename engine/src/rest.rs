@@ -9,6 +9,7 @@
 //! counts nothing and does not wait; the rule that puts it back costs no points; nothing else happens to it in the tick; no
 //! rule is about anything that it stands on; no one looks for its type. An effect that reaches sprites from afar wakes all.
 
+use crate::flight::LONGEST_PERIOD;
 use crate::game::{EffectInfo, Pass, SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
@@ -89,6 +90,7 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
                     .any(|family| family.in_tree(stype))
         })
     };
+    let draws = |info: &TypeInfo| matches!(info.class, Some(C::SpawnPoint | C::Bomber));
     let may = |(number, info): (u16, &TypeInfo)| {
         let traits = &info.traits;
         let plain = matches!(
@@ -105,9 +107,10 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
                     | C::RandomMissile
             )
         );
-        plain
+        (plain || draws(info) && !traits.oriented_image)
             && !traits.continuous
-            && traits.cooldown <= 1
+            // What waits, and comes to another cell with every move, costs less as it is.
+            && (traits.cooldown <= 1 || traits.cooldown <= LONGEST_PERIOD && traits.speed.abs() < 1.0)
             && traits.last_move == 0
             && traits.time_to_live < 0
             && info.order.is_some()
@@ -115,7 +118,8 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
     };
     let foreseen = |(number, info)| {
         let flies = may((number, info));
-        Foresight { flies, rests: flies && !any_large && is_put_back(SpriteType(number)) }
+        let tries_always = info.traits.cooldown <= 1 && !draws(info);
+        Foresight { flies, rests: flies && tries_always && !any_large && is_put_back(SpriteType(number)) }
     };
     (0u16..).zip(types).map(foreseen).collect()
 }
@@ -219,7 +223,9 @@ impl Step<'_> {
             if rest == mark::TRIED && !back && self.take_off(slot) {
                 continue;
             }
-            if rest < mark::SPOILED && rest != mark::NOTHING && back && self.rests {
+            let sprite = self.state.sprite(slot);
+            let may_rest = || self.rests && self.rules.foresight[sprite.stype.index()].rests;
+            if rest < mark::SPOILED && rest != mark::NOTHING && back && may_rest() {
                 self.try_rest(slot, rest - 1);
             }
             self.state.moved[kept] = slot;

@@ -10,7 +10,7 @@ use crate::contacts::Mask;
 use crate::flight::Flight;
 use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
-use crate::hash::{Share, Sums};
+use crate::hash::{Share, Tide};
 use crate::limits::MAX_SLOTS;
 use crate::ontology::class::SpriteClass;
 use crate::paths::Ways;
@@ -90,6 +90,8 @@ pub(crate) struct Sprite {
     pub(crate) stype: SpriteType,
     /// What has happened to it in this tick, as far as rest is concerned (`rest.rs`).
     pub(crate) rest: u16,
+    /// Ticks between its moves, in flight.
+    pub(crate) period: u16,
     /// Spawners: what they make now; updateSpawnType changes it.
     pub(crate) spawns: SpriteType,
     /// Index into `State::extras`, or NONE.
@@ -223,8 +225,8 @@ pub struct State {
     pub(crate) free: Slot,
     /// Written by StopCounter: whether counters may end the game.
     pub(crate) can_end: bool,
-    /// The sums of `shares`.
-    pub(crate) sums: Sums,
+    /// The sum of `shares`, but for what grows by itself.
+    pub(crate) sum: [u64; 2],
     /// How many sprites are larger than a cell.
     pub(crate) big: u32,
     /// How many are not wholly on the screen.
@@ -236,6 +238,8 @@ pub struct State {
     pub(crate) sprites: Vec<Sprite>,
     /// By slot: the share of the sprite in the hash when it was last settled.
     pub(crate) shares: Vec<Share>,
+    /// The growth of what flies, when the hash was last settled.
+    pub(crate) tides: Vec<Tide>,
     pub(crate) groups: Vec<Group>,
     /// Whether the counts of `groups` have changed since terminations looked at them.
     pub(crate) census_changed: bool,
@@ -324,8 +328,8 @@ macro_rules! clone_fields {
 }
 
 clone_fields! { to, from;
-    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sums memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
-    buffers sprites shares groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
+    buffers sprites shares tides groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
     empty touched;
     shared ways
 }
@@ -381,6 +385,7 @@ impl State {
             + bytes(&self.sprites)
             + bytes(&self.groups)
             + bytes(&self.shares)
+            + bytes(&self.tides)
             + bytes(&self.cells)
             + bytes(&self.masks)
             + bytes(&self.covered)

@@ -5,7 +5,6 @@ use crate::Seed;
 use crate::chance::Chance;
 use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::Direction;
-use crate::hash::Sums;
 use crate::level::Level;
 use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
 use crate::ontology::sprites::{Habit, Mover, npcs, producers};
@@ -102,7 +101,7 @@ impl Game {
             rows,
             free: NONE,
             can_end: rules.can_end,
-            sums: Sums::default(),
+            sum: [0; 2],
             memory_hash: 0,
             memory_is_stale: true,
             big: 0,
@@ -111,6 +110,7 @@ impl Game {
             big_bits: 0,
             sprites: Vec::new(),
             shares: Vec::new(),
+            tides: Vec::new(),
             groups: vec![Group::EMPTY; rules.types.len()],
             cells: vec![NONE; State::cell_count(columns, rows)],
             masks: Vec::new(),
@@ -305,7 +305,7 @@ impl<'a> Step<'a> {
             if self.stopped.is_some() {
                 return;
             }
-            if asleep == count {
+            if asleep == count && mover.habit != Habit::Draws {
                 continue;
             }
             let traits = &rules.types[mover.stype.index()].traits;
@@ -333,7 +333,12 @@ impl<'a> Step<'a> {
                         }
                         waits
                     }
-                    Habit::Draws => false,
+                    Habit::Draws => {
+                        if sprite.rest == mark::FLYING {
+                            self.land_before_update(slot);
+                        }
+                        false
+                    }
                     Habit::Other => mover.foreseen && sprite.rest & mark::ASLEEP != 0,
                 };
                 if !idle {

@@ -6,6 +6,7 @@ use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::ontology::traits::Traits;
+use crate::rest::mark;
 use crate::state::{NONE, Slot, State};
 use crate::step::Step;
 
@@ -35,7 +36,8 @@ pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut 
     while slot != NONE {
         let sprite = state.sprite(slot);
         let lives = traits.total <= 0 || sprite.count < traits.total;
-        if !lives || sprite.start == -1 || !stays(sprite, traits, state) {
+        let moves = || sprite.rest & mark::ASLEEP == 0 && !stays(sprite, traits, state);
+        if !lives || sprite.start == -1 || moves() {
             break;
         }
         let mut drawn = chance;
