@@ -480,14 +480,22 @@ impl State {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SpriteType;
     use crate::geometry::Rect;
+    use crate::population::model;
     use std::collections::BTreeSet;
+    use std::sync::LazyLock;
+
+    static GAME: LazyLock<Game> = LazyLock::new(|| {
+        let source = "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n  LevelMapping\n  InteractionSet\n  \
+                      TerminationSet\n    Timeout limit=9 win=False\n";
+        Game::from_source(source).unwrap()
+    });
 
     /// A share of a sprite with that number, which is at (x, y) and moves by (dx, dy) every three ticks, the last time in tick 5.
     fn share(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Share {
-        let game = Game::from_source("BasicGame\n").unwrap();
-        let mut sprite = game.0.models[0];
-        (sprite.id, sprite.moved_at, sprite.period) = (id, 5, 3);
+        let mut sprite = model(SpriteType(0), &GAME.0.types[0]);
+        (sprite.id, sprite.moved_at, sprite.period, sprite.flags) = (id, 5, 3, 0);
         (sprite.rect, sprite.last) =
             (Rect { x, y, w: 10, h: 10 }, Rect { x: x - dx, y: y - dy, w: 10, h: 10 });
         if (dx, dy) != (0, 0) {
