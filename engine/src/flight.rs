@@ -2,7 +2,7 @@
 //!
 //! A car on its lane moves two pixels in every tick, and each tick does to it what the last one did; an invader moves in every
 //! third tick, and does nothing else but draw whether to drop something. So what moves like that is not updated:
-//! where it is follows from where it was and how long ago, and so does its share of the hash (`hash.rs`). Only when it comes
+//! where it is follows from where it was and how long ago, and so does its share of the hash (`share.rs`). Only when it comes
 //! to cover other cells is it entered there, and in those ahead. Which rules are about sprites that share its cells is known
 //! all the while (`contacts.rs`), and whether it overlaps them is asked of where it is now. As soon as an effect is executed
 //! on it, or can reach it, it lands: it is an ordinary sprite again.

@@ -58,6 +58,7 @@ mod rest;
 mod sampler;
 mod search_key;
 mod seed;
+mod share;
 mod span;
 mod state;
 mod step;

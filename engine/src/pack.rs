@@ -9,8 +9,8 @@ use crate::contacts::Mask;
 use crate::flight::Flight;
 use crate::game::{Action, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
-use crate::hash::{Share, Steady, Tide};
 use crate::rest::Rest;
+use crate::share::{Share, Steady, Tide};
 use crate::state::{Extra, Group, Held, Replaced, Sprite, State, Target, Timer};
 
 /// A state, as it differs from a base. Only [`State::unpack_from`] with the same base makes sense of it.

@@ -10,11 +10,11 @@ use crate::contacts::Mask;
 use crate::flight::Flight;
 use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
-use crate::hash::{Share, Tide};
 use crate::limits::MAX_SLOTS;
 use crate::ontology::class::SpriteClass;
 use crate::paths::Ways;
 use crate::rest::Rest;
+use crate::share::{Share, Sum, Tide};
 use std::sync::Arc;
 
 /// An index into the sprites of a state.
@@ -226,7 +226,7 @@ pub struct State {
     /// Written by StopCounter: whether counters may end the game.
     pub(crate) can_end: bool,
     /// The sum of `shares`, but for what grows by itself.
-    pub(crate) sum: [u64; 2],
+    pub(crate) sum: Sum,
     /// How many sprites are larger than a cell.
     pub(crate) big: u32,
     /// How many are not wholly on the screen.

@@ -1,0 +1,293 @@
+//! What a sprite adds to the hash of its state, and how that goes on by itself while the sprite flies.
+//!
+//! The hash of a state is a sum over its sprites of a number, times keys that each sprite has for itself (`hash.rs`). The number is
+//! linear in where the sprite is and when it moved last. So what flies needs no look: all that move in the same ticks are one
+//! tide, by whose growth the sum is more after each of their moves.
+
+use crate::hash::{KEYS, Products, SECRET, bits, fold, two};
+use crate::rest::mark;
+use crate::state::{Sprite, flag};
+
+/// What seldom changes of a sprite, hashed.
+///
+/// The last rectangle becomes the rectangle before the next tick looks at it, but for sprites that are not updated.
+#[inline(never)]
+fn still_hash(sprite: &Sprite) -> u64 {
+    let spawns = u64::from(sprite.spawns.0) << 32 | u64::from(sprite.id);
+    let mut products = Products::NONE
+        .and(two(sprite.rect.w, sprite.rect.h), spawns, KEYS[0])
+        .and(bits(sprite.orientation.x), bits(sprite.orientation.y), KEYS[1])
+        .and(bits(sprite.speed), two(sprite.health, sprite.max_health), KEYS[2]);
+    if sprite.start != 0 {
+        products = products.and(sprite.start as u64, 0, KEYS[3]);
+    }
+    if sprite.is(flag::FROZEN) {
+        let last = sprite.last;
+        products = products.and(two(last.x, last.y), two(last.w, last.h), [KEYS[3][1], KEYS[0][0]]);
+    }
+    let (low, high) = products.halves();
+    fold(low ^ SECRET[0], high ^ SECRET[1])
+}
+
+/// What a sprite adds to the hash of its state when it was last settled: `word`, and what it has grown by since, times keys of
+/// the sprite's own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Share {
+    /// Where it is and what changes with moving, as one number; of a sprite in flight, before its first move from tick 0 on.
+    /// 0 if the slot is free.
+    pub(crate) word: u64,
+    /// How the word grows by itself.
+    pub(crate) steady: Steady,
+    /// What seldom changes of the sprite, hashed: no other sprite has the same.
+    pub(crate) still: u64,
+}
+
+/// What a pixel down, and a tick later, are in [`Share::word`], when a pixel to the right is 1.
+const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
+const LATER: u64 = 0xD1B5_4A32_D192_ED03;
+
+fn point(x: i32, y: i32) -> u64 {
+    (x as u64).wrapping_add((y as u64).wrapping_mul(DOWN))
+}
+
+/// How a sprite in flight goes on, in one number: pixels right and down that it moves, every so many ticks, in which of them, and
+/// whether it matters when. 0 for all others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Steady(pub(crate) u64);
+
+impl Steady {
+    const NONE: Steady = Steady(0);
+    /// The bit that says that it matters when the sprite moved last.
+    const AGES: u64 = 1 << 63;
+
+    fn of(sprite: &Sprite, ages: bool) -> Steady {
+        let by = |at: i32, last: i32| u64::from(at.wrapping_sub(last) as u16);
+        let phase = match sprite.period {
+            1 => 0,
+            period => sprite.moved_at.rem_euclid(i32::from(period)) as u64,
+        };
+        let ages = if ages { Steady::AGES } else { 0 };
+        let ticks = ages | phase << 48 | u64::from(sprite.period) << 32;
+        Steady(ticks | by(sprite.rect.y, sprite.last.y) << 16 | by(sprite.rect.x, sprite.last.x))
+    }
+
+    fn period(self) -> u16 {
+        (self.0 >> 32) as u16
+    }
+
+    fn phase(self) -> u16 {
+        ((self.0 & !Steady::AGES) >> 48) as u16
+    }
+
+    /// By how much the word grows in a move.
+    fn growth(self) -> u64 {
+        let by = point(i32::from(self.0 as i16), i32::from((self.0 >> 16) as i16));
+        let later = if self.0 & Steady::AGES == 0 { 0 } else { LATER.wrapping_mul(u64::from(self.period())) };
+        by.wrapping_add(later)
+    }
+}
+
+/// How many moves there were from tick 0 to `tick`, of one every `period` ticks.
+fn moves(tick: i32, period: u16, phase: u16) -> u64 {
+    match period {
+        1 => tick as u64,
+        period => (tick - i32::from(phase)).div_euclid(i32::from(period)) as u64,
+    }
+}
+
+impl Share {
+    /// The share of a sprite, given what it was.
+    #[inline(always)]
+    pub(crate) fn renewed(self, sprite: &Sprite) -> Share {
+        if sprite.flags & (flag::GONE | flag::CHANGED) == 0 {
+            return Share::of(sprite, self.still);
+        }
+        match sprite.is(flag::GONE) {
+            true => Share { word: 0, steady: Steady::NONE, still: self.still },
+            false => Share::fresh(sprite),
+        }
+    }
+
+    /// The share of a sprite, whatever it was.
+    pub(crate) fn fresh(sprite: &Sprite) -> Share {
+        Share::of(sprite, still_hash(sprite))
+    }
+
+    /// The share of a sprite, given its [`still_hash`].
+    #[inline(always)]
+    fn of(sprite: &Sprite, still: u64) -> Share {
+        let look =
+            u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading) << 32 | u64::from(sprite.flags);
+        let kind = look & (!0 << 32 | u64::from(flag::LASTING));
+        let rest = fold(kind ^ SECRET[3], two(sprite.count, sprite.time_to_live) ^ SECRET[1]);
+        // When it moved last matters only where a cooldown may hold it up, or where that is its age.
+        let ages = sprite.flags & (flag::BRISK | flag::FROZEN) != flag::BRISK;
+        let moved_at = if ages { LATER.wrapping_mul(sprite.moved_at as u64) } else { 0 };
+        let word = point(sprite.rect.x, sprite.rect.y).wrapping_add(moved_at).wrapping_add(rest);
+        if sprite.rest != mark::FLYING {
+            return Share { word, steady: Steady::NONE, still };
+        }
+        let steady = Steady::of(sprite, ages);
+        let moves = moves(sprite.moved_at, steady.period(), steady.phase());
+        Share { word: word.wrapping_sub(steady.growth().wrapping_mul(moves)), steady, still }
+    }
+
+    /// The keys: odd, so that no difference of two words is lost.
+    #[inline(always)]
+    fn keys(self) -> Sum {
+        [self.still | 1, (self.still ^ self.still >> 32).wrapping_mul(SECRET[0]) | 1]
+    }
+
+    /// Its part of the sum of a tick.
+    pub(crate) fn at(self, tick: i32) -> Sum {
+        let grown = match self.steady {
+            Steady::NONE => 0,
+            steady => steady.growth().wrapping_mul(moves(tick, steady.period(), steady.phase())),
+        };
+        times(self.keys(), self.word.wrapping_add(grown))
+    }
+}
+
+/// Two numbers modulo 2⁶⁴ that take the place of one modulo 2¹²⁸.
+pub(crate) type Sum = [u64; 2];
+
+#[inline(always)]
+fn times(keys: Sum, word: u64) -> Sum {
+    keys.map(|key| key.wrapping_mul(word))
+}
+
+#[inline(always)]
+pub(crate) fn plus(one: Sum, other: Sum) -> Sum {
+    [one[0].wrapping_add(other[0]), one[1].wrapping_add(other[1])]
+}
+
+#[inline(always)]
+pub(crate) fn minus(one: Sum, other: Sum) -> Sum {
+    [one[0].wrapping_sub(other[0]), one[1].wrapping_sub(other[1])]
+}
+
+/// The growth of all sprites in flight that move in the same ticks, times their keys.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Tide {
+    pub(crate) period: u16,
+    pub(crate) phase: u16,
+    /// How many sprites.
+    pub(crate) flights: u16,
+    pub(crate) growth: Sum,
+}
+
+impl Tide {
+    /// By how much it has grown up to a tick.
+    pub(crate) fn at(self, tick: i32) -> Sum {
+        times(self.growth, moves(tick, self.period, self.phase))
+    }
+}
+
+/// Puts a share in the place of another.
+#[inline(always)]
+pub(crate) fn exchange(old: Share, new: Share, sum: &mut Sum, tides: &mut Vec<Tide>) {
+    if old.still == new.still {
+        *sum = plus(*sum, times(new.keys(), new.word.wrapping_sub(old.word)));
+    } else {
+        *sum = plus(minus(*sum, times(old.keys(), old.word)), times(new.keys(), new.word));
+    }
+    if old.steady.0 | new.steady.0 != 0 && (old.still, old.steady) != (new.still, new.steady) {
+        turn(old, new, tides);
+    }
+}
+
+/// The part of it that is about the tides.
+#[inline(never)]
+fn turn(old: Share, new: Share, tides: &mut Vec<Tide>) {
+    if old.steady != Steady::NONE {
+        let at = tide_of(old.steady, tides);
+        let tide = &mut tides[at];
+        tide.flights -= 1;
+        tide.growth = minus(tide.growth, times(old.keys(), old.steady.growth()));
+        if tide.flights == 0 {
+            tides.swap_remove(at);
+        }
+    }
+    if new.steady != Steady::NONE {
+        let at = tide_of(new.steady, tides);
+        let tide = &mut tides[at];
+        tide.flights += 1;
+        tide.growth = plus(tide.growth, times(new.keys(), new.steady.growth()));
+    }
+}
+
+/// The place of a tide, made if there is none yet.
+fn tide_of(steady: Steady, tides: &mut Vec<Tide>) -> usize {
+    let (period, phase) = (steady.period(), steady.phase());
+    tides.iter().position(|tide| (tide.period, tide.phase) == (period, phase)).unwrap_or_else(|| {
+        tides.push(Tide { period, phase, ..Tide::default() });
+        tides.len() - 1
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rect;
+    use crate::population::model;
+    use crate::{Game, SpriteType};
+    use std::collections::BTreeSet;
+    use std::sync::LazyLock;
+
+    static GAME: LazyLock<Game> = LazyLock::new(|| {
+        let source = "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n  LevelMapping\n  InteractionSet\n  \
+                      TerminationSet\n    Timeout limit=9 win=False\n";
+        Game::from_source(source).unwrap()
+    });
+
+    /// A share of a sprite with that number, which is at (x, y) and moves by (dx, dy) every three ticks, the last time in tick 5.
+    fn share(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Share {
+        let mut sprite = model(SpriteType(0), &GAME.0.types[0]);
+        (sprite.id, sprite.moved_at, sprite.period, sprite.flags) = (id, 5, 3, 0);
+        (sprite.rect, sprite.last) =
+            (Rect { x, y, w: 10, h: 10 }, Rect { x: x - dx, y: y - dy, w: 10, h: 10 });
+        if (dx, dy) != (0, 0) {
+            sprite.rest = mark::FLYING;
+        }
+        Share::fresh(&sprite)
+    }
+
+    fn of(shares: &[Share]) -> (Sum, Vec<Tide>) {
+        let (mut sum, mut tides) = ([0; 2], Vec::new());
+        shares.iter().for_each(|&share| exchange(Share::default(), share, &mut sum, &mut tides));
+        (sum, tides)
+    }
+
+    #[test]
+    fn two_sprites_on_other_places_have_other_sums() {
+        let places = || (0..8).flat_map(|x| (0..8).map(move |y| (10 * x, 10 * y)));
+        let of_two = |one, other| of(&[share(1, one, (0, 0)), share(2, other, (0, 0))]).0;
+        let both: Vec<Sum> = places().flat_map(|one| places().map(move |other| of_two(one, other))).collect();
+        for half in [0, 1] {
+            let distinct: BTreeSet<u64> = both.iter().map(|sum| sum[half]).collect();
+            assert_eq!(distinct.len(), both.len());
+        }
+    }
+
+    #[test]
+    fn a_sum_does_not_remember_what_was_taken_out() {
+        let (before, after) = (share(1, (3, 4), (0, 0)), share(1, (3, 4), (2, 0)));
+        let (other, newborn) = (share(2, (-7, 50), (0, -3)), share(3, (0, 0), (0, 0)));
+        let (mut sum, mut tides) = of(&[before, other]);
+        for (old, new) in [(before, after), (other, newborn)] {
+            exchange(old, new, &mut sum, &mut tides);
+        }
+        assert_eq!((sum, tides), of(&[newborn, after]));
+    }
+
+    #[test]
+    fn what_flies_is_in_the_sum_where_it_has_come_to() {
+        let flying = share(1, (30, 40), (-4, 2));
+        for tick in 5..50 {
+            let moves = (tick - 5) / 3;
+            let landed = share(1, (30 - 4 * moves, 40 + 2 * moves), (0, 0));
+            let later = LATER.wrapping_mul(3 * moves as u64);
+            assert_eq!(flying.at(tick), Share { word: landed.word.wrapping_add(later), ..landed }.at(tick));
+        }
+    }
+}
