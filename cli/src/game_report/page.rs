@@ -51,7 +51,7 @@ impl<'a> Card<'a> {
         let kind = &entry.kind;
         let mut parts = vec![format!("{} × {}", kind.avatar.name(), kind.goal.name())];
         parts.push(words::many(entry.found.rules, "rule"));
-        parts.extend(entry.obstacle.as_ref().map(|criterion| format!("not {criterion}")));
+        parts.extend(entry.obstacle.as_ref().map(|criterion| words::not_passed(criterion)));
         let chips = entry.levels.iter().enumerate().map(|(number, level)| Chip::of(number, level.label));
         Card {
             title: &entry.title,
@@ -139,7 +139,7 @@ fn row(entry: &GameEntry) -> Vec<String> {
     let of = |value: Option<String>| value.unwrap_or_else(none);
     vec![
         entry.title.clone(),
-        entry.obstacle.as_ref().map_or("passes".to_owned(), |criterion| format!("not {criterion}")),
+        entry.obstacle.as_ref().map_or("passes".to_owned(), |criterion| words::not_passed(criterion)),
         format!("{} of {}", found.won, found.levels),
         found.rules.to_string(),
         found.executed.to_string(),

@@ -123,7 +123,7 @@ fn line(row: &LevelRow, proofs: bool) -> String {
     }
     parts.extend(value("pushes").filter(|pushes| *pushes > 0.0).map(|pushes| format!("{pushes:.0} pushes")));
     parts.extend(
-        row.obstacle.iter().filter(|obstacle| *obstacle != "winnable").map(|name| format!("not {name}")),
+        row.obstacle.iter().filter(|obstacle| *obstacle != "winnable").map(|name| words::not_passed(name)),
     );
     parts.join(", ")
 }
@@ -158,7 +158,7 @@ mod tests {
         row.obstacle = Some("length".to_owned());
         assert_eq!(
             (head(7, &row).as_str(), line(&row, true).as_str()),
-            ("7, medium", "34 ticks (shortest), 12 pushes, not length")
+            ("7, medium", "34 ticks (shortest), 12 pushes, length not passed")
         );
         row.measures.clear();
         (row.solved, row.obstacle) = ("impossible".to_owned(), Some("winnable".to_owned()));

@@ -70,7 +70,7 @@ impl Table {
                 None if row.passes => "passes".to_owned(),
                 None => row.solved.clone(),
                 Some(obstacle) if obstacle == "winnable" => row.solved.clone(),
-                Some(obstacle) => format!("not {obstacle}"),
+                Some(obstacle) => words::not_passed(obstacle),
             };
             let none = || words::NONE.to_owned();
             let mut cells = vec![at.to_string(), format!("{} × {}", row.columns, row.rows), verdict];

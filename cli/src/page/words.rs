@@ -19,6 +19,11 @@ pub(crate) fn band(share: &Share) -> String {
     if share.of == 0 { String::new() } else { format!("{low:.0} to {high:.0}\u{a0}%") }
 }
 
+/// `length not passed`: of a criterion.
+pub(crate) fn not_passed(criterion: &str) -> String {
+    format!("{criterion} not passed")
+}
+
 /// `+0.31`.
 pub(crate) fn signed(mean: f64) -> String {
     format!("{mean:+.2}")

@@ -78,6 +78,8 @@ pub struct Facts {
     pub pace: f64,
     /// What it makes by itself; for avatars, by the use key.
     pub makes: Vec<SpriteType>,
+    /// Columns and rows of the cells that it covers, from the one that a level places it in to the right and down.
+    pub span: (usize, usize),
     /// It lives for a few ticks only.
     pub fleeting: bool,
     /// At most one at a time (with its singleton relatives).
@@ -104,6 +106,7 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
                 motion: info.class.map_or(Motion::Still, |class| motion(class, traits)),
                 pace: info.class.map_or(0.0, |class| pace(class, traits, block)),
                 makes: info.class.map_or(Vec::new(), |class| makes(class, traits)),
+                span: traits.span(),
                 fleeting: info.class.is_some_and(|c| c.is_a(SpriteClass::Flicker))
                     || traits.time_to_live >= 0,
                 singleton: path.clone().any(|stype| rules.types[stype.index()].singleton),

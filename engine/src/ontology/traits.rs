@@ -88,6 +88,13 @@ pub(crate) struct Traits {
 }
 
 impl Traits {
+    /// Columns and rows of the cells that such a sprite overlaps, if it starts at the corner of one: at least one each,
+    /// [`MAX_REACH`](crate::limits::MAX_REACH) at most.
+    pub(crate) fn span(&self) -> (usize, usize) {
+        let cells = |factor: f64| (factor.ceil() as usize).max(1);
+        (cells(self.width_factor), cells(self.height_factor))
+    }
+
     /// Base defaults, then those of the class, from its root down.
     pub(crate) fn of_class(class: SpriteClass) -> Traits {
         let mut traits = Traits {

@@ -459,7 +459,7 @@ impl Builder<'_> {
         };
         cells.retain(|&cell| !burrow(self, cell));
         for cell in cells {
-            if self.sampler.ratio(filled, of) {
+            if self.sampler.ratio(filled, of) && self.fits(cell, stype) {
                 self.put(cell, stype);
             }
         }
@@ -472,7 +472,7 @@ impl Builder<'_> {
             .collect();
         for cell in falls {
             let Some(under) = self.board.grid.shift(cell, (0, 1)) else { continue };
-            if self.board.is_free(under) && self.sampler.ratio(4, 5) {
+            if self.fits(under, stype) && self.sampler.ratio(4, 5) {
                 self.put(under, stype);
             }
         }

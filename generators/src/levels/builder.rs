@@ -29,18 +29,43 @@ pub(crate) struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Puts a sprite of the type on a cell.
+    /// Puts a sprite of the type on a cell. What it covers beyond that is kept free.
     pub(crate) fn put(&mut self, cell: usize, stype: SpriteType) {
         self.board.placed[cell] = self.palette.symbol(stype);
         self.log.push((cell, stype));
+        for covered in self.covered_by(cell, stype).skip(1) {
+            self.board.kept[covered] = true;
+        }
     }
 
-    /// Puts the avatar down, one of those that levels can start with.
+    /// Puts the avatar down, one of those that levels can start with: on that cell, or as near to it as the board has room
+    /// for one that is larger than a cell.
     pub(crate) fn put_avatar(&mut self, cell: usize) {
         let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
+        let grid = self.board.grid;
+        let (columns, rows) = self.analysis.facts(stype).span;
+        let x = grid.x(cell).min(grid.columns.saturating_sub(columns));
+        let y = grid.y(cell).min(grid.rows.saturating_sub(rows));
+        let cell = grid.at(x, y);
         self.board.placed[cell] = Some(symbol);
         self.board.start = cell;
         self.log.push((cell, stype));
+        for covered in self.covered_by(cell, stype).skip(1) {
+            self.board.wall[covered] = false;
+            self.board.kept[covered] = true;
+        }
+    }
+
+    /// The cells that a sprite of the type covers, the one that it is put on first.
+    fn covered_by(&self, cell: usize, stype: SpriteType) -> impl Iterator<Item = usize> + use<> {
+        self.board.grid.block(cell, self.analysis.facts(stype).span)
+    }
+
+    /// Whether all that a sprite of the type would cover is free, and on the board.
+    pub(crate) fn fits(&self, cell: usize, stype: SpriteType) -> bool {
+        let (columns, rows) = self.analysis.facts(stype).span;
+        let mut covered = self.covered_by(cell, stype);
+        covered.all(|cell| self.board.is_free(cell)) && self.covered_by(cell, stype).count() == columns * rows
     }
 
     /// Draws a free cell by weight and puts the sprite there.
@@ -61,7 +86,7 @@ impl Builder<'_> {
         {
             return Some(cell);
         }
-        let cells: Vec<usize> = self.board.free().collect();
+        let cells: Vec<usize> = self.board.free().filter(|&cell| self.fits(cell, stype)).collect();
         let weights: Vec<u32> = cells
             .iter()
             .map(|&cell| match weight(self, cell) {
@@ -169,7 +194,7 @@ impl Builder<'_> {
         self.examples().filter(|examples| examples.stance(stype).is_mirrored())?;
         let grid = self.board.grid;
         let twin = grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
-        (self.board.is_free(twin) && !self.cuts(twin, stype)).then_some(twin)
+        (self.fits(twin, stype) && !self.cuts(twin, stype)).then_some(twin)
     }
 
     /// How many of which type the level is to hold: by their roles, or as in examples, and as the configuration says.

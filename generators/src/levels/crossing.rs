@@ -134,7 +134,7 @@ impl Builder<'_> {
         let mut x = self.sampler.below(least);
         while x < grid.columns {
             let cell = grid.at(x, row);
-            if self.board.is_free(cell) && grid.manhattan(cell, self.board.start) >= 2 {
+            if self.fits(cell, stype) && grid.manhattan(cell, self.board.start) >= 2 {
                 self.put(cell, stype);
             }
             x += least + self.sampler.below(4);

@@ -77,7 +77,7 @@ impl Builder<'_> {
             let middle = (2 * at + 1) * field.length / (2 * wish.count);
             let along = (middle + self.sampler.below(3)).saturating_sub(1).min(field.length - 1);
             let cell = field.cell(self, along, deep);
-            if self.board.is_free(cell) {
+            if self.fits(cell, wish.stype) {
                 self.put(cell, wish.stype);
             } else {
                 self.put_where(wish.stype, |builder, cell| u32::from(field.deep(builder, cell) == deep));
@@ -111,7 +111,7 @@ impl Builder<'_> {
             for along in line {
                 let mirrored = along.min(field.length - 1 - along);
                 let cell = field.cell(self, along, band - row);
-                if left > 0 && (mirrored + offset) % pitch < width && self.board.is_free(cell) {
+                if left > 0 && (mirrored + offset) % pitch < width && self.fits(cell, wish.stype) {
                     self.put(cell, wish.stype);
                     left -= 1;
                 }
@@ -145,7 +145,7 @@ impl Builder<'_> {
                         if along < home { home.saturating_sub(3) } else { (home + 3).min(field.length - 1) };
                 }
                 let cell = field.cell(self, along, deep);
-                if self.board.is_free(cell) {
+                if self.fits(cell, wish.stype) {
                     self.put(cell, wish.stype);
                 }
             }

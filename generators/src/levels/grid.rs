@@ -40,6 +40,13 @@ impl Grid {
         Some(self.at(x, y))
     }
 
+    /// The cells of a rectangle whose top left corner is `cell`, as far as they are on the board, row by row.
+    pub(crate) fn block(self, cell: usize, (columns, rows): (usize, usize)) -> impl Iterator<Item = usize> {
+        let (right, bottom) = (self.x(cell) + columns, self.y(cell) + rows);
+        let (right, bottom) = (right.min(self.columns), bottom.min(self.rows));
+        (self.y(cell)..bottom).flat_map(move |y| (self.x(cell)..right).map(move |x| self.at(x, y)))
+    }
+
     /// The up to four cells beside a cell.
     pub(crate) fn beside(self, cell: usize) -> impl Iterator<Item = usize> {
         WAYS.into_iter().filter_map(move |way| self.shift(cell, way))

@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::examples::is_cover;
 use super::grid::FAR;
-use engine::analysis::Role;
+use engine::analysis::{Role, Steering};
 
 impl Builder<'_> {
     /// Adds walls (or, on boards without, more of what lies about) until enough cells are covered, or takes some away until no
@@ -59,7 +59,7 @@ impl Builder<'_> {
             let steps = self.steps();
             let cells: Vec<usize> = self.board.free().collect();
             let weight = |&cell: &usize| {
-                let near = grid.manhattan(cell, self.board.start) < 2;
+                let near = grid.manhattan(cell, self.board.start) < 2 || self.is_on_line(cell);
                 let busy = grid.beside(cell).any(|next| self.board.placed[next].is_some());
                 let cut = near || busy || self.board.would_cut(self.palette, cell);
                 // Walls grow from walls, niches first.
@@ -79,6 +79,19 @@ impl Builder<'_> {
             }
         }
         false
+    }
+
+    /// Whether a cell is on the line that the avatar keeps to, or a large one covers.
+    fn is_on_line(&self, cell: usize) -> bool {
+        let Some(avatar) = self.analysis.start_avatar() else { return false };
+        let grid = self.board.grid;
+        let (columns, rows) = self.analysis.facts(avatar.stype).span;
+        let ahead = |at: usize, from: usize, length: usize| (from..from + length).contains(&at);
+        match avatar.steering {
+            Steering::Horizontal => ahead(grid.y(cell), grid.y(self.board.start), rows),
+            Steering::Vertical => ahead(grid.x(cell), grid.x(self.board.start), columns),
+            _ => false,
+        }
     }
 
     /// One more of what lies about.

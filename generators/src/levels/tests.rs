@@ -238,6 +238,42 @@ fn as_many_are_placed_as_asked_for() {
     assert!(matches!(refused, Err(GenerateError::Unsuitable(why)) if why.contains("900 sprites")));
 }
 
+/// What is larger than a cell gets all the room that it takes.
+#[test]
+fn large_sprites_overlap_nothing() {
+    for (class, by) in [("FlakAvatar stype=spark", "spark"), ("MovingAvatar", "boat")] {
+        let source = format!(
+            "BasicGame\n  SpriteSet\n    stone > Immovable\n    crate > Passive wMult=2\n    post > Passive hMult=1.5\n    \
+             spark > Missile orientation=UP\n    boat > {class} wMult=3\n  LevelMapping\n    s > stone\n    c > crate\n    \
+             p > post\n    b > boat\n  InteractionSet\n    boat stone EOS > stepBack\n    \
+             crate {by} > killSprite\n  TerminationSet\n    SpriteCounter stype=crate limit=0 win=True\n"
+        );
+        let game = Game::from_source(&source).unwrap();
+        let own = game
+            .level("s          s\n c c   s  c \n       ss   \n  p    s p  \n            \ns   b      s\n");
+        let examples = Arc::new(Examples::of(&game, &[own.unwrap()]).unwrap());
+        let levels = ConstructiveLevels::new(&game, LevelConfig::like(examples)).unwrap();
+        for index in 0..SEEDS {
+            let level = levels.generate(Seed::from_text("large").child(class, index)).unwrap();
+            let mut taken = BTreeSet::new();
+            for (cell, &symbol) in level.cells().iter().enumerate() {
+                let (columns, rows) = match symbol {
+                    b'b' => (3, 1),
+                    b'c' => (2, 1),
+                    b'p' => (1, 2),
+                    b's' => (1, 1),
+                    _ => continue,
+                };
+                let (x, y) = (cell % level.columns(), cell / level.columns());
+                assert!(x + columns <= level.columns() && y + rows <= level.rows(), "\n{level}");
+                for y in y..y + rows {
+                    assert!((x..x + columns).all(|x| taken.insert((x, y))), "{x} {y}\n{level}");
+                }
+            }
+        }
+    }
+}
+
 /// A golden vector: if it moves, GENERATION must be bumped.
 #[test]
 fn levels_are_frozen() {

@@ -214,11 +214,10 @@ impl<'a> Flood<'a> {
             self.firm[stype.index()].insert(cell);
         }
         // What is larger than a cell reaches over to the right and down.
-        let size = |factor: f64| (factor.ceil() as i32).max(1);
-        let traits = &self.model.info(stype).traits;
+        let (columns, rows) = self.model.info(stype).traits.span();
         let (x, y) = self.board.place(cell);
-        for y in y..y + size(traits.height_factor) {
-            for x in x..x + size(traits.width_factor) {
+        for y in y..y + rows as i32 {
+            for x in x..x + columns as i32 {
                 self.rest_at(stype, self.board.at(x, y), self.model.born(stype));
             }
         }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use validators::{Fared, Ladder, Line, Verdict, is_guard};
 
 /// The greatest share of wins that is still not won for nothing.
-const FOR_NOTHING: f64 = 0.1;
+pub(super) const FOR_NOTHING: f64 = 0.1;
 
 /// Are they levels at all?
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,6 +1,7 @@
 //! Levels judged for a report: afresh, by everybody.
 
 use super::Judged;
+use super::play::FOR_NOTHING;
 use engine::{Analysis, Level, Seed};
 use generators::levels::{LevelMeasure, LevelMeasures};
 use rayon::prelude::*;
@@ -17,7 +18,8 @@ pub struct Survey<'a> {
 }
 
 impl<'a> Survey<'a> {
-    /// A survey of levels of one game. The ladder is that of the criteria without the players held out: difficulty is what
+    /// A survey of levels of one game. Random keys may win a tenth of their plays, as [`Triviality`](super::Triviality) counts
+    /// them, also where the criteria are stricter so that a choice among many candidates keeps to it. The ladder is that of the criteria without the players held out: difficulty is what
     /// `arcade generate levels --difficulty` means by it.
     ///
     /// # Errors
@@ -26,8 +28,11 @@ impl<'a> Survey<'a> {
         criteria.check()?;
         // The ladder is played here: twice would be dear.
         let asked = |name: &&String| *name != "skill";
-        let panel =
-            Criteria { ask: criteria.ask.iter().filter(asked).cloned().collect(), ..criteria.clone() };
+        let panel = Criteria {
+            ask: criteria.ask.iter().filter(asked).cloned().collect(),
+            random_wins: criteria.random_wins.max(FOR_NOTHING),
+            ..criteria.clone()
+        };
         let climb = criteria.climb().expect("the criteria were checked");
         Ok(Survey {
             analysis,
