@@ -4,6 +4,7 @@
 //! episode of the two games is the same up to the first consequence: chance does not shift.
 
 use crate::Digest;
+use crate::bump::barriers;
 use crate::game::{Game, Rules};
 use crate::ontology::effects::Effect;
 use crate::rest::foresight;
@@ -34,6 +35,9 @@ impl Game {
         rules.foresight = foresight(&rules.types, &rules.passes, &rules.effects);
         rules.any_rests = rules.foresight.iter().any(|of_type| of_type.rests);
         rules.any_flies = rules.foresight.iter().any(|of_type| of_type.flies);
+        rules.barriers =
+            barriers(&rules.types, &rules.passes, &rules.effects, &mut rules.contacts, &rules.movers);
+        rules.any_barriers = rules.contacts.kinds.iter().any(|kind| kind.barriers != 0);
         rules.digest = Digest::of(format!("{} without interaction {line}", rules.digest).as_bytes());
         Game(Arc::new(rules))
     }

@@ -29,6 +29,8 @@ pub(crate) struct Kind {
     pub(crate) own: u64,
     /// The bits of types that a rule pairs it with.
     partners: u64,
+    /// The bits of types that put it back (`bump.rs`).
+    pub(crate) barriers: u64,
 }
 
 impl Kind {
@@ -137,6 +139,11 @@ impl Contacts {
     /// The bit of a type if no other type has it.
     pub(crate) fn sole_bit(&self, stype: usize) -> u64 {
         self.kinds[stype].own & !(1 << (BITS - 1))
+    }
+
+    /// The passes that are about a type, in their order.
+    pub(crate) fn passes_of(&self, stype: SpriteType) -> &[u16] {
+        &self.of_type[stype.index()]
     }
 
     /// How many pairs there are.

@@ -1,5 +1,6 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
+use crate::bump::NEVER;
 use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
@@ -11,6 +12,8 @@ use smallvec::SmallVec;
 
 impl Step<'_> {
     pub(crate) fn events(&mut self, watch: &mut impl Watch) {
+        // What moves now is moved by an effect.
+        self.bumps = false;
         if !self.state.timers.is_empty() {
             self.timers(watch);
             if self.stopped.is_some() {
@@ -26,16 +29,25 @@ impl Step<'_> {
             }
         }
         let rules = self.rules;
-        let Some(mut number) = self.state.next_possible(0) else { return };
-        self.state.tidy_covered(rules);
+        let (mut from, mut is_tidy) = (0, false);
         loop {
-            self.pass = number as i32;
-            self.pair_pass(number, &rules.passes[number], watch);
+            let possible = self.state.next_possible(from);
+            if self.next_bump != NEVER && possible.is_none_or(|number| self.next_bump <= number) {
+                from = self.next_bump;
+                self.settle_bumps(possible == Some(from), watch);
+            } else {
+                let Some(number) = possible else { break };
+                if !is_tidy {
+                    self.state.tidy_covered(rules);
+                    is_tidy = true;
+                }
+                self.pass = number as i32;
+                self.pair_pass(number, &rules.passes[number], watch);
+                from = number + 1;
+            }
             if self.stopped.is_some() {
                 break;
             }
-            let Some(next) = self.state.next_possible(number + 1) else { break };
-            number = next;
         }
     }
 
@@ -332,6 +344,8 @@ impl Step<'_> {
             self.prepare(&info.effect, one);
             let free = info.score_change == 0 && info.counting.is_none();
             self.note(&info.effect, free, one, two);
+        } else if self.next_bump != NEVER && info.effect.reaches_afar() {
+            self.carry_out_bumps();
         }
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
@@ -361,6 +375,8 @@ impl Step<'_> {
                 self.land_one(partner);
                 self.note(&info.effect, false, one, Some(partner));
             }
+        } else if self.next_bump != NEVER && info.effect.reaches_afar() {
+            self.carry_out_bumps();
         }
         let times = effects::execute_batch(self, &info.effect, one, partners);
         self.credit(info, self.state.memory[usize::from(effect)], times);

@@ -1,5 +1,6 @@
 //! A compiled game: immutable, valid, cheap to clone.
 
+use crate::bump::Barriers;
 use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::geometry::Direction;
@@ -325,6 +326,10 @@ pub(crate) struct Rules {
     /// Whether sprites of some type may rest, and fly.
     pub(crate) any_rests: bool,
     pub(crate) any_flies: bool,
+    /// By type.
+    pub(crate) barriers: Vec<Barriers>,
+    /// Whether any type has some.
+    pub(crate) any_barriers: bool,
     pub(crate) timed: Vec<Timed>,
     /// The game has `obs=`, and with it path finding.
     pub(crate) finds_paths: bool,

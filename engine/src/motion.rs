@@ -1,7 +1,9 @@
 //! Operations on sprites that the ontology is written in: those that move them.
 
+use crate::bump::NEVER;
 use crate::game::Limit;
 use crate::geometry::{Direction, Rect};
+use crate::occupancy::Located;
 use crate::rest::mark;
 use crate::state::{Slot, Sprite, flag};
 use crate::step::Step;
@@ -36,17 +38,21 @@ impl Step<'_> {
         if self.state.sprite(slot).rect == rect {
             return;
         }
+        if self.next_bump != NEVER {
+            self.carry_out(slot);
+        }
         if self.rests {
-            self.place_noisily(slot, rect);
+            let (from, to) = self.state.locate_move(slot, rect);
+            self.place_noisily(slot, rect, from, to);
         } else {
             self.state.relocate(self.rules, slot, rect);
         }
     }
 
     /// The same in a game in which sprites rest.
-    fn place_noisily(&mut self, slot: Slot, rect: Rect) {
+    fn place_noisily(&mut self, slot: Slot, rect: Rect, from: Located, to: Located) {
         let before = *self.state.sprite(slot);
-        self.state.relocate_noisily(self.rules, slot, rect);
+        self.state.relocate_noisily(self.rules, slot, rect, from, to);
         // Of a try it shows only at the end of the tick whether it changed anything.
         if !self.is_try(&before) {
             self.note_change(&before);
@@ -83,13 +89,22 @@ impl Step<'_> {
             return false;
         }
         let Some(rect) = self.shifted(slot, direction, amount) else { return false };
-        if self.rests || sprite.is(flag::FROZEN) || rect == sprite.rect || rect.h == 0 {
+        let special = sprite.is(flag::FROZEN | flag::BUMPING) || rect == sprite.rect || rect.h == 0;
+        if special {
             self.place(slot, rect);
             self.set_age(slot, 0);
+            return true;
+        }
+        // The same in one go.
+        self.state.sprites[usize::from(slot)].moved_at = self.state.tick;
+        let (from, to) = self.state.locate_move(slot, rect);
+        if self.bumps && self.bump(slot, rect, from, to) {
+            return true;
+        }
+        if self.rests {
+            self.place_noisily(slot, rect, from, to);
         } else {
-            // The same in one go.
-            self.state.sprites[usize::from(slot)].moved_at = self.state.tick;
-            self.state.relocate(self.rules, slot, rect);
+            self.state.relocate_to(self.rules, slot, rect, from, to);
         }
         true
     }

@@ -12,10 +12,10 @@ const MAX_COVERED: i32 = 100;
 
 /// The cell of a sprite's top-left corner, and how the sprite lies in it: the flags of [`flag::LYING`].
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Located {
-    column: i16,
-    row: i16,
-    flags: u32,
+pub(crate) struct Located {
+    pub(crate) column: i16,
+    pub(crate) row: i16,
+    pub(crate) flags: u32,
 }
 
 impl State {
@@ -309,9 +309,22 @@ impl State {
     /// [`State::relocate_noisily`].
     #[inline(always)]
     pub(crate) fn relocate(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
+        let (from, to) = self.locate_move(slot, rect);
+        self.relocate_to(rules, slot, rect, from, to);
+    }
+
+    /// Where a sprite is entered, and where it is to be if that is to be its rectangle.
+    #[inline(always)]
+    pub(crate) fn locate_move(&self, slot: Slot, rect: Rect) -> (Located, Located) {
+        let from = self.located(slot);
+        (from, self.locate_moved(from, self.sprite(slot).rect, rect))
+    }
+
+    /// [`State::relocate`], of a sprite that is located already.
+    #[inline(always)]
+    pub(crate) fn relocate_to(&mut self, rules: &Rules, slot: Slot, rect: Rect, from: Located, to: Located) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let (old, before) = (sprite.rect, sprite.flags);
-        let from = Located { column: sprite.column, row: sprite.row, flags: before & flag::LYING };
         let resized = (old.w, old.h) != (rect.w, rect.h);
         sprite.flags |= flag::STALE | flag::MOVED | bit(resized, flag::CHANGED);
         sprite.rect = rect;
@@ -321,17 +334,23 @@ impl State {
         if before & flag::MOVED == 0 {
             self.moved.push(slot);
         }
-        let to = self.locate_moved(from, old, rect);
         self.enter_other(rules, slot, from, to);
     }
 
     /// [`State::relocate`], with wakes for what rests where the sprite was and where it is.
-    pub(crate) fn relocate_noisily(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
+    pub(crate) fn relocate_noisily(
+        &mut self,
+        rules: &Rules,
+        slot: Slot,
+        rect: Rect,
+        from: Located,
+        to: Located,
+    ) {
         if self.rests.is_empty() {
-            return self.relocate(rules, slot, rect);
+            return self.relocate_to(rules, slot, rect, from, to);
         }
         self.touch(slot);
-        self.relocate(rules, slot, rect);
+        self.relocate_to(rules, slot, rect, from, to);
         self.touch(slot);
     }
 

@@ -194,8 +194,9 @@ impl Step<'_> {
         }
         if let Some(two) = two {
             let second = &mut self.state.sprites[usize::from(two)].rest;
-            // Being in another's way changes nothing.
-            if *second != mark::NOTHING && !matches!(effect, Effect::StepBack { .. }) {
+            // Being in another's way changes nothing, unless it is worth points.
+            let harmless = free && matches!(effect, Effect::StepBack { .. });
+            if *second != mark::NOTHING && !harmless {
                 *second = mark::SPOILED;
             }
         }
@@ -350,6 +351,7 @@ impl Step<'_> {
 
     /// Nothing rests or flies any more: something is about to happen that may concern all.
     pub(crate) fn rouse_all(&mut self) {
+        self.carry_out_bumps();
         self.rouse_resting();
         self.land_midway();
     }

@@ -5,6 +5,7 @@
 //! Effects read and write sprites through the methods here and in `population.rs` and `motion.rs` only, so that the layout can
 //! change without them.
 
+use crate::bump::Bump;
 use crate::chance::Chance;
 use crate::contacts::Mask;
 use crate::flight::Flight;
@@ -59,6 +60,8 @@ pub(crate) mod flag {
     pub(crate) const BRISK: u32 = 32_768;
     /// More is to be renewed of its share of the hash than what comes with moving.
     pub(crate) const CHANGED: u32 = 65_536;
+    /// It has stepped into a barrier in this tick, and is entered where it comes from (`bump.rs`).
+    pub(crate) const BUMPING: u32 = 131_072;
     /// How a sprite lies in its cell.
     pub(crate) const LYING: u32 = LOOSE | OFF;
     /// The others are book-keeping, in which two equal states may differ.
@@ -287,6 +290,8 @@ pub struct State {
     pub(crate) next_due: i32,
     /// Watched cells that something has come to or left, within a step.
     pub(crate) touched: Vec<u32>,
+    /// Bumps that are not settled, within a step.
+    pub(crate) bumps: Vec<Bump>,
     /// Planned time effects, the next one last (`spec/03` §6.2).
     pub(crate) timers: Vec<Timer>,
     /// What paths go around (`paths.rs`); none without `obs=`. All states of a level share it.
@@ -307,7 +312,7 @@ macro_rules! clone_fields {
                 State {
                     $($scalar: $from.$scalar,)*
                     $($buffer: $from.$buffer.clone(),)*
-                    $($empty: vec![0; $from.$empty.len()],)*
+                    $($empty: Vec::new(),)*
                     $($shared: $from.$shared.clone(),)*
                 }
             }
@@ -316,8 +321,8 @@ macro_rules! clone_fields {
                 let $to = self;
                 $($to.$scalar = $from.$scalar;)*
                 $($to.$buffer.clone_from(&$from.$buffer);)*
-                // These hold nothing but zeros between steps.
-                $($to.$empty.resize($from.$empty.len(), 0);)*
+                // These hold nothing between steps.
+                $($to.$empty.clear();)*
                 // Counting who shares it is not free, and seldom needed.
                 $(if $to.$shared.as_ref().map(Arc::as_ptr) != $from.$shared.as_ref().map(Arc::as_ptr) {
                     $to.$shared.clone_from(&$from.$shared);
@@ -330,7 +335,7 @@ macro_rules! clone_fields {
 clone_fields! { to, from;
     copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
     buffers sprites shares tides groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
-    empty touched;
+    empty touched bumps;
     shared ways
 }
 

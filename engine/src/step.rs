@@ -2,6 +2,7 @@
 //! `population.rs` and `motion.rs`.
 
 use crate::Seed;
+use crate::bump::NEVER;
 use crate::chance::Chance;
 use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::Direction;
@@ -73,6 +74,10 @@ pub(crate) struct Step<'a> {
     pub(crate) flies: bool,
     /// Whether a sprite that may rest or fly has moved by itself.
     pub(crate) tried: bool,
+    /// Whether sprites that move may bump into barriers.
+    pub(crate) bumps: bool,
+    /// The pass that settles bumps next.
+    pub(crate) next_bump: usize,
 }
 
 impl Game {
@@ -137,6 +142,7 @@ impl Game {
             next_due: i32::MAX,
             census_changed: true,
             touched: Vec::new(),
+            bumps: Vec::new(),
             timers: Vec::new(),
             ways: None,
             counters: vec![0; rules.counters],
@@ -199,6 +205,7 @@ impl Game {
         let allowed = self.actions(state).contains(&action);
         let mut step = Step::new(&self.0, state);
         step.begin_rest(plainly);
+        step.bumps = step.rules.any_barriers && !plainly && !watch.wants_meetings();
         step.cycle(if allowed { action } else { Action::Nil }, watch);
         watch.worked(step.work);
         state.outcome
@@ -219,6 +226,8 @@ impl<'a> Step<'a> {
             rests: false,
             flies: false,
             tried: false,
+            bumps: false,
+            next_bump: NEVER,
         }
     }
 

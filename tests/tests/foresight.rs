@@ -1,6 +1,6 @@
 //! Sprites that a step passes over, because it is foreseen what they do, are where they would be had it not.
 
-use engine::{Action, Game, Level, Limit, Outcome, Seed, State};
+use engine::{Action, Game, Level, Limit, Outcome, Sampler, Seed, State};
 use proptest::prelude::*;
 use std::path::Path;
 use tests::any_game::any_game;
@@ -75,6 +75,148 @@ proptest! {
             play(&format!("{}\n{}\n", any.source, any.level), &game, &level, 60);
         }
     }
+}
+
+/// What has been made of sprites that walk into what puts them back, and of all that may come between.
+fn crowded_house(sampler: &mut Sampler) -> (String, String) {
+    let mut source = "BasicGame square_size=10\n  SpriteSet\n    wall > Immovable\n    fence > Immovable\n    rock > Passive\n"
+        .to_owned();
+    source += *sampler.choose(&["    slab > Immovable\n", "    slab > Immovable wMult=2\n"]);
+    source +=
+        &format!("    shot > Missile orientation={}\n", sampler.choose(&["UP", "LEFT", "RIGHT speed=0.3"]));
+    source +=
+        "    stone > Missile orientation=DOWN speed=0.5\n    door > Portal stype=exit\n    exit > Portal\n";
+    source += &format!(
+        "    nest > SpawnPoint stype={} cooldown=3 prob=0.5\n    walker >\n",
+        sampler.choose(&["shot", "cat", "fence"])
+    );
+    for walker in ["cat", "dog"] {
+        let class =
+            sampler.choose(&["RandomNPC", "Chaser stype=hero", "Fleeing stype=dog", "RandomNPC cons=3"]);
+        let speed = sampler.choose(&["1", "1", "0.5", "0.25", "2"]);
+        source +=
+            &format!("      {walker} > {class} speed={speed} cooldown={}\n", sampler.choose(&[0, 1, 2]));
+    }
+    let avatar =
+        sampler.choose(&["MovingAvatar", "ShootAvatar stype=shot", "OngoingAvatar", "FlakAvatar stype=shot"]);
+    source += &format!("      hero > {avatar} speed={}\n  LevelMapping\n", sampler.choose(&["1", "0.5"]));
+    let mapping =
+        ["wall", "fence", "rock", "slab", "stone", "shot", "door", "exit", "nest", "cat", "dog", "hero"];
+    for (symbol, stype) in ('a'..).zip(mapping) {
+        source += &format!("    {symbol} > {stype}\n");
+    }
+    source += "    x > wall cat\n  InteractionSet\n";
+    let first = ["walker", "walker", "cat", "dog", "hero", "rock", "shot", "wall"];
+    let second =
+        ["wall", "wall", "fence", "slab", "rock", "cat", "hero", "shot", "stone", "EOS", "door", "walker"];
+    let effects = [
+        "stepBack scoreChange=1",
+        "killSprite",
+        "killBoth",
+        "bounceForward",
+        "transformTo stype=fence",
+        "transformToAll stype=wall stypeTo=fence",
+        "undoAll",
+        "cloneSprite",
+        "pullWithIt",
+        "turnAround",
+        "attractGaze",
+        "teleportToExit",
+        "killAll stype=fence",
+        "spawn stype=cat",
+        "shieldFrom stype=wall ftype=stepback",
+        "addTimer timer=3 ftype=transformToAll stype=fence stypeTo=rock",
+    ];
+    for _ in 0..sampler.between(2, 9) {
+        let effect = match sampler.below(5) {
+            0..=2 => "stepBack",
+            3 => "stepBack pixelPerfect=True",
+            _ => *sampler.choose(&effects),
+        };
+        source += &format!("    {} {} > {effect}\n", sampler.choose(&first), sampler.choose(&second));
+    }
+    source += "  TerminationSet\n    SpriteCounter stype=exit limit=-5 win=True\n";
+    let (columns, rows) = (sampler.between(3, 9), sampler.between(3, 7));
+    let hero = sampler.below(columns * rows);
+    let dense = sampler.between(1, 4);
+    let mut level = String::new();
+    for cell in 0..columns * rows {
+        level.push(match cell {
+            cell if cell == hero => 'l',
+            _ if sampler.ratio(dense, 6) => *sampler.choose(&"aaabcdefghijkjkx".chars().collect::<Vec<_>>()),
+            _ => ' ',
+        });
+        if (cell + 1) % columns == 0 {
+            level.push('\n');
+        }
+    }
+    (source, level)
+}
+
+#[test]
+fn foresight_changes_nothing_for_who_walks_into_walls() {
+    let mut sampler = Seed::from_text("walls").sampler();
+    let mut played = 0;
+    for _ in 0..4000 {
+        let (source, level) = crowded_house(&mut sampler);
+        if let Ok(game) = Game::from_source_as_reference(&source)
+            && let Ok(parsed) = game.level(&level)
+        {
+            play(&format!("{source}\n{level}\n"), &game, &parsed, 40);
+            played += 1;
+        }
+    }
+    assert!(played > 3900, "{played}");
+}
+
+/// An effect moves somebody, in the midst of the events, against a barrier: that is no step of its own.
+#[test]
+fn only_own_steps_are_foreseen_to_be_put_back() {
+    let source = "\
+BasicGame square_size=10
+    SpriteSet
+        wall > Immovable
+        fence > Immovable
+        avatar > MovingAvatar
+    LevelMapping
+        w > wall
+        f > fence
+        A > avatar
+    InteractionSet
+        avatar wall > stepBack
+        avatar fence > turnAround
+    TerminationSet
+        SpriteCounter stype=avatar limit=0 win=False
+";
+    let game = Game::from_source_as_reference(source).expect("it loads");
+    let level = game.level("f\nA\nw\n").expect("it loads");
+    let state = play_actions("turn", &game, &level, [Action::Up; 3].into_iter());
+    assert_eq!(state.outcome(), Outcome::Ongoing);
+}
+
+/// The rule that puts the dart back costs nothing, but the one before it, in which the dart is the second, is worth a point.
+#[test]
+fn what_is_worth_points_goes_on() {
+    let source = "\
+BasicGame square_size=10
+    SpriteSet
+        wall > Immovable
+        dart > Missile orientation=LEFT
+        avatar > MovingAvatar
+    LevelMapping
+        w > wall
+        d > dart
+        A > avatar
+    InteractionSet
+        wall dart > stepBack scoreChange=1
+        dart wall > stepBack
+    TerminationSet
+        SpriteCounter stype=avatar limit=0 win=False
+";
+    let game = Game::from_source_as_reference(source).expect("it loads");
+    let level = game.level("wd A\n").expect("it loads");
+    let state = play_actions("points", &game, &level, [Action::Nil; 5].into_iter());
+    assert_eq!(state.score(), 4.0);
 }
 
 /// What spreads into its own kind stops the tick in the middle of the updates: what flies and is yet to be updated is where

@@ -14,6 +14,7 @@ pub use clauses::{Clauses, InteractionClause, Party, Term, TerminationClause, Te
 pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;
+use crate::bump::barriers;
 use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
@@ -121,7 +122,9 @@ fn compile_with(
             threshold: behaviour::producers::threshold(info.traits.prob),
         })
     };
-    let movers = order.iter().rev().filter_map(mover).collect();
+    let movers: Vec<Mover> = order.iter().rev().filter_map(mover).collect();
+    let mut contacts = Contacts::of(&types, &program.passes);
+    let barriers = barriers(&types, &program.passes, &program.effects, &mut contacts, &movers);
     // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
@@ -158,7 +161,9 @@ fn compile_with(
         any_rests: foresight.iter().any(|of_type| of_type.rests),
         any_flies: foresight.iter().any(|of_type| of_type.flies),
         foresight,
-        contacts: Contacts::of(&types, &program.passes),
+        any_barriers: contacts.kinds.iter().any(|kind| kind.barriers != 0),
+        barriers,
+        contacts,
         passes: program.passes,
         timed: program.timed,
         finds_paths: header.obstacles.is_some(),
