@@ -385,6 +385,9 @@ impl Step<'_> {
     /// The partners of a sprite that notices what it stands on: testing a solid one just below it is what it notices.
     /// Returns how many cells and sprites it looked at.
     fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) -> usize {
+        if !self.state.may_stand_on(second, self.state.sprite(slot), GROUND) {
+            return 1;
+        }
         let rect = self.state.sprite(slot).rect;
         let around = Rect { h: rect.h.saturating_add(GROUND), ..rect };
         let looked = self.state.overlapping_rect(self.rules, second, (slot, around), newborn, hits);

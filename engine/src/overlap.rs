@@ -74,6 +74,19 @@ impl State {
         self.may_overlap_loosely(own, side, cell, lies)
     }
 
+    /// Whether a sprite of a side may overlap a sprite, or what lies at most so many pixels below it.
+    #[inline]
+    pub(crate) fn may_stand_on(&self, side: Side<'_>, sprite: &Sprite, below: i32) -> bool {
+        if self.big_bits & side.bits != 0 || sprite.is(flag::BIG | flag::OFF) || below > self.block {
+            return true;
+        }
+        let stride = (self.columns + 2) as usize;
+        let width = usize::from(sprite.is(flag::RIGHT));
+        let top = self.cell_of(sprite);
+        let rows = [top, top + stride, top + stride * (1 + usize::from(sprite.is(flag::BELOW)))];
+        rows.iter().any(|&cell| (self.masks[cell].any | self.masks[cell + width].any) & side.bits != 0)
+    }
+
     /// The rest of [`State::may_overlap`]: for sprites in several cells, and where some of the side are large.
     fn may_overlap_loosely(&self, own: u64, side: Side<'_>, cell: usize, lies: u32) -> bool {
         if lies & flag::BIG != 0 {
