@@ -157,7 +157,7 @@ fn crowded_house(sampler: &mut Sampler) -> (String, String) {
 fn foresight_changes_nothing_for_who_walks_into_walls() {
     let mut sampler = Seed::from_text("walls").sampler();
     let mut played = 0;
-    for _ in 0..4000 {
+    for _ in 0..12_000 {
         let (source, level) = crowded_house(&mut sampler);
         if let Ok(game) = Game::from_source_as_reference(&source)
             && let Ok(parsed) = game.level(&level)
@@ -166,32 +166,62 @@ fn foresight_changes_nothing_for_who_walks_into_walls() {
             played += 1;
         }
     }
-    assert!(played > 3900, "{played}");
+    assert!(played > 11_800, "{played}");
 }
 
-/// An effect moves somebody, in the midst of the events, against a barrier: that is no step of its own.
+/// An effect moves the avatar against a wall when the rule that puts it back has had its turn: no rule has another.
 #[test]
 fn only_own_steps_are_foreseen_to_be_put_back() {
     let source = "\
 BasicGame square_size=10
     SpriteSet
         wall > Immovable
-        fence > Immovable
-        avatar > MovingAvatar
+        egg > Immovable
+        nest > Immovable
+        dart > Missile orientation=LEFT
+        avatar > MovingAvatar speed=0.5
     LevelMapping
         w > wall
-        f > fence
+        d > dart
+        e > egg nest
         A > avatar
     InteractionSet
         avatar wall > stepBack
-        avatar fence > turnAround
+        avatar dart > turnAround
+        egg nest > stepBack scoreChange=1
     TerminationSet
         SpriteCounter stype=avatar limit=0 win=False
 ";
     let game = Game::from_source_as_reference(source).expect("it loads");
-    let level = game.level("f\nA\nw\n").expect("it loads");
-    let state = play_actions("turn", &game, &level, [Action::Up; 3].into_iter());
-    assert_eq!(state.outcome(), Outcome::Ongoing);
+    let level = game.level("Ad e\nw   \n    \n").expect("it loads");
+    let state = play_actions("turn", &game, &level, [Action::Nil; 4].into_iter());
+    assert_eq!(state.score(), 4.0);
+}
+
+/// The avatar and a cat walk into the same wall, and meet there before they are put back.
+#[test]
+fn two_may_meet_in_a_wall() {
+    let source = "\
+BasicGame square_size=10
+    SpriteSet
+        wall > Immovable
+        walker >
+            cat > Chaser stype=avatar
+            avatar > MovingAvatar
+    LevelMapping
+        w > wall
+        c > cat
+        A > avatar
+    InteractionSet
+        avatar cat > killSprite
+        walker wall > stepBack
+    TerminationSet
+        SpriteCounter stype=avatar limit=0 win=False
+";
+    let game = Game::from_source_as_reference(source).expect("it loads");
+    let level = game.level("Awc\n").expect("it loads");
+    let state = play_actions("meet", &game, &level, [Action::Right].into_iter());
+    assert_eq!(state.outcome(), Outcome::Lost);
 }
 
 /// The rule that puts the dart back costs nothing, but the one before it, in which the dart is the second, is worth a point.
