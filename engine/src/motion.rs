@@ -66,7 +66,7 @@ impl Step<'_> {
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.rests
             && self.rules.foresight[sprite.stype.index()].rests
-            && (self.updating >= 0 || sprite.rest != mark::NOTHING)
+            && (self.updating >= 0 || !matches!(sprite.rest, mark::NOTHING | mark::SPOILED))
     }
 
     pub(crate) fn note_change(&mut self, sprite: &Sprite) {

@@ -266,7 +266,8 @@ impl Step<'_> {
             .state
             .cells_in(&rest)
             .all(|cell| self.state.stamps[cell] < now && self.state.watched[cell] < u8::MAX);
-        if !quiet || self.stands_on_rules(slot) {
+        // Where it rests, an effect of the edge may be executed on it, which it has left when it is not at rest.
+        if !quiet || sprite.is(flag::OFF) || self.stands_on_rules(slot) {
             return;
         }
         for cell in self.state.cells_in(&rest) {

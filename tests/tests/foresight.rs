@@ -249,6 +249,58 @@ BasicGame square_size=10
     assert_eq!(state.score(), 4.0);
 }
 
+/// A kite off the board moves onto it, where a rule puts it back: it is on the board when the edge has its turn.
+#[test]
+fn off_the_board_nothing_rests() {
+    let source = "\
+BasicGame square_size=10
+    SpriteSet
+        fence > Immovable
+        kite > Missile orientation=UP
+        avatar > MovingAvatar
+    LevelMapping
+        k > fence kite
+        A > avatar
+    InteractionSet
+        kite fence > stepBack
+        kite EOS > reverseDirection
+    TerminationSet
+        SpriteCounter stype=avatar limit=0 win=False
+";
+    let game = Game::from_source_as_reference(source).expect("it loads");
+    let level = game.level("k \n A\n").expect("it loads");
+    let state = play_actions("edge", &game, &level, [Action::Nil; 8].into_iter());
+    assert_eq!(state.outcome(), Outcome::Ongoing);
+}
+
+/// A door takes one arrow to the other for a moment, and both are put back where they were, until the door is gone.
+#[test]
+fn what_was_in_the_way_for_a_moment_is_no_ground_to_rest_on() {
+    let source = "\
+BasicGame square_size=10
+    SpriteSet
+        lamp > Immovable
+        door > Portal stype=lamp
+        arrow > Missile orientation=DOWN speed=0.3
+        avatar > MovingAvatar
+    LevelMapping
+        a > arrow lamp
+        d > arrow door
+        A > avatar
+    InteractionSet
+        arrow door > teleportToExit
+        arrow arrow > stepBack
+        door avatar > killSprite
+    TerminationSet
+        SpriteCounter stype=avatar limit=0 win=False
+";
+    let game = Game::from_source_as_reference(source).expect("it loads");
+    let level = game.level("a  dA\n     \n     \n     \n").expect("it loads");
+    let actions = [Action::Nil; 5].into_iter().chain([Action::Left]).chain([Action::Nil; 4]);
+    let state = play_actions("exits", &game, &level, actions);
+    assert_eq!(state.outcome(), Outcome::Ongoing);
+}
+
 /// What spreads into its own kind stops the tick in the middle of the updates: what flies and is yet to be updated is where
 /// it was.
 #[test]
