@@ -147,9 +147,13 @@ impl State {
         let (sprites, shares, mut running) = (&mut sprites[..], &mut shares[..], *sum);
         for &slot in &*stale {
             let (sprite, share) = (&mut sprites[usize::from(slot)], &mut shares[usize::from(slot)]);
-            let new = share.renewed(sprite);
-            let old = std::mem::replace(share, new);
-            exchange(old, new, &mut running, tides);
+            if share.is_of_one_that_only_moved(sprite) {
+                running = plus(running, share.follow(sprite));
+            } else {
+                let new = share.renewed(sprite);
+                let old = std::mem::replace(share, new);
+                exchange(old, new, &mut running, tides);
+            }
             sprite.flags &= !(flag::STALE | flag::CHANGED);
         }
         *sum = running;
@@ -178,10 +182,12 @@ impl State {
         mixer.finish() as u64
     }
 
+    #[inline(always)]
     fn with_globals(&self, [low, high]: Sum, memory: u64) -> StateHash {
         // No sprite has the largest number as its id.
         let avatar = u64::from(self.avatar_id().unwrap_or(u32::MAX));
-        let few = self.outcome_code() << 1 | u64::from(self.can_end);
+        let outcome = if self.is_over() { self.outcome_code() } else { 0 };
+        let few = outcome << 1 | u64::from(self.can_end);
         let (low, high) = Products::NONE
             .and(low, high, KEYS[0])
             .and(two(self.tick, self.messages as i32), self.score as u64, KEYS[1])

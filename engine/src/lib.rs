@@ -43,6 +43,7 @@ mod flight;
 mod game;
 mod geometry;
 mod hash;
+mod lanes;
 mod level;
 pub mod limits;
 mod lint;

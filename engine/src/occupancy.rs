@@ -50,7 +50,7 @@ impl State {
     /// Where a rectangle is; `column` and `row` are a guess. Most moves end in the same cell or next to it, which saves a
     /// division.
     #[inline(always)]
-    fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
+    pub(crate) fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
         let block = self.block;
         let sized = rect.w > 0 && rect.h > 0 && rect.w <= block && rect.h <= block;
         if sized
@@ -66,7 +66,7 @@ impl State {
 
     /// Where a sprite is entered.
     #[inline(always)]
-    fn located(&self, slot: Slot) -> Located {
+    pub(crate) fn located(&self, slot: Slot) -> Located {
         let &Sprite { column, row, flags, .. } = self.sprite(slot);
         Located { column, row, flags: flags & flag::LYING }
     }
@@ -79,6 +79,18 @@ impl State {
             return self.locate(rect, from.column, from.row);
         }
         let mut to = from;
+        let (dx, dy) = (rect.x.wrapping_sub(old.x), rect.y.wrapping_sub(old.y));
+        // A whole cell on, as most moves on a grid go, it lies as it lay.
+        let is_next = |by: i32, at: i16, cells: i32| {
+            let next = i32::from(at) + by.signum();
+            by.unsigned_abs() == self.block as u32 && 0 < next && next < cells
+        };
+        if dy == 0 && is_next(dx, from.column, self.columns) {
+            return Located { column: from.column + dx.signum() as i16, ..from };
+        }
+        if dx == 0 && is_next(dy, from.row, self.rows) {
+            return Located { row: from.row + dy.signum() as i16, ..from };
+        }
         if rect.x != old.x {
             let Some((column, wide)) = near(rect.x, rect.w, from.column, self.block, self.columns) else {
                 return self.locate_afar(rect);
@@ -110,134 +122,6 @@ impl State {
         let lies = if small { bit(wide, flag::RIGHT) | bit(tall, flag::BELOW) } else { flag::BIG };
         let flags = lies | bit(!self.screen().contains(rect), flag::OFF);
         Located { column: column as i16, row: row as i16, flags }
-    }
-
-    /// For how many more moves by (`dx`, `dy`) a small sprite stays in the cells in which it lies, and as it lies in them.
-    #[inline]
-    pub(crate) fn moves_within(&self, sprite: &Sprite, dx: i32, dy: i32) -> i32 {
-        let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
-        let along = |at: i32, size: i32, by: i32, cell: i32, cells: i32| {
-            if by == 0 {
-                return i32::MAX;
-            }
-            let start = (cell - 1).wrapping_mul(self.block);
-            match cell {
-                // Outside, and on the way further out.
-                0 if by < 0 && size <= at.wrapping_neg() => i32::MAX,
-                0 => 0,
-                cell if cell > cells => {
-                    if by > 0 {
-                        i32::MAX
-                    } else {
-                        0
-                    }
-                }
-                _ => {
-                    let offset = at - start;
-                    let reach = self.block - size.max(1);
-                    let (low, high) = if offset > reach { (reach + 1, self.block - 1) } else { (0, reach) };
-                    let (room, by) = if by > 0 { (high - offset, by) } else { (offset - low, -by) };
-                    if room < by { 0 } else { room / by }
-                }
-            }
-        };
-        let x = along(sprite.rect.x, sprite.rect.w, dx, column, self.columns);
-        let y = along(sprite.rect.y, sprite.rect.h, dy, row, self.rows);
-        x.min(y)
-    }
-
-    /// Enters a sprite in flight where it is now, and says for how many more moves by (`dx`, `dy`) that holds.
-    ///
-    /// One that goes along an axis is entered in two cells, where it is and ahead of it, so that it comes to other ones half
-    /// as often. Who looks for it there looks at where it is. A slow one is not, if it would stand there for long beside what a
-    /// rule pairs it with.
-    #[inline(always)]
-    pub(crate) fn enter_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> i32 {
-        let (rect, from) = (self.sprite(slot).rect, self.located(slot));
-        let exact = self.locate(rect, from.column, from.row);
-        let lane =
-            self.lane(rect, exact, dx, dy).filter(|(lane, _)| !self.is_beside_partners(rules, slot, *lane));
-        let to = lane.map_or(exact, |(to, _)| to);
-        if from != to {
-            self.shift(rules, slot, from, to);
-        }
-        lane.map_or_else(|| self.moves_within(self.sprite(slot), dx, dy), |(_, moves)| moves)
-    }
-
-    fn is_beside_partners(&self, rules: &Rules, slot: Slot, lane: Located) -> bool {
-        let sprite = self.sprite(slot);
-        let kind = &rules.contacts.kinds[sprite.stype.index()];
-        let cell = self.cell(i32::from(lane.column), i32::from(lane.row));
-        let mut cells = self.span(cell, lane.flags).cells();
-        sprite.period != 1 && cells.any(|cell| kind.has_partners_among(self.masks[cell]))
-    }
-
-    /// The same for one that is in two cells now, and goes on to the second of them and the one after that, as most do.
-    #[inline(always)]
-    pub(crate) fn enter_next_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> Option<i32> {
-        let (block, stride) = (self.block, (self.columns + 2) as usize);
-        let sprite = &mut self.sprites[usize::from(slot)];
-        let before = sprite.row as usize * stride + sprite.column as usize;
-        let (by, at, size, low, cells, unit) = match sprite.flags & flag::LYING {
-            flag::RIGHT if dy == 0 => (dx, sprite.rect.x, sprite.rect.w, &mut sprite.column, self.columns, 1),
-            flag::BELOW if dx == 0 => (dy, sprite.rect.y, sprite.rect.h, &mut sprite.row, self.rows, stride),
-            _ => return None,
-        };
-        let next = i32::from(*low) + by.signum();
-        let offset = at - (next - 1) * block;
-        let room = if by > 0 { 2 * block - size - offset } else { offset };
-        let ahead = if by > 0 { offset < block } else { offset + size > block };
-        let inside = offset >= 0 && offset + size <= 2 * block;
-        if by == 0 || !ahead || !inside || next < 1 || next >= cells {
-            return None;
-        }
-        let (after, gone, new) = if by > 0 {
-            (before + unit, before, before + 2 * unit)
-        } else {
-            (before - unit, before + unit, before - unit)
-        };
-        let kind = &rules.contacts.kinds[sprite.stype.index()];
-        if sprite.period != 1 && kind.has_partners_among(self.masks[new]) {
-            return None;
-        }
-        *low = next as i16;
-        if kind.own != 0 {
-            self.unlink(slot, before);
-            self.link(slot, after);
-            self.depart(&rules.contacts, kind, gone);
-            self.arrive(&rules.contacts, kind, new);
-        }
-        let by = by.abs();
-        Some(if room < by { 0 } else { room / by })
-    }
-
-    /// The two cells of [`State::enter_lane`], if both are on the board, and for how many moves the sprite stays in them.
-    #[inline(always)]
-    fn lane(&self, rect: Rect, exact: Located, dx: i32, dy: i32) -> Option<(Located, i32)> {
-        let sized = rect.w > 0 && rect.h > 0;
-        if exact.flags & (flag::OFF | flag::BIG) != 0 || (dx != 0) == (dy != 0) || !sized {
-            return None;
-        }
-        let along = |at: i32, size: i32, by: i32, cell: i16, over: bool, cells: i32| {
-            let cell = i32::from(cell);
-            let (low, room) = if by > 0 {
-                (cell, (cell + 1) * self.block - (at + size))
-            } else {
-                let low = if over { cell } else { cell - 1 };
-                (low, at - (low - 1) * self.block)
-            };
-            let by = by.abs();
-            (1 <= low && low < cells).then_some((low as i16, if room < by { 0 } else { room / by }))
-        };
-        if dy == 0 {
-            let over = exact.flags & flag::RIGHT != 0;
-            let (column, moves) = along(rect.x, rect.w, dx, exact.column, over, self.columns)?;
-            Some((Located { column, flags: exact.flags | flag::RIGHT, ..exact }, moves))
-        } else {
-            let over = exact.flags & flag::BELOW != 0;
-            let (row, moves) = along(rect.y, rect.h, dy, exact.row, over, self.rows)?;
-            Some((Located { row, flags: exact.flags | flag::BELOW, ..exact }, moves))
-        }
     }
 
     /// Puts a sprite into its cells.
@@ -373,7 +257,7 @@ impl State {
     }
 
     #[inline(always)]
-    fn shift(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
+    pub(crate) fn shift(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
         let before = self.cell(i32::from(from.column), i32::from(from.row));
         let after = self.cell(i32::from(to.column), i32::from(to.row));
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -428,7 +312,7 @@ impl State {
 
     /// Departs from a cell, and from the one so far from it if that is another one.
     #[inline(always)]
-    fn depart_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
+    pub(crate) fn depart_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
         self.depart(contacts, kind, cell);
         if across != 0 {
             self.depart(contacts, kind, cell + across);
@@ -436,7 +320,7 @@ impl State {
     }
 
     #[inline(always)]
-    fn arrive_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
+    pub(crate) fn arrive_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
         self.arrive(contacts, kind, cell);
         if across != 0 {
             self.arrive(contacts, kind, cell + across);
@@ -476,7 +360,7 @@ impl State {
     }
 
     #[inline(always)]
-    fn link(&mut self, slot: Slot, cell: usize) {
+    pub(crate) fn link(&mut self, slot: Slot, cell: usize) {
         let sprites = &mut self.sprites[..];
         let head = std::mem::replace(&mut self.cells[cell], slot);
         if head != NONE {
@@ -487,7 +371,7 @@ impl State {
     }
 
     #[inline(always)]
-    fn unlink(&mut self, slot: Slot, cell: usize) {
+    pub(crate) fn unlink(&mut self, slot: Slot, cell: usize) {
         let sprites = &mut self.sprites[..];
         let Sprite { cell_next, cell_previous, .. } = sprites[usize::from(slot)];
         match cell_previous {

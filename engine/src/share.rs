@@ -87,6 +87,22 @@ impl Steady {
     }
 }
 
+/// Whether it matters when a sprite moved last: where a cooldown may hold it up, or where that is its age.
+#[inline(always)]
+fn ages(sprite: &Sprite) -> bool {
+    sprite.flags & (flag::BRISK | flag::FROZEN) != flag::BRISK
+}
+
+/// Where a sprite is and what changes with moving, as one number.
+#[inline(always)]
+fn word(sprite: &Sprite) -> u64 {
+    let look = u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading) << 32 | u64::from(sprite.flags);
+    let kind = look & (!0 << 32 | u64::from(flag::LASTING));
+    let rest = fold(kind ^ SECRET[3], two(sprite.count, sprite.time_to_live) ^ SECRET[1]);
+    let moved_at = if ages(sprite) { LATER.wrapping_mul(sprite.moved_at as u64) } else { 0 };
+    point(sprite.rect.x, sprite.rect.y).wrapping_add(moved_at).wrapping_add(rest)
+}
+
 /// How many moves there were from tick 0 to `tick`, of one every `period` ticks.
 fn moves(tick: i32, period: u16, phase: u16) -> u64 {
     match period {
@@ -108,6 +124,22 @@ impl Share {
         }
     }
 
+    /// Whether [`Share::follow`] is enough, as it mostly is: the sprite was on foot, is, and nothing changed but what comes with
+    /// moving.
+    #[inline(always)]
+    pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
+        let on_foot = self.steady == Steady::NONE && sprite.rest != mark::FLYING;
+        on_foot && sprite.flags & (flag::GONE | flag::CHANGED) == 0
+    }
+
+    /// [`Share::renewed`] in place. Returns by how much the sum grows.
+    #[inline(always)]
+    pub(crate) fn follow(&mut self, sprite: &Sprite) -> Sum {
+        let word = word(sprite);
+        let by = word.wrapping_sub(std::mem::replace(&mut self.word, word));
+        times(self.keys(), by)
+    }
+
     /// The share of a sprite, whatever it was.
     pub(crate) fn fresh(sprite: &Sprite) -> Share {
         Share::of(sprite, still_hash(sprite))
@@ -116,18 +148,11 @@ impl Share {
     /// The share of a sprite, given its [`still_hash`].
     #[inline(always)]
     fn of(sprite: &Sprite, still: u64) -> Share {
-        let look =
-            u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading) << 32 | u64::from(sprite.flags);
-        let kind = look & (!0 << 32 | u64::from(flag::LASTING));
-        let rest = fold(kind ^ SECRET[3], two(sprite.count, sprite.time_to_live) ^ SECRET[1]);
-        // When it moved last matters only where a cooldown may hold it up, or where that is its age.
-        let ages = sprite.flags & (flag::BRISK | flag::FROZEN) != flag::BRISK;
-        let moved_at = if ages { LATER.wrapping_mul(sprite.moved_at as u64) } else { 0 };
-        let word = point(sprite.rect.x, sprite.rect.y).wrapping_add(moved_at).wrapping_add(rest);
+        let word = word(sprite);
         if sprite.rest != mark::FLYING {
             return Share { word, steady: Steady::NONE, still };
         }
-        let steady = Steady::of(sprite, ages);
+        let steady = Steady::of(sprite, ages(sprite));
         let moves = moves(sprite.moved_at, steady.period(), steady.phase());
         Share { word: word.wrapping_sub(steady.growth().wrapping_mul(moves)), steady, still }
     }
