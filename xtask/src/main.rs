@@ -4,11 +4,14 @@
 
 mod bench;
 mod course;
+#[cfg(feature = "content")]
 mod fidelity;
 mod instructions;
 mod levels;
+#[cfg(feature = "content")]
 mod side_by_side;
 mod solve;
+#[cfg(feature = "content")]
 mod survey;
 
 use clap::{Parser, Subcommand};
@@ -24,20 +27,26 @@ struct Args {
 #[derive(Subcommand)]
 enum Chore {
     Bench(bench::Args),
+    #[cfg(feature = "content")]
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
+    #[cfg(feature = "content")]
     SideBySide(side_by_side::Args),
     Solve(solve::Args),
+    #[cfg(feature = "content")]
     Survey(survey::Args),
 }
 
 fn main() -> anyhow::Result<()> {
     match Args::parse().chore {
         Chore::Bench(args) => bench::run(&args),
+        #[cfg(feature = "content")]
         Chore::Fidelity(args) => fidelity::run(&args),
         Chore::Instructions(args) => instructions::run(&args),
+        #[cfg(feature = "content")]
         Chore::SideBySide(args) => side_by_side::run(&args),
         Chore::Solve(args) => solve::run(&args),
+        #[cfg(feature = "content")]
         Chore::Survey(args) => survey::run(&args),
     }
 }

@@ -39,6 +39,11 @@ impl Board {
         (0..self.grid.len()).filter(|&cell| self.is_free(cell))
     }
 
+    /// Whether a wall goes all around.
+    pub(crate) fn is_closed(&self) -> bool {
+        (0..self.grid.len()).all(|cell| self.wall[cell] || !self.grid.on_border(cell))
+    }
+
     /// Cells without wall.
     pub(crate) fn area(&self) -> usize {
         self.wall.iter().filter(|&&wall| !wall).count()

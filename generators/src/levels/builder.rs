@@ -39,14 +39,15 @@ impl Builder<'_> {
     }
 
     /// Puts the avatar down, one of those that levels can start with: on that cell, or as near to it as the board has room
-    /// for one that is larger than a cell.
+    /// for one that is larger than a cell. A wall around the board stays closed.
     pub(crate) fn put_avatar(&mut self, cell: usize) {
         let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
         let grid = self.board.grid;
         let (columns, rows) = self.analysis.facts(stype).span;
-        let x = grid.x(cell).min(grid.columns.saturating_sub(columns));
-        let y = grid.y(cell).min(grid.rows.saturating_sub(rows));
-        let cell = grid.at(x, y);
+        let ring = usize::from(self.board.is_closed());
+        let within = |at: usize, size: usize, cells: usize| at.min(cells.saturating_sub(size + ring));
+        let cell =
+            grid.at(within(grid.x(cell), columns, grid.columns), within(grid.y(cell), rows, grid.rows));
         self.board.placed[cell] = Some(symbol);
         self.board.start = cell;
         self.log.push((cell, stype));
@@ -64,6 +65,9 @@ impl Builder<'_> {
     /// Whether all that a sprite of the type would cover is free, and on the board.
     pub(crate) fn fits(&self, cell: usize, stype: SpriteType) -> bool {
         let (columns, rows) = self.analysis.facts(stype).span;
+        if (columns, rows) == (1, 1) {
+            return self.board.is_free(cell);
+        }
         let mut covered = self.covered_by(cell, stype);
         covered.all(|cell| self.board.is_free(cell)) && self.covered_by(cell, stype).count() == columns * rows
     }

@@ -274,6 +274,31 @@ fn large_sprites_overlap_nothing() {
     }
 }
 
+/// A large avatar moves over rather than to open the wall around the board.
+#[test]
+fn a_large_avatar_stands_inside_the_wall() {
+    let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    coin > Resource\n    \
+                  ogre > MovingAvatar wMult=2 hMult=3\n  LevelMapping\n    w > wall\n    c > coin\n    o > ogre\n  \
+                  InteractionSet\n    ogre wall > stepBack\n    coin ogre > killSprite\n  TerminationSet\n    \
+                  SpriteCounter stype=coin limit=0 win=True\n";
+    let game = Game::from_source(source).unwrap();
+    let levels = ConstructiveLevels::new(&game, LevelConfig::default()).unwrap();
+    for index in 0..SEEDS {
+        let level = levels.generate(Seed::from_text("ogre").child("level", index)).unwrap();
+        let (columns, rows) = (level.columns(), level.rows());
+        let on_border = |cell: usize| {
+            let (x, y) = (cell % columns, cell / columns);
+            x == 0 || y == 0 || x + 1 == columns || y + 1 == rows
+        };
+        let start = level.cells().iter().position(|&symbol| symbol == b'o').unwrap();
+        let (x, y) = (start % columns, start / columns);
+        assert!(x + 2 < columns && y + 3 < rows, "\n{level}");
+        let closed =
+            level.cells().iter().enumerate().all(|(cell, &symbol)| symbol == b'w' || !on_border(cell));
+        assert!(closed, "\n{level}");
+    }
+}
+
 /// A golden vector: if it moves, GENERATION must be bumped.
 #[test]
 fn levels_are_frozen() {

@@ -62,8 +62,9 @@ impl Maker<'_> {
                     return (Some(made(number, level, judged)), cost);
                 }
             }
-            // A round costs something even if nothing could be proposed.
-            left -= spent.max(LEAST_EFFORT * looks as f64);
+            // A round costs something even if all its looks are cheap, and all that a round may cost if nothing could be proposed.
+            let least = if spent > 0.0 { LEAST_EFFORT } else { 1.0 };
+            left -= spent.max(least * looks as f64);
             round += 1;
         }
         (None, cost)
