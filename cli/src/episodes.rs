@@ -53,7 +53,7 @@ pub(crate) fn level(
 ) -> Result<(Named, Level), Failure> {
     let checked = |named: Named| match game.level(&named.text) {
         Ok(level) => Ok((named, level)),
-        Err(problems) => Err(Failure::malformed(crate::render::problems(&named, &problems.0))),
+        Err(problems) => Err(Failure::malformed(crate::diagnostics::in_words(&named, &problems.0))),
     };
     if let Some(name) = name {
         return checked(input.level(name)?);

@@ -45,7 +45,7 @@ impl GameInput {
     pub(crate) fn compile(&self, as_reference: bool) -> Result<Game, Failure> {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
         load(&self.source.text)
-            .map_err(|problems| Failure::malformed(crate::render::problems(&self.source, &problems.0)))
+            .map_err(|problems| Failure::malformed(crate::diagnostics::in_words(&self.source, &problems.0)))
     }
 
     /// How many levels come with the game.

@@ -2,6 +2,7 @@
 
 mod conformance;
 mod console;
+mod diagnostics;
 mod embedded;
 mod episodes;
 mod evaluation_report;
@@ -11,7 +12,6 @@ mod input;
 mod level_report;
 mod page;
 mod play;
-mod render;
 mod verbs;
 
 use clap::{Parser, Subcommand};

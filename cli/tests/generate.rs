@@ -75,7 +75,8 @@ fn what_does_not_fit_is_no_level_and_no_endless_work() {
     let home = tempfile::tempdir().unwrap();
     let args = ["generate", "levels", "--game", "hailglass", "--with", "orchid=100", "--out", "new"];
     let message = text(&run(home.path(), &args, 1).stderr);
-    assert!(message.contains("no board holds what is asked"), "{message}");
+    assert!(message.contains("no board holds what is asked: 100 of orchid are asked for"), "{message}");
+    assert!(message.contains("--with"), "{message}");
     assert!(!home.path().join("new").exists());
 }
 

@@ -31,9 +31,11 @@ pub enum RegenerateError {
         "this release is sealed: its seed is not in the folder, so it cannot be minted again before it is revealed"
     )]
     Sealed,
-    /// It is one file.
-    #[error("this is an archive: unpack it (`tar --zstd -xf FILE`) and name the folder")]
-    Packed,
+    /// It is one file, such as an archive.
+    #[error(
+        "this is a file: name the folder of a release; an archive is unpacked first (`tar --zstd -xf FILE`)"
+    )]
+    NotAFolder,
     /// The recipe in the manifest is not one.
     #[error("the manifest's recipe is not a recipe: {0}")]
     NotARecipe(serde_json::Error),
@@ -73,7 +75,7 @@ impl Regeneration {
     /// The folder is no release, or one that this binary cannot mint.
     pub fn of(root: &Path) -> Result<Regeneration, RegenerateError> {
         if root.is_file() {
-            return Err(RegenerateError::Packed);
+            return Err(RegenerateError::NotAFolder);
         }
         let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| match error {
             SnapshotError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {

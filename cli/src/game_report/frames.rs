@@ -1,8 +1,8 @@
 //! The games as pictures: each in the middle of a game.
 
 use crate::failure::Failure;
-use ::render::{Looks, Picture, RenderError, Style, picture, png, sheet};
 use engine::{Analysis, Seed, State};
+use render::{Looks, Picture, RenderError, Style, picture, png, sheet};
 use snapshots::games::report::ReportedGame;
 
 /// Games that are drawn at most; the tables tell of all.

@@ -3,8 +3,8 @@
 use super::Pictures;
 use crate::failure::Failure;
 use crate::page::{Figure, words};
-use ::render::{Looks, Picture, RenderError, Style, picture, png, sheet};
 use engine::{Game, Level, Seed};
+use render::{Looks, Picture, RenderError, Style, picture, png, sheet};
 use snapshots::levels::report::{LevelRow, LevelSetReport};
 
 /// Levels that are drawn at most; the tables tell of all.

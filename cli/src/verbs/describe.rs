@@ -1,9 +1,9 @@
 //! `arcade describe`: the rules of a game in plain English, what kind of game it is, and what is certain of a level.
 
 use crate::console::Console;
+use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
-use crate::render;
 use engine::describe::{self, Guide};
 use engine::{Analysis, Digest};
 use serde::Serialize;
@@ -61,7 +61,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 fn prospects(analysis: &Analysis, named: &Named) -> Result<Prospects, Failure> {
     let level = analysis.game().level(&named.text);
-    let level = level.map_err(|problems| Failure::malformed(render::problems(named, &problems.0)))?;
+    let level = level.map_err(|problems| Failure::malformed(diagnostics::in_words(named, &problems.0)))?;
     let reach = analysis.reach(&level);
     Ok(Prospects {
         level: named.name.clone(),

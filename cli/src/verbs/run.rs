@@ -1,9 +1,9 @@
 //! `arcade run`: how often do planners win?
 
 use crate::console::{Console, Stopwatch};
+use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
-use crate::render;
 use crate::verbs::release::in_pool;
 use agents::{Budget, Limits, PlannerSpec, play};
 use engine::{Game, Level, Outcome, SEMANTICS, Seed};
@@ -168,7 +168,7 @@ fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
 }
 
 fn level(game: &Game, text: &Named) -> Result<Level, Failure> {
-    game.level(&text.text).map_err(|problems| Failure::malformed(render::problems(text, &problems.0)))
+    game.level(&text.text).map_err(|problems| Failure::malformed(diagnostics::in_words(text, &problems.0)))
 }
 
 /// Seeds hang on game, level, planner and run only: adding a game or a planner changes no other episode.

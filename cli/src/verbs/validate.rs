@@ -4,9 +4,9 @@ mod document;
 mod text;
 
 use crate::console::Console;
+use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
-use crate::render;
 use document::{Document, LevelDocument};
 use engine::{Analysis, Episode, Game, Level, Seed, describe};
 use rayon::prelude::*;
@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Ok(game) => game,
         Err(problems) => {
             console.document(&Document::of_malformed(&input.source, &problems.0))?;
-            return Err(Failure::malformed(render::problems(&input.source, &problems.0)));
+            return Err(Failure::malformed(diagnostics::in_words(&input.source, &problems.0)));
         }
     };
     let levels: Vec<Named> = match args.levels[..] {
@@ -111,7 +111,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         judged.iter().map(|judged| document_of(&analysis, judged)).collect();
     let malformed: Vec<String> = judged
         .iter()
-        .filter_map(|judged| Some(render::problems(judged.named, &judged.level.as_ref().err()?.0)))
+        .filter_map(|judged| Some(diagnostics::in_words(judged.named, &judged.level.as_ref().err()?.0)))
         .collect();
     let passes_together = of_game.iter().all(|judgement| judgement.finding.verdict.is_pass());
     let passes = passes_together && documents.iter().all(|level| level.passes);
@@ -121,18 +121,18 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         passes,
         seed: Some(&args.seed),
         criteria: Some(&criteria),
-        problems: render::placed(&input.source, game.warnings()),
+        problems: diagnostics::placed(&input.source, game.warnings()),
         levels: documents,
         judgements: &of_game,
     };
     console.document(&document)?;
     console.say(text::review(&document, &input.source).trim_end());
     for warning in game.warnings() {
-        console.say(format_args!("\n{}", render::one(&input.source, warning).trim_end()));
+        console.say(format_args!("\n{}", diagnostics::one_in_words(&input.source, warning).trim_end()));
     }
     for judged in &judged {
         for warning in judged.level.iter().flat_map(Level::warnings) {
-            console.say(format_args!("\n{}", render::one(judged.named, warning).trim_end()));
+            console.say(format_args!("\n{}", diagnostics::one_in_words(judged.named, warning).trim_end()));
         }
     }
     if !malformed.is_empty() {
@@ -168,7 +168,7 @@ fn document_of<'a>(analysis: &Analysis, judged: &'a Judged<'_>) -> LevelDocument
         level: named.name.clone(),
         digest: level.as_ref().ok().map(Level::digest),
         passes: report.as_ref().is_some_and(Report::passes),
-        problems: render::placed(named, problems),
+        problems: diagnostics::placed(named, problems),
         board: level
             .as_ref()
             .map_or(Vec::new(), |level| level.to_string().lines().map(str::to_owned).collect()),

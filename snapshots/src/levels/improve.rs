@@ -163,6 +163,10 @@ impl Maker<'_> {
             }
             found.extend(looked);
             at += batch;
+            if found.is_empty() && at as f64 >= effort {
+                // As many as usual looks would have been: where none of them is a level, the others will not be.
+                break;
+            }
         }
         found
     }

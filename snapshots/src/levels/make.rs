@@ -102,6 +102,9 @@ pub enum LevelsError {
         /// Their obstacles.
         why: String,
     },
+    /// Not one board could be furnished.
+    #[error("no board holds what is asked: {0}")]
+    NoBoard(String),
 }
 
 /// Told how the making goes; from several threads.
@@ -144,6 +147,12 @@ pub fn make_levels(
         }
     };
     if set.levels.is_empty() && order.count > 0 {
+        let is_hopeless = set.cost.looks + set.cost.judged == 0;
+        if is_hopeless
+            && let Err(GenerateError::Unlucky(fault)) = maker.generator.generate(maker.level_seed(0))
+        {
+            return Err(LevelsError::NoBoard(fault));
+        }
         return Err(LevelsError::NoneAccepted {
             looks: set.cost.looks,
             judged: set.cost.judged,

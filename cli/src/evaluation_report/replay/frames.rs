@@ -1,6 +1,6 @@
 //! Boards of an episode as what changes from one to the next.
 
-use ::render::{Picture, Tile, svg_tile};
+use render::{Picture, Tile, svg_tile};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::fmt::Write;
 
@@ -52,7 +52,7 @@ impl Boards {
     pub(super) fn push(&mut self, picture: &Picture, tiles: &mut Tiles) {
         let here: Vec<usize> = picture.tiles().iter().map(|tile| tiles.number(tile)).collect();
         let place =
-            |place: ::render::Place| [place.x, place.y, place.w, place.h].map(|part| part.round() as i32);
+            |place: render::Place| [place.x, place.y, place.w, place.h].map(|part| part.round() as i32);
         let marks: Vec<Mark> =
             picture.stamps().iter().map(|stamp| (here[stamp.tile], place(stamp.place))).collect();
         self.changes.push(change(&self.last, &marks, self.cell));

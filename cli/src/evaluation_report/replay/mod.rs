@@ -5,12 +5,12 @@ mod talk;
 
 use crate::failure::Failure;
 use crate::page::{Figure, words};
-use ::render::{Looks, RenderError, Style, picture, png};
 use engine::{Action, Outcome, State};
 use evaluation::log::{Event, Status};
 use evaluation::run::Task;
 use evaluation::{Evaluation, Validity};
 use frames::{Boards, Tiles};
+use render::{Looks, RenderError, Style, picture, png};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use talk::{Talk, talks};

@@ -2,10 +2,10 @@
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};
+use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named};
 use crate::level_report::{Pictures, write_level_report};
-use crate::render;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
 use engine::{Analysis, Game, Level, Seed, SpriteType};
@@ -110,6 +110,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             console.remark(format_args!("{}: {error}", args.game));
             return Ok(false);
         }
+        Err(error @ LevelsError::NoBoard(_)) => {
+            let advice = "ask for fewer sprites (--with), or for larger boards (--size)";
+            console.remark(format_args!("{}: {error}; {advice}", args.game));
+            return Ok(false);
+        }
         Err(error) => return Err(Failure::malformed(format!("{}: {error}", args.game))),
     };
     write(&draft, &input, &set)?;
@@ -130,7 +135,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn examples(input: &GameInput, game: &Game) -> Result<Vec<Level>, Failure> {
     let check = |named: Named| {
         let level = game.level(&named.text);
-        level.map_err(|problems| Failure::malformed(render::problems(&named, &problems.0)))
+        level.map_err(|problems| Failure::malformed(diagnostics::in_words(&named, &problems.0)))
     };
     input.levels()?.into_iter().map(check).collect()
 }

@@ -1,7 +1,7 @@
 //! The answer for programs; `docs/validate.md` is its schema.
 
+use crate::diagnostics::{self, Placed};
 use crate::input::Named;
-use crate::render::{self, Placed};
 use engine::{Diagnostic, Digest, Episode, line_and_column};
 use serde::Serialize;
 use validators::{Criteria, Finding, Judgement, Report};
@@ -28,7 +28,7 @@ impl Document<'_> {
             passes: false,
             seed: None,
             criteria: None,
-            problems: render::placed(source, problems),
+            problems: diagnostics::placed(source, problems),
             levels: Vec::new(),
             judgements: &[],
         }

@@ -7,18 +7,18 @@ use serde::Serialize;
 use std::io::IsTerminal;
 
 /// A summary line, then every problem with its place.
-pub(crate) fn problems(source: &Named, problems: &[Diagnostic]) -> String {
+pub(crate) fn in_words(source: &Named, problems: &[Diagnostic]) -> String {
     let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
     let plural = if errors == 1 { "problem" } else { "problems" };
     let mut text = format!("{} has {errors} {plural}\n", source.name);
     for problem in problems {
-        text.push_str(&one(source, problem));
+        text.push_str(&one_in_words(source, problem));
     }
     text.trim_end().to_owned()
 }
 
 /// One problem: code, message, file, line, column, the line with a caret, help.
-pub(crate) fn one(source: &Named, problem: &Diagnostic) -> String {
+pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
     let label = if problem.label.is_empty() { "here" } else { &problem.label };
     let length = problem.span.end - problem.span.start;
     let severity = match problem.severity {
