@@ -91,7 +91,7 @@ impl State {
         if dx == 0 && is_next(dy, from.row, self.rows) {
             return Located { row: from.row + dy.signum() as i16, ..from };
         }
-        if rect.x != old.x {
+        if dx != 0 {
             let Some((column, wide)) = near(rect.x, rect.w, from.column, self.block, self.columns) else {
                 return self.locate_afar(rect);
             };
@@ -100,7 +100,7 @@ impl State {
                 | bit(wide, flag::RIGHT)
                 | bit(wide && i32::from(column) == self.columns, flag::OFF);
         }
-        if rect.y != old.y {
+        if dy != 0 {
             let Some((row, tall)) = near(rect.y, rect.h, from.row, self.block, self.rows) else {
                 return self.locate_afar(rect);
             };
