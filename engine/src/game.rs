@@ -309,6 +309,10 @@ pub(crate) struct Rules {
     pub(crate) order: Vec<SpriteType>,
     /// Types whose update does something, in update order.
     pub(crate) movers: Vec<Mover>,
+    /// By type: whether anything but its own line, its parents' and the LevelMapping speaks of it.
+    pub(crate) spoken_of: Vec<bool>,
+    /// By type: whether its sprites are scenery (`scenery.rs`).
+    pub(crate) scenery: Vec<bool>,
     /// By ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
     /// Level characters that stand for an undeclared sprite: the reference dies of a level that uses one.

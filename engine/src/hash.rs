@@ -166,7 +166,8 @@ impl State {
 
     /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).
     pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
-        let sprites = game.sprite_types().flat_map(|stype| self.slots(stype)).map(|slot| self.sprite(slot));
+        let slots = game.sprite_types().flat_map(|stype| self.slots(stype)).map(|slot| self.sprite(slot));
+        let sprites = slots.chain(game.sprite_types().flat_map(|stype| self.scenery_of(stype)));
         let shares = sprites.map(|sprite| Share::fresh(sprite).at(self.tick));
         self.with_globals(shares.fold([0; 2], plus), self.hash_memory())
     }

@@ -58,6 +58,7 @@ mod population;
 mod recount;
 mod rest;
 mod sampler;
+mod scenery;
 mod search_key;
 mod seed;
 mod share;

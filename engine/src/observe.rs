@@ -3,7 +3,7 @@
 use crate::game::{Game, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::limits::MAX_SEEN;
-use crate::state::{State, flag};
+use crate::state::{Sprite, State, flag};
 
 /// What a player is shown of a state: never the state itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,8 +110,7 @@ impl Game {
             if info.traits.hidden {
                 continue;
             }
-            for slot in state.slots(stype) {
-                let sprite = state.present(slot);
+            for sprite in state.sprites_of(stype) {
                 let span = |from: i32, size: i32, limit: i32| {
                     let first = from.div_euclid(state.block).clamp(0, limit);
                     let last = from
@@ -160,25 +159,27 @@ impl Game {
 
     /// Every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
     pub fn records(&self, state: &State) -> Vec<SpriteRecord> {
-        let slots = self.sprite_types().flat_map(|stype| state.slots(stype));
-        let mut records: Vec<SpriteRecord> = slots
-            .map(|slot| {
-                let sprite = state.present(slot);
-                let held = state.held_by(slot).iter();
-                let resources = held.map(|held| (held.resource.0, held.amount)).collect();
-                SpriteRecord {
-                    id: sprite.id,
-                    stype: sprite.stype.0,
-                    rect: sprite.rect,
-                    orientation: (sprite.orientation.x, sprite.orientation.y),
-                    speed: sprite.speed,
-                    health: sprite.health,
-                    flags: (sprite.flags & flag::RECORDED) as u16,
-                    resources,
-                    rotation: state.rotation(&self.0, slot),
-                }
-            })
-            .collect();
+        let record = |sprite: &Sprite, resources: Vec<(u16, i32)>, rotation: f64| SpriteRecord {
+            id: sprite.id,
+            stype: sprite.stype.0,
+            rect: sprite.rect,
+            orientation: (sprite.orientation.x, sprite.orientation.y),
+            speed: sprite.speed,
+            health: sprite.health,
+            flags: (sprite.flags & flag::RECORDED) as u16,
+            resources,
+            rotation,
+        };
+        let slots = self.sprite_types().flat_map(|stype| state.slots(stype)).map(|slot| {
+            let held = state.held_by(slot).iter();
+            let resources = held.map(|held| (held.resource.0, held.amount)).collect();
+            record(&state.present(slot), resources, state.rotation(&self.0, slot))
+        });
+        let scenery = self
+            .sprite_types()
+            .flat_map(|stype| state.scenery_of(stype))
+            .map(|sprite| record(sprite, Vec::new(), self.0.types[sprite.stype.index()].traits.rotation));
+        let mut records: Vec<SpriteRecord> = slots.chain(scenery).collect();
         records.sort_unstable_by_key(|record| record.id);
         records
     }
@@ -222,12 +223,12 @@ impl State {
     /// The rectangles of the sprites of a type, in pixels, in the order of their creation; those of disabled avatars
     /// too. Cost: O(1) each.
     pub fn rects(&self, stype: SpriteType) -> impl Iterator<Item = Rect> + '_ {
-        self.slots(stype).map(|slot| self.present(slot).rect)
+        self.sprites_of(stype).map(|sprite| sprite.rect)
     }
 
     /// The same, with where each faces.
     pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
-        self.slots(stype).map(|slot| self.present(slot)).map(|sprite| (sprite.rect, sprite.orientation))
+        self.sprites_of(stype).map(|sprite| (sprite.rect, sprite.orientation))
     }
 
     /// How many sprites of a type are there, disabled avatars apart. Cost: O(1).
@@ -248,10 +249,7 @@ impl State {
 
     /// The top-left corners of a type's sprites in pixels, in the order of their creation. Cost: O(such sprites).
     pub fn places(&self, stype: SpriteType) -> impl Iterator<Item = (i32, i32)> + '_ {
-        self.slots(stype).map(|slot| {
-            let rect = self.present(slot).rect;
-            (rect.x, rect.y)
-        })
+        self.rects(stype).map(|rect| (rect.x, rect.y))
     }
 
     /// The top-left corner of the player's avatar in pixels, disabled or not; none once the episode is over.

@@ -71,7 +71,7 @@ macro_rules! state_fields {
 state_fields! {
     scalars tick score chance avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
     buffers sprites shares tides groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
-    scratch touched bumps ways
+    scratch touched bumps ways scenery
 }
 
 fn put_scalar<T: Bytes>(value: &T, base: &T, to: &mut Vec<u8>) {

@@ -131,6 +131,11 @@ impl Step<'_> {
             // The first sprite of a type keeps the unscaled size until its first update.
             (sprite.last.w, sprite.last.h) = (block, block);
         }
+        if rules.scenery[stype.index()] {
+            // Only a level makes it, and asks for no slot.
+            self.state.add_scenery(sprite);
+            return None;
+        }
         let Some(slot) = self.state.admit(rules, &sprite) else {
             self.stop(Limit::Sprites);
             return None;

@@ -97,7 +97,8 @@ impl State {
         alive: &mut [bool],
     ) -> Result<Group, String> {
         let kept = self.group(stype);
-        let mut counted = Group { head: kept.head, ..Group::EMPTY };
+        let scenery = self.scenery_of(stype).len() as u16;
+        let mut counted = Group { head: kept.head, count: scenery, ..Group::EMPTY };
         for slot in self.slots(stype) {
             let sprite = self.sprite(slot);
             let name = game.name(stype);

@@ -15,6 +15,7 @@ use crate::limits::MAX_SLOTS;
 use crate::ontology::class::SpriteClass;
 use crate::paths::Ways;
 use crate::rest::Rest;
+use crate::scenery::Scenery;
 use crate::share::{Share, Sum, Tide};
 use std::sync::Arc;
 
@@ -296,6 +297,8 @@ pub struct State {
     pub(crate) timers: Vec<Timer>,
     /// What paths go around (`paths.rs`); none without `obs=`. All states of a level share it.
     pub(crate) ways: Option<Arc<Ways>>,
+    /// The sprites that nothing is about; none without any. All states of a level share them.
+    pub(crate) scenery: Option<Arc<Scenery>>,
     /// Entries of the lists of BomberRandomMissiles that updateSpawnType has replaced, sorted by holder and place.
     pub(crate) replaced: Vec<Replaced>,
     /// The game's counters.
@@ -336,7 +339,7 @@ clone_fields! { to, from;
     copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
     buffers sprites shares tides groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
     empty touched bumps;
-    shared ways
+    shared ways scenery
 }
 
 impl State {
@@ -438,7 +441,7 @@ impl State {
         &self.groups[stype.index()]
     }
 
-    /// The slots of a type, in order of creation.
+    /// The slots of a type, in order of creation; none of scenery.
     pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + Clone + '_ {
         let mut at = self.group(stype).head;
         std::iter::from_fn(move || {

@@ -145,6 +145,7 @@ impl Game {
             bumps: Vec::new(),
             timers: Vec::new(),
             ways: None,
+            scenery: None,
             counters: vec![0; rules.counters],
             replaced: Vec::new(),
             jumps: chance,

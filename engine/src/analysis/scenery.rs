@@ -2,27 +2,14 @@
 
 use super::Analysis;
 use crate::game::SpriteType;
-use crate::syntax::Param;
 
 impl Analysis {
     /// Whether nothing but its own line, its parents' and the LevelMapping speaks of a type: its sprites are where the level
     /// has put them, and make no difference to anything. False where in doubt: a value that is only spelled like the type
-    /// speaks of it, too. Cost: O(words of the game).
+    /// speaks of it, too.
     pub fn is_scenery(&self, stype: SpriteType) -> bool {
-        let rules = &self.game.0;
-        let relatives: Vec<&str> =
-            rules.types[stype.index()].tree.iter().map(|&other| self.game.name(other)).collect();
-        let names = |text: &str| text.split(',').any(|part| relatives.contains(&part));
-        let speak = |params: &[Param]| params.iter().any(|param| names(&param.value.text));
-        let game = &rules.description;
-        let interactions = game.interactions.iter().any(|line| {
-            let partners = line.second.iter().any(|second| names(&second.text));
-            names(&line.first.text) || partners || speak(&line.params)
-        });
-        let others = game.sprite_lines().iter().any(|(_, line)| speak(&line.params));
-        let endings = game.terminations.iter().any(|line| speak(&line.params));
         let moves = self.facts(stype).motion != super::Motion::Still || !self.facts(stype).makes.is_empty();
-        !(interactions || others || endings || moves || speak(&game.header.params))
+        !moves && !self.game.0.spoken_of[stype.index()]
     }
 }
 

@@ -25,6 +25,7 @@ use crate::ontology::sprites::{self as behaviour, Mover};
 use crate::ontology::terminations::{Condition, Decision, Termination};
 use crate::population::model;
 use crate::rest::foresight;
+use crate::scenery::{scenery, spoken_of};
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
@@ -123,6 +124,7 @@ fn compile_with(
         })
     };
     let movers: Vec<Mover> = order.iter().rev().filter_map(mover).collect();
+    let spoken_of = spoken_of(description, &types);
     let mut contacts = Contacts::of(&types, &program.passes);
     let barriers = barriers(&types, &program.passes, &program.effects, &mut contacts, &movers);
     // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
@@ -147,6 +149,8 @@ fn compile_with(
         square_size: header.square_size,
         counters: header.counters,
         can_end,
+        scenery: scenery(&types, &spoken_of, &movers),
+        spoken_of,
         movers,
         models: (0..).zip(&types).map(|(at, info)| model(SpriteType(at), info)).collect(),
         order,

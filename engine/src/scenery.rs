@@ -1,0 +1,152 @@
+//! Scenery: sprites of types that no rule, no other sprite and no termination speaks of, and that do nothing by themselves.
+//!
+//! They are where the level has put them for as long as an episode lasts: half of all sprites of a usual game are its floor.
+//! So all states of a level share them. They have no slots, and a copy of a state does not copy them; the running hash has
+//! their shares once and for all.
+
+use crate::game::{SpriteType, TypeInfo};
+use crate::ontology::sprites::Mover;
+use crate::share::{Share, exchange};
+use crate::state::{Sprite, State};
+use crate::syntax::{Description, Param, Word};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// The parameter in which the reference reads the number of a type.
+const BY_NUMBER: &str = "itype";
+
+/// By type: whether anything but its own line, its parents' and the LevelMapping speaks of it. True where in doubt: a value that
+/// is only spelled like the type speaks of it, too. Cost: O(words of the game × log).
+pub(crate) fn spoken_of(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
+    let lines = description.sprite_lines();
+    let lines = lines.iter().flat_map(|(_, line)| &line.params);
+    let interactions = &description.interactions;
+    let endings = description.terminations.iter().flat_map(|line| &line.params);
+    let params: Vec<&Param> = lines
+        .chain(interactions.iter().flat_map(|line| &line.params))
+        .chain(endings)
+        .chain(&description.header.params)
+        .collect();
+    let sides = interactions.iter().flat_map(|line| line.second.iter().chain([&line.first]));
+    let words = sides.chain(params.iter().map(|param| &param.value));
+    let named: BTreeSet<&str> = words.flat_map(|word: &Word| word.text.split(',')).collect();
+    let numbered: BTreeSet<usize> = params
+        .iter()
+        .filter(|param| param.key.text == BY_NUMBER)
+        .filter_map(|param| param.value.text.parse().ok())
+        .collect();
+    let speaks_of = |other: &SpriteType| {
+        named.contains(types[other.index()].name.as_str()) || numbered.contains(&other.index())
+    };
+    types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
+}
+
+/// By type: whether its sprites are scenery.
+pub(crate) fn scenery(types: &[TypeInfo], spoken_of: &[bool], movers: &[Mover]) -> Vec<bool> {
+    let moves: BTreeSet<SpriteType> = movers.iter().map(|mover| mover.stype).collect();
+    let is_scenery = |(number, info): (u16, &TypeInfo)| {
+        let stype = SpriteType(number);
+        // What the first of a type is like, as opposed to later ones, shows in what is larger or smaller than a cell only.
+        let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
+        let is_still = info.order.is_some() && !moves.contains(&stype) && !info.is_like_avatar();
+        // There are avatars that leave walls behind without a word.
+        stype != SpriteType(0) && !spoken_of[stype.index()] && is_whole && is_still
+    };
+    (0..).zip(types).map(is_scenery).collect()
+}
+
+/// The sprites of scenery, by type, in the order of their creation.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scenery(Vec<(SpriteType, Vec<Sprite>)>);
+
+impl Scenery {
+    fn of(&self, stype: SpriteType) -> &[Sprite] {
+        self.0.iter().find(|(other, _)| *other == stype).map_or(&[], |(_, sprites)| sprites)
+    }
+}
+
+impl State {
+    /// Makes a sprite of scenery. Where states share theirs already, this one has its own from then on.
+    pub(crate) fn add_scenery(&mut self, sprite: Sprite) {
+        self.groups[sprite.stype.index()].count += 1;
+        self.next_id += 1;
+        self.population += 1;
+        exchange(Share::default(), Share::fresh(&sprite), &mut self.sum, &mut self.tides);
+        let Scenery(types) = Arc::make_mut(self.scenery.get_or_insert_default());
+        match types.iter_mut().find(|(other, _)| *other == sprite.stype) {
+            Some((_, sprites)) => sprites.push(sprite),
+            None => types.push((sprite.stype, vec![sprite])),
+        }
+    }
+
+    /// The sprites of a type that are scenery: all, or none.
+    pub(crate) fn scenery_of(&self, stype: SpriteType) -> &[Sprite] {
+        self.scenery.as_ref().map_or(&[], |scenery| scenery.of(stype))
+    }
+
+    /// The sprites of a type as they are now, in the order of their creation: those with slots, and scenery. Between steps.
+    pub(crate) fn sprites_of(&self, stype: SpriteType) -> impl Iterator<Item = Sprite> + '_ {
+        self.scenery_of(stype).iter().copied().chain(self.slots(stype).map(|slot| self.present(slot)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Action, Game, Seed};
+
+    const MEADOW: &str = "BasicGame square_size=10\n  SpriteSet\n    grass > Immovable\n    ground >\n      sand > Immovable\n      \
+                          clay > Immovable\n    asleep > Immovable\n    bird > RandomNPC\n    nest > SpawnPoint stype=bird\n    \
+                          cloud > Missile speed=0.5\n    tuft > Immovable wMult=0.5\n    hero > MovingAvatar\n  LevelMapping\n    \
+                          . > grass\n    s > sand\n    z > asleep\n    n > nest\n    c > cloud\n    t > tuft\n    A > grass hero\n  \
+                          InteractionSet\n    bird hero > transformTo stype=asleep\n    hero ground > stepBack\n  TerminationSet\n    \
+                          Timeout limit=9 win=True\n";
+
+    #[test]
+    fn what_no_rule_is_about_and_never_moves() {
+        let game = Game::from_source(MEADOW).unwrap();
+        let is_scenery = |name: &&str| game.0.scenery[game.sprite_type(name).unwrap().index()];
+        let all = ["grass", "sand", "clay", "asleep", "bird", "nest", "cloud", "tuft", "hero"];
+        assert_eq!(all.iter().filter(|name| is_scenery(name)).collect::<Vec<_>>(), [&"grass"]);
+    }
+
+    #[test]
+    fn scenery_is_seen_and_counted_as_any_sprite_and_has_no_slots() {
+        let game = Game::from_source(MEADOW).unwrap();
+        let state = game.start(&game.level("A..\n.sz\n").unwrap(), Seed::from_text("meadow"));
+        let grass = game.sprite_type("grass").unwrap();
+        assert_eq!((state.sprites.len(), state.alive(grass)), (3, 4));
+        assert_eq!(state.places(grass).collect::<Vec<_>>(), [(0, 0), (10, 0), (20, 0), (0, 10)]);
+        assert_eq!(
+            game.records(&state).iter().map(|record| record.id).collect::<Vec<_>>(),
+            [0, 1, 2, 3, 4, 5, 6]
+        );
+        let seen = game.observe(&state);
+        assert_eq!(seen.cells[..2], [vec!["grass".to_owned(), "hero".to_owned()], vec!["grass".to_owned()]]);
+        state.recount(&game).unwrap();
+    }
+
+    #[test]
+    fn a_hash_knows_its_scenery() {
+        let game = Game::from_source(MEADOW).unwrap();
+        let start = |level: &str| game.start(&game.level(level).unwrap(), Seed::from_text("meadow"));
+        let (mut one, mut other) = (start("A. .\n"), start("A .. \n"));
+        for _ in 0..3 {
+            assert_eq!(one.state_hash(), one.state_hash_from_scratch(&game));
+            assert_ne!(one.state_hash(), other.state_hash());
+            game.step(&mut one, Action::Right);
+            game.step(&mut other, Action::Right);
+            one.settle_hash();
+        }
+    }
+
+    #[test]
+    fn a_copy_has_the_same_scenery_whatever_it_was_before() {
+        let game = Game::from_source(MEADOW).unwrap();
+        let start = |level: &str| game.start(&game.level(level).unwrap(), Seed::from_text("meadow"));
+        let (meadow, mut desert) = (start("A....\n"), start("Asss.\n"));
+        let grass = game.sprite_type("grass").unwrap();
+        desert.clone_from(&meadow);
+        assert_eq!(desert.rects(grass).count(), 5);
+        assert_eq!(desert.state_hash(), meadow.state_hash());
+    }
+}
