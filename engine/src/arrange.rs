@@ -22,7 +22,7 @@ impl Game {
                 state.add_amount(state.avatar, resource, amount);
             }
             if let Some(facing) = facing {
-                state.edit(state.avatar).orientation = facing;
+                state.edit_form(state.avatar).orientation = facing;
             }
             state.memory_is_stale = true;
             state.settle_hash();

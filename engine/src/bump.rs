@@ -254,19 +254,20 @@ impl Step<'_> {
             GateKind::Back => Some(true),
             GateKind::Flush => {
                 // Beside a barrier that fills its cell is where the sprite was, if it came over the border of its own.
-                let (x, y) = (sprite.rect.x - sprite.last.x, sprite.rect.y - sprite.last.y);
+                let last = state.last(bump.slot);
+                let (x, y) = (sprite.rect.x - last.x, sprite.rect.y - last.y);
                 let lay = if y == 0 { flag::RIGHT } else { flag::BELOW };
                 let straight = (x == 0 || y == 0) && (x + y).abs() <= state.block && !sprite.is(lay);
                 let beside = state.bits_under(state.cell_of(sprite), sprite.flags) & gate.bits == 0;
-                (straight && beside && sprite.last.w == state.block && sprite.last.h == state.block)
-                    .then_some(true)
+                (straight && beside && last.w == state.block && last.h == state.block).then_some(true)
             }
         }
     }
 
     fn put_back(&mut self, slot: Slot) {
+        let last = self.state.last(slot);
         let sprite = &mut self.state.sprites[usize::from(slot)];
-        sprite.rect = sprite.last;
+        sprite.rect = last;
         sprite.flags &= !flag::BUMPING;
         self.work_of_effect();
     }
@@ -284,10 +285,11 @@ impl Step<'_> {
     /// Enters a sprite where it has stepped, if it has bumped.
     #[inline(never)]
     pub(crate) fn carry_out(&mut self, slot: Slot) {
+        let last = self.state.last(slot);
         let sprite = &mut self.state.sprites[usize::from(slot)];
         if sprite.is(flag::BUMPING) {
             sprite.flags &= !flag::BUMPING;
-            let aim = std::mem::replace(&mut sprite.rect, sprite.last);
+            let aim = std::mem::replace(&mut sprite.rect, last);
             self.place(slot, aim);
         }
     }

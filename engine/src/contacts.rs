@@ -7,7 +7,6 @@
 //! with such a sprite on either side counts as possible too; which cells they cover is noted apart.
 
 use crate::game::{Pass, Rules, SpriteType, TypeInfo};
-use crate::rest::mark;
 use crate::state::{NONE, Slot, State, flag};
 
 /// No pair.
@@ -364,9 +363,9 @@ impl State {
         let slots: Vec<Slot> =
             (0..rules.types.len() as u16).flat_map(|t| self.slots(SpriteType(t))).collect();
         for slot in slots {
-            match self.sprite(slot).rest {
-                mark::FLYING => state.enter_cell_again(rules, slot),
-                _ => state.enter_cell(rules, slot),
+            match self.sprite(slot).flies() {
+                true => state.enter_cell_again(rules, slot),
+                false => state.enter_cell(rules, slot),
             }
         }
         state

@@ -406,8 +406,9 @@ impl Step<'_> {
             return;
         }
         let shifted = sprite.rect.at(sprite.rect.x, sprite.rect.y.wrapping_add(GROUND));
-        let below = other.last.y > sprite.last.y.wrapping_add(sprite.rect.h / 2);
-        let falling = sprite.rect.y > sprite.last.y;
+        let last = self.state.last(one);
+        let below = self.state.last(two).y > last.y.wrapping_add(sprite.rect.h / 2);
+        let falling = sprite.rect.y > last.y;
         if shifted.intersects(other.rect) && below && falling {
             self.state.edit_motion(one).set(flag::ON_GROUND, true);
         }

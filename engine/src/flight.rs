@@ -33,14 +33,14 @@ pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
 /// Makes a sprite in flight as it was right after its last move up to a tick. Returns how far it moves at once.
 fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
-    let Sprite { rect, last, moved_at, .. } = *sprite;
-    let (dx, dy) = (rect.x.wrapping_sub(last.x), rect.y.wrapping_sub(last.y));
+    let Sprite { rect, was, moved_at, .. } = *sprite;
+    let (dx, dy) = (rect.x.wrapping_sub(was.0), rect.y.wrapping_sub(was.1));
     let ticks = tick.wrapping_sub(moved_at);
-    let period = i32::from(sprite.period);
+    let period = i32::from(sprite.period());
     let moves = if period == 1 { ticks } else { ticks.div_euclid(period) };
     let along = |at: i32, by: i32| at.wrapping_add(by.wrapping_mul(moves));
     sprite.rect = rect.at(along(rect.x, dx), along(rect.y, dy));
-    (sprite.last.x, sprite.last.y) = (sprite.rect.x.wrapping_sub(dx), sprite.rect.y.wrapping_sub(dy));
+    sprite.was = (sprite.rect.x.wrapping_sub(dx), sprite.rect.y.wrapping_sub(dy));
     sprite.moved_at = moved_at.wrapping_add(moves.wrapping_mul(period));
     (dx, dy)
 }
@@ -49,20 +49,20 @@ fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
 fn settle_in(sprite: &mut Sprite, tick: i32) {
     fly_to(sprite, tick);
     if sprite.moved_at != tick {
-        sprite.last = sprite.rect;
+        sprite.was = (sprite.rect.x, sprite.rect.y);
     }
 }
 
 /// The tick of the move after so many more.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
-    let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
+    let ticks = i32::from(sprite.period()).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)
 }
 
 impl State {
     /// Where a sprite is, in flight or not; in the event phase and between steps.
     pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
-        if sprite.rest != mark::FLYING {
+        if !sprite.flies() {
             return sprite.rect;
         }
         let mut sprite = *sprite;
@@ -73,7 +73,7 @@ impl State {
     /// A sprite as it is now, in flight or not; in the event phase and between steps.
     pub(crate) fn present(&self, slot: Slot) -> Sprite {
         let mut sprite = *self.sprite(slot);
-        if sprite.rest == mark::FLYING {
+        if sprite.flies() {
             settle_in(&mut sprite, self.tick);
         }
         sprite
@@ -84,7 +84,7 @@ impl State {
         let sprite = self.edit_motion(slot);
         settle_in(sprite, tick);
         let (stype, rect) = (sprite.stype, sprite.rect);
-        if sprite.last == rect {
+        if sprite.was == (rect.x, rect.y) {
             sprite.rest = mark::NOTHING;
         } else {
             sprite.rest = mark::TRIED;
@@ -149,7 +149,7 @@ impl Step<'_> {
     /// An effect is about to be executed on a sprite. Cost: O(sprites in flight), if it flies.
     #[inline]
     pub(crate) fn land_one(&mut self, slot: Slot) {
-        if self.state.sprite(slot).rest == mark::FLYING {
+        if self.state.sprite(slot).flies() {
             self.land_now(slot);
         }
     }
@@ -177,7 +177,7 @@ impl Step<'_> {
     fn land_late(&mut self, slot: Slot) {
         self.state.land(self.rules, slot, self.state.tick - 1);
         let sprite = self.state.edit_motion(slot);
-        sprite.last = sprite.rect;
+        sprite.was = (sprite.rect.x, sprite.rect.y);
     }
 
     /// Nothing flies any more. In the middle of the updates, those are a tick behind that are yet to be updated.
@@ -197,12 +197,12 @@ impl Step<'_> {
     /// After a tick in which a sprite has moved by itself and nothing else happened to it: whether it flies from now on.
     pub(crate) fn take_off(&mut self, slot: Slot) -> bool {
         let sprite = *self.state.sprite(slot);
-        let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.last.x), sprite.rect.y.wrapping_sub(sprite.last.y));
+        let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.was.0), sprite.rect.y.wrapping_sub(sprite.was.1));
         let within = |most: i32| move |at: &i32| at.unsigned_abs() < most as u32;
         let near = [sprite.rect.x, sprite.rect.y].iter().all(within(FARTHEST));
         let near = near && [dx, dy].iter().all(within(FASTEST));
         let tick = self.state.tick;
-        if !near || sprite.is(flag::BIG | flag::KILLED) || sprite.moved_at != tick {
+        if !near || sprite.is(flag::BIG | flag::KILLED | flag::RESIZED) || sprite.moved_at != tick {
             return false;
         }
         let moves = self.state.moves_within(&sprite, dx, dy);
@@ -211,14 +211,14 @@ impl Step<'_> {
             return false;
         }
         let period = self.rules.types[sprite.stype.index()].traits.cooldown.clamp(1, LONGEST_PERIOD) as u16;
-        let sprite = Sprite { period, ..sprite };
+        let sprite = Sprite { rest: mark::ASLEEP | period, ..sprite };
         let due = due(&sprite, moves);
         if self.rules.any_rests {
             self.state.stamp(&sprite, due);
         }
-        let stype = sprite.stype;
+        let (stype, rest) = (sprite.stype, sprite.rest);
         let sprite = self.state.edit_motion(slot);
-        (sprite.rest, sprite.period) = (mark::FLYING, period);
+        sprite.rest = rest;
         sprite.set(flag::MOVED, false);
         self.state.groups[stype.index()].asleep += 1;
         self.state.flights.push(Flight { slot, due });
@@ -267,7 +267,7 @@ BasicGame
                 state.settle_hash();
             }
             for flight in &state.flights {
-                flights[usize::from(state.sprite(flight.slot).period)] += 1;
+                flights[usize::from(state.sprite(flight.slot).period())] += 1;
             }
         }
         assert_eq!(state.outcome(), Outcome::Ongoing);

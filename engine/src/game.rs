@@ -3,6 +3,7 @@
 use crate::bump::Barriers;
 use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::form::Form;
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
@@ -305,6 +306,8 @@ pub(crate) struct Rules {
     pub(crate) types: Vec<TypeInfo>,
     /// By type: its sprites as they are made.
     pub(crate) models: Vec<Sprite>,
+    /// By type: their form.
+    pub(crate) forms: Vec<Form>,
     /// Drawing order; updates go through it backwards.
     pub(crate) order: Vec<SpriteType>,
     /// Types whose update does something, in update order.

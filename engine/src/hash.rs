@@ -4,9 +4,10 @@
 //! that `step` keeps up to date as they change, plus a hash of the few numbers beside them.
 //! [`State::search_key`] covers live behaviour only and is what transposition tables use (`search_key.rs`).
 
+use crate::form::{Extra, Target};
 use crate::game::Game;
-use crate::share::{Share, Sum, exchange, minus, plus};
-use crate::state::{Extra, State, Target, flag};
+use crate::share::{Parts, Share, Sum, exchange, minus, plus};
+use crate::state::{NONE, State, flag};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::fmt;
@@ -131,7 +132,7 @@ impl State {
         let mut sum = self.tides.iter().fold(self.sum, |sum, tide| plus(sum, tide.at(self.tick)));
         for &slot in &self.stale {
             let share = self.shares[usize::from(slot)];
-            let new = share.renewed(self.sprite(slot));
+            let new = share.renewed(self.sprite(slot), slot, &self.parts());
             sum = plus(minus(sum, share.at(self.tick)), new.at(self.tick));
         }
         let memory = if self.memory_is_stale { self.hash_memory() } else { self.memory_hash };
@@ -143,14 +144,15 @@ impl State {
     /// Stepping does not do so by itself: planners, which ask for few hashes, do not pay for all. Cost: O(sprites changed
     /// since the last time).
     pub fn settle_hash(&mut self) {
-        let State { sprites, shares, stale, sum, tides, .. } = self;
+        let State { sprites, shares, stale, sum, tides, forms, resized, .. } = self;
         let (sprites, shares, mut running) = (&mut sprites[..], &mut shares[..], *sum);
+        let parts = Parts { forms, resized };
         for &slot in &*stale {
             let (sprite, share) = (&mut sprites[usize::from(slot)], &mut shares[usize::from(slot)]);
             if share.is_of_one_that_only_moved(sprite) {
                 running = plus(running, share.follow(sprite));
             } else {
-                let new = share.renewed(sprite);
+                let new = share.renewed(sprite, slot, &parts);
                 let old = std::mem::replace(share, new);
                 exchange(old, new, &mut running, tides);
             }
@@ -166,9 +168,11 @@ impl State {
 
     /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).
     pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
-        let slots = game.sprite_types().flat_map(|stype| self.slots(stype)).map(|slot| self.sprite(slot));
-        let sprites = slots.chain(game.sprite_types().flat_map(|stype| self.scenery_of(stype)));
-        let shares = sprites.map(|sprite| Share::fresh(sprite).at(self.tick));
+        let slots = game.sprite_types().flat_map(|stype| self.slots(stype));
+        let slots = slots.map(|slot| (slot, self.sprite(slot)));
+        let scenery = game.sprite_types().flat_map(|stype| self.scenery_of(stype));
+        let sprites = slots.chain(scenery.map(|sprite| (NONE, sprite)));
+        let shares = sprites.map(|(slot, sprite)| Share::fresh(sprite, slot, &self.parts()).at(self.tick));
         self.with_globals(shares.fold([0; 2], plus), self.hash_memory())
     }
 

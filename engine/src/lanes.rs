@@ -64,7 +64,7 @@ impl State {
         let kind = &rules.contacts.kinds[sprite.stype.index()];
         let cell = self.cell(i32::from(lane.column), i32::from(lane.row));
         let mut cells = self.span(cell, lane.flags).cells();
-        sprite.period != 1 && cells.any(|cell| kind.has_partners_among(self.masks[cell]))
+        sprite.period() != 1 && cells.any(|cell| kind.has_partners_among(self.masks[cell]))
     }
 
     /// The same for one that is in two cells now, or in two and those beside them, and goes on to the second of them and the one
@@ -74,7 +74,7 @@ impl State {
         let (block, stride) = (self.block, (self.columns + 2) as usize);
         let sprite = &mut self.sprites[usize::from(slot)];
         let before = sprite.row as usize * stride + sprite.column as usize;
-        let lies = sprite.flags & flag::LYING;
+        let (lies, slow) = (sprite.flags & flag::LYING, sprite.period() != 1);
         let (by, at, size, low, cells, unit, across) = match lies & !(flag::RIGHT | flag::BELOW) {
             0 if dy == 0 && lies & flag::RIGHT != 0 => {
                 let across = if lies & flag::BELOW == 0 { 0 } else { stride };
@@ -101,7 +101,7 @@ impl State {
         };
         let kind = &rules.contacts.kinds[sprite.stype.index()];
         let is_beside = |cell: usize| kind.has_partners_among(self.masks[cell]);
-        if sprite.period != 1 && (is_beside(new) || is_beside(new + across)) {
+        if slow && (is_beside(new) || is_beside(new + across)) {
             return None;
         }
         *low = next as i16;

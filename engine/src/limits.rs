@@ -43,7 +43,7 @@ pub const MAX_TICKS: i32 = 2000;
 /// Messages after which the reference ends a game without a winner.
 pub const MAX_MESSAGES: u32 = 25;
 /// Sprites that a state can hold, whatever the reference's counter says: it counts some deaths twice.
-pub const MAX_SLOTS: usize = 65_535;
+pub const MAX_SLOTS: usize = 64_000;
 /// Work of one tick: an executed effect counts [`EFFECT_WORK`], a sprite or a cell that is looked at counts one. The busiest
 /// tick in the traces of the reference is about 7000.
 pub const MAX_WORK: usize = 1 << 18;

@@ -22,14 +22,6 @@ impl Step<'_> {
         sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
     }
 
-    pub(crate) fn mark_moved(&mut self, slot: Slot) {
-        let sprite = &mut self.state.sprites[usize::from(slot)];
-        if !sprite.is(flag::MOVED) {
-            sprite.set(flag::MOVED, true);
-            self.state.moved.push(slot);
-        }
-    }
-
     /// Puts a sprite somewhere else, size included.
     pub(crate) fn place(&mut self, slot: Slot, rect: Rect) {
         if rect.h == 0 {
@@ -78,8 +70,8 @@ impl Step<'_> {
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
         let sprite = *self.state.sprite(slot);
         self.note_change(&sprite);
-        self.state.edit(slot).last = last;
-        self.mark_moved(slot);
+        self.state.edit(slot);
+        self.state.set_last(slot, last);
     }
 
     /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids.
@@ -110,9 +102,10 @@ impl Step<'_> {
     }
 
     /// Where a displacement leads; None if it is none.
+    #[inline(always)]
     pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
         let sprite = self.state.sprite(slot);
-        let amount = if amount == 0 { sprite.speed as i32 } else { amount };
+        let amount = if amount == 0 { self.state.form_of(sprite).speed as i32 } else { amount };
         if amount == 0 || direction.x.abs() + direction.y.abs() == 0.0 {
             return None;
         }
@@ -129,7 +122,7 @@ impl Step<'_> {
 
     /// (x, y) of the displacement in this tick.
     pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
-        let Sprite { rect, last, .. } = *self.state.sprite(slot);
-        Direction { x: f64::from(rect.x.wrapping_sub(last.x)), y: f64::from(rect.y.wrapping_sub(last.y)) }
+        let Sprite { rect, was, .. } = *self.state.sprite(slot);
+        Direction { x: f64::from(rect.x.wrapping_sub(was.0)), y: f64::from(rect.y.wrapping_sub(was.1)) }
     }
 }

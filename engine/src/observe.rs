@@ -137,14 +137,14 @@ impl Game {
     /// Where the avatar is and what it is, if there is one and it lives. Cost: O(1).
     pub fn seen_avatar(&self, state: &State) -> Option<SeenAvatar> {
         let stype = state.avatar_type()?;
-        let sprite = state.sprite(state.avatar);
+        let (sprite, form) = (state.sprite(state.avatar), state.form(state.avatar));
         let cell = |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.block.max(1));
         Some(SeenAvatar {
             name: self.name(stype).to_owned(),
             column: cell(sprite.rect.x, sprite.rect.w),
             row: cell(sprite.rect.y, sprite.rect.h),
-            facing: sprite.orientation,
-            health: sprite.health,
+            facing: form.orientation,
+            health: form.health,
         })
     }
 
@@ -159,26 +159,27 @@ impl Game {
 
     /// Every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
     pub fn records(&self, state: &State) -> Vec<SpriteRecord> {
-        let record = |sprite: &Sprite, resources: Vec<(u16, i32)>, rotation: f64| SpriteRecord {
-            id: sprite.id,
-            stype: sprite.stype.0,
-            rect: sprite.rect,
-            orientation: (sprite.orientation.x, sprite.orientation.y),
-            speed: sprite.speed,
-            health: sprite.health,
-            flags: (sprite.flags & flag::RECORDED) as u16,
-            resources,
-            rotation,
+        let record = |sprite: &Sprite, resources: Vec<(u16, i32)>| {
+            let form = state.form_of(sprite);
+            SpriteRecord {
+                id: sprite.id,
+                stype: sprite.stype.0,
+                rect: sprite.rect,
+                orientation: (form.orientation.x, form.orientation.y),
+                speed: form.speed,
+                health: form.health,
+                flags: (sprite.flags & flag::RECORDED) as u16,
+                resources,
+                rotation: state.rotation(&self.0, sprite),
+            }
         };
         let slots = self.sprite_types().flat_map(|stype| state.slots(stype)).map(|slot| {
             let held = state.held_by(slot).iter();
             let resources = held.map(|held| (held.resource.0, held.amount)).collect();
-            record(&state.present(slot), resources, state.rotation(&self.0, slot))
+            record(&state.present(slot), resources)
         });
-        let scenery = self
-            .sprite_types()
-            .flat_map(|stype| state.scenery_of(stype))
-            .map(|sprite| record(sprite, Vec::new(), self.0.types[sprite.stype.index()].traits.rotation));
+        let scenery = self.sprite_types().flat_map(|stype| state.scenery_of(stype));
+        let scenery = scenery.map(|sprite| record(sprite, Vec::new()));
         let mut records: Vec<SpriteRecord> = slots.chain(scenery).collect();
         records.sort_unstable_by_key(|record| record.id);
         records
@@ -228,7 +229,7 @@ impl State {
 
     /// The same, with where each faces.
     pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
-        self.sprites_of(stype).map(|sprite| (sprite.rect, sprite.orientation))
+        self.sprites_of(stype).map(|sprite| (sprite.rect, self.form_of(&sprite).orientation))
     }
 
     /// How many sprites of a type are there, disabled avatars apart. Cost: O(1).

@@ -194,7 +194,7 @@ impl State {
     #[inline(always)]
     pub(crate) fn relocate(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
         let (from, to) = self.locate_move(slot, rect);
-        self.relocate_to(rules, slot, rect, from, to);
+        self.relocate_as(rules, slot, rect, from, to);
     }
 
     /// Where a sprite is entered, and where it is to be if that is to be its rectangle.
@@ -204,20 +204,31 @@ impl State {
         (from, self.locate_moved(from, self.sprite(slot).rect, rect))
     }
 
-    /// [`State::relocate`], of a sprite that is located already.
+    /// [`State::relocate`], of a sprite that is located already, and stays as large as it is.
     #[inline(always)]
     pub(crate) fn relocate_to(&mut self, rules: &Rules, slot: Slot, rect: Rect, from: Located, to: Located) {
         let sprite = &mut self.sprites[usize::from(slot)];
-        let (old, before) = (sprite.rect, sprite.flags);
-        let resized = (old.w, old.h) != (rect.w, rect.h);
-        sprite.flags |= flag::STALE | flag::MOVED | bit(resized, flag::CHANGED);
+        let before = sprite.flags;
+        sprite.flags |= flag::STALE | flag::MOVED;
         sprite.rect = rect;
-        if before & flag::STALE == 0 {
-            self.stale.push(slot);
-        }
         if before & flag::MOVED == 0 {
             self.moved.push(slot);
         }
+        if before & flag::STALE == 0 {
+            self.stale.push(slot);
+        }
+        self.enter_other(rules, slot, from, to);
+    }
+
+    /// The same of one that may come to be larger or smaller.
+    fn relocate_as(&mut self, rules: &Rules, slot: Slot, rect: Rect, from: Located, to: Located) {
+        let before = self.sprite(slot).rect;
+        if (before.w, before.h) == (rect.w, rect.h) {
+            return self.relocate_to(rules, slot, rect, from, to);
+        }
+        let last = self.last(slot);
+        self.edit(slot).rect = rect;
+        self.set_last(slot, last);
         self.enter_other(rules, slot, from, to);
     }
 
@@ -231,10 +242,10 @@ impl State {
         to: Located,
     ) {
         if self.rests.is_empty() {
-            return self.relocate_to(rules, slot, rect, from, to);
+            return self.relocate_as(rules, slot, rect, from, to);
         }
         self.touch(slot);
-        self.relocate_to(rules, slot, rect, from, to);
+        self.relocate_as(rules, slot, rect, from, to);
         self.touch(slot);
     }
 

@@ -7,11 +7,13 @@
 use crate::chance::Chance;
 use crate::contacts::Mask;
 use crate::flight::Flight;
+use crate::form::{Extra, Form, Target};
 use crate::game::{Action, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
+use crate::moved::Resized;
 use crate::rest::Rest;
 use crate::share::{Share, Steady, Tide};
-use crate::state::{Extra, Group, Held, Replaced, Sprite, State, Target, Timer};
+use crate::state::{Group, Held, Replaced, Sprite, State, Timer};
 
 /// A state, as it differs from a base. Only [`State::unpack_from`] with the same base makes sense of it.
 #[derive(Clone, Debug)]
@@ -70,7 +72,7 @@ macro_rules! state_fields {
 
 state_fields! {
     scalars tick score chance avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
-    buffers sprites shares tides groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
+    buffers sprites shares tides groups cells masks covered together meets reasons possible moved resized stale killed held memory templates shields pulled forms extras rests watched stamps flights timers replaced counters;
     scratch touched bumps ways scenery
 }
 
@@ -218,8 +220,10 @@ fields! {
     Group { head tail count disabled loose big off asleep }
     Share { word steady still }
     Tide { period phase flights growth }
+    Resized { slot w h }
+    Form { orientation speed health max_health start spawns extra holder }
     Extra { holder rotation gravity facing block_time target last_known }
-    Sprite { rect last orientation speed id moved_at health max_health time_to_live count start stype rest period flags spawns extra heading next previous cell_next cell_previous column row }
+    Sprite { rect was id moved_at time_to_live count flags stype form rest next previous cell_next cell_previous column row }
 }
 
 macro_rules! wrapped {

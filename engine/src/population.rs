@@ -1,5 +1,6 @@
 //! Operations on sprites that the ontology is written in: those that make, kill and release them.
 
+use crate::form::Form;
 use crate::game::{Limit, SpriteType, TypeInfo};
 use crate::geometry::Rect;
 use crate::limits::MAX_SPRITES;
@@ -17,39 +18,48 @@ pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
         (flag::FROM_AVATAR, traits.is_from_avatar),
         (flag::ON_GROUND, traits.on_ground),
         (flag::FIRST_TICK, traits.is_first_tick),
+        (flag::STARTED, traits.start != -1),
         (flag::ORIENTED, traits.is_oriented),
         // Sprites of avatar classes are updated, and age, only as the player's.
         (flag::FROZEN, info.order.is_none() || is_avatar),
         (flag::BRISK, traits.cooldown <= 1 && traits.last_move == 0 && !is_avatar),
     ];
+    let no_heading = sprites::NO_HEADING << flag::HEADING;
     Sprite {
         rect: Rect::default(),
-        last: Rect::default(),
-        orientation: traits.orientation,
-        speed: traits.speed,
+        was: (0, 0),
         id: 0,
         moved_at: traits.last_move,
-        health: traits.health,
-        max_health: traits.max_health,
         time_to_live: traits.time_to_live,
         count: traits.age,
-        start: traits.start,
-        spawns: match info.class {
-            Some(SpriteClass::OngoingTurningAvatar) => SpriteType(0),
-            _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
-        },
-        extra: NONE,
         stype,
+        form: stype.0,
         rest: mark::NOTHING,
-        period: 1,
-        flags: flags.into_iter().fold(0, |all, (bit, on)| if on { all | bit } else { all }),
-        heading: sprites::NO_HEADING,
+        flags: flags.into_iter().fold(no_heading, |all, (bit, on)| if on { all | bit } else { all }),
         next: NONE,
         previous: NONE,
         cell_next: NONE,
         cell_previous: NONE,
         column: 0,
         row: 0,
+    }
+}
+
+/// The form of the sprites of a type as they are made.
+pub(crate) fn form(info: &TypeInfo) -> Form {
+    let traits = &info.traits;
+    Form {
+        orientation: traits.orientation,
+        speed: traits.speed,
+        health: traits.health,
+        max_health: traits.max_health,
+        start: traits.start,
+        spawns: match info.class {
+            Some(SpriteClass::OngoingTurningAvatar) => SpriteType(0),
+            _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),
+        },
+        extra: NONE,
+        holder: NONE,
     }
 }
 
@@ -103,16 +113,13 @@ impl Step<'_> {
         let size = |factor: f64| if factor == 1.0 { block } else { (f64::from(block) * factor) as i32 };
         let (w, h) = (size(info.traits.width_factor), size(info.traits.height_factor));
         sprite.rect = Rect { x, y, w, h };
-        sprite.last = sprite.rect;
+        sprite.was = (x, y);
+        let mut last = sprite.rect;
         sprite.id = self.state.next_id;
         let first = std::mem::replace(&mut self.state.templates[stype.index()], 1) == 0;
         if first {
             self.state.memory_is_stale = true;
             self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
-            // A copy of the first one has forgotten what it leaves behind, and leaves what has the number 0: wall.
-            if class == SpriteClass::OngoingTurningAvatar {
-                sprite.spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
-            }
         } else if h == 0 {
             self.stop(Limit::FlatSprite);
         }
@@ -129,7 +136,7 @@ impl Step<'_> {
         }
         if first && !due {
             // The first sprite of a type keeps the unscaled size until its first update.
-            (sprite.last.w, sprite.last.h) = (block, block);
+            (last.w, last.h) = (block, block);
         }
         if rules.scenery[stype.index()] {
             // Only a level makes it, and asks for no slot.
@@ -142,14 +149,18 @@ impl Step<'_> {
         };
         self.state.next_id += 1;
         self.state.population += 1;
+        // A copy of the first one has forgotten what it leaves behind, and leaves what has the number 0: wall.
+        if first && class == SpriteClass::OngoingTurningAvatar {
+            self.state.edit_form(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
+        }
         if self.rests {
             let sprite = *self.state.sprite(slot);
             self.state.touch(slot);
             self.note_change(&sprite);
             self.wake();
         }
-        if sprite.last != sprite.rect {
-            self.mark_moved(slot);
+        if last != sprite.rect {
+            self.state.set_last(slot, last);
         }
         Some(slot)
     }

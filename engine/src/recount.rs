@@ -116,9 +116,9 @@ impl State {
             counted.big += u16::from(sprite.is(flag::BIG));
             counted.off += u16::from(sprite.is(flag::OFF));
             counted.asleep += u16::from(sprite.rest & mark::ASLEEP != 0);
-            let told = match sprite.rest {
-                mark::FLYING => self.is_in_its_lane(slot),
-                _ => self.recounted_flags(sprite) == sprite.flags & flag::LYING,
+            let told = match sprite.flies() {
+                true => self.is_in_its_lane(slot),
+                false => self.recounted_flags(sprite) == sprite.flags & flag::LYING,
             };
             if !told {
                 return Err(format!("slot {slot} of `{name}` lies otherwise than its flags say"));
@@ -149,7 +149,7 @@ impl State {
                 let row = sprite.rect.y.div_euclid(self.block).clamp(-1, self.rows) + 1;
                 let place = (i32::from(sprite.column), i32::from(sprite.row));
                 // Of sprites in flight, the cells have been compared with their place already.
-                let told = place == (column, row) || sprite.rest == mark::FLYING;
+                let told = place == (column, row) || sprite.flies();
                 if !told || (place.1 * (self.columns + 2) + place.0) as usize != cell {
                     return Err(format!("slot {slot} stands in ({column}, {row}), not in cell {cell}"));
                 }
@@ -188,12 +188,16 @@ impl State {
         for (at, sprite) in self.sprites.iter().enumerate().filter(|&(at, _)| alive[at]) {
             let flies = self.flights.iter().filter(|flight| usize::from(flight.slot) == at).count();
             let rests = self.rests.iter().filter(|rest| usize::from(rest.slot) == at).count();
-            let asleep =
-                (usize::from(sprite.rest == mark::FLYING), usize::from(sprite.rest == mark::RESTING));
+            let asleep = (usize::from(sprite.flies()), usize::from(sprite.rest == mark::RESTING));
             if (flies, rests) != asleep {
                 return Err(format!("slot {at} flies {flies} and rests {rests} times, not {asleep:?}"));
             }
-            if sprite.last != sprite.rect && !sprite.is(flag::MOVED) && flies == 0 {
+            let resized = self.resized.iter().filter(|one| usize::from(one.slot) == at).count();
+            let is_resized = sprite.is(flag::RESIZED);
+            if resized != usize::from(is_resized) || is_resized && !sprite.is(flag::MOVED) {
+                return Err(format!("slot {at} was resized {resized} times, or has not moved"));
+            }
+            if !sprite.is_back() && !sprite.is(flag::MOVED) && flies == 0 {
                 return Err(format!("slot {at} moved and is not in the list"));
             }
             let is_avatar = game.class(sprite.stype).is_some_and(crate::SpriteClass::is_avatar);
@@ -203,16 +207,34 @@ impl State {
             if sprite.is(flag::KILLED) || sprite.is(flag::STALE) != self.stale.contains(&(at as Slot)) {
                 return Err(format!("slot {at} was left half-way by the last step"));
             }
-            let extra = self.extras.get(usize::from(sprite.extra)).map(|extra| usize::from(extra.holder));
-            if extra != (sprite.extra != NONE).then_some(at) {
+            let form = self.form_of(sprite);
+            let is_own = form.holder != NONE;
+            if is_own != (usize::from(sprite.form) >= game.0.types.len())
+                || is_own && usize::from(form.holder) != at
+            {
+                return Err(format!("the form of slot {at} is that of {}", form.holder));
+            }
+            let extra = self.extra_of(sprite).map(|extra| usize::from(extra.holder));
+            if extra != (form.extra != NONE).then_some(at) {
                 return Err(format!("the extra of slot {at} is that of {extra:?}"));
             }
+        }
+        let holders = self.forms.iter().map(|form| form.holder).filter(|&holder| holder != NONE);
+        if holders.clone().count() + game.0.types.len() != self.forms.len() {
+            return Err("the forms of the types are not in their place".to_owned());
+        }
+        if let Some(holder) = holders.clone().find(|&holder| self.form(holder).holder != holder) {
+            return Err(format!("slot {holder} has a form that it does not use"));
         }
         if !self.held.is_sorted_by_key(|held| (held.holder, held.resource)) {
             return Err("what is held is out of order".to_owned());
         }
-        let mut holders =
-            self.held.iter().map(|held| held.holder).chain(self.extras.iter().map(|e| e.holder));
+        let mut holders = self
+            .held
+            .iter()
+            .map(|held| held.holder)
+            .chain(self.extras.iter().map(|e| e.holder))
+            .chain(holders);
         match holders.find(|&slot| !alive[usize::from(slot)]) {
             Some(slot) => Err(format!("slot {slot} is gone and still holds something")),
             None => Ok(()),

@@ -27,10 +27,8 @@ pub(crate) mod mark {
     pub(crate) const SPOILED: u16 = 0x7FFE;
     /// Set for those that are not updated. Without this bit, other values are one more than the pass that put it back.
     pub(crate) const ASLEEP: u16 = 0x8000;
-    /// It is at rest.
+    /// It is at rest. With this bit, other values are the ticks between moves of what is in flight (`flight.rs`).
     pub(crate) const RESTING: u16 = ASLEEP;
-    /// It is in flight (`flight.rs`).
-    pub(crate) const FLYING: u16 = ASLEEP | 1;
 }
 
 /// The largest sprite of a game in which sprites rest, in cells along a side.
@@ -220,7 +218,7 @@ impl Step<'_> {
         for at in 0..self.state.moved.len() {
             let slot = self.state.moved[at];
             let sprite = self.state.sprite(slot);
-            let (rest, back) = (sprite.rest, sprite.rect == sprite.last);
+            let (rest, back) = (sprite.rest, sprite.is_back());
             if rest == mark::TRIED && !back && self.take_off(slot) {
                 continue;
             }
@@ -238,12 +236,12 @@ impl Step<'_> {
     /// All other changes were noted when they happened; of a try, it shows now that it was none.
     fn stamp_moved(&mut self) {
         for at in 0..self.state.moved.len() {
-            let sprite = *self.state.sprite(self.state.moved[at]);
-            if sprite.rest != mark::NOTHING && sprite.rect != sprite.last {
+            let slot = self.state.moved[at];
+            let (sprite, last) = (*self.state.sprite(slot), self.state.last(slot));
+            if sprite.rest != mark::NOTHING && !sprite.is_back() {
                 self.state.stamp(&sprite, self.state.tick);
-                let (column, row) = self.state.place_of(sprite.last);
-                let before =
-                    Sprite { rect: sprite.last, flags: sprite.flags | flag::BIG, column, row, ..sprite };
+                let (column, row) = self.state.place_of(last);
+                let before = Sprite { rect: last, flags: sprite.flags | flag::BIG, column, row, ..sprite };
                 self.state.stamp(&before, self.state.tick);
             }
         }

@@ -7,7 +7,7 @@
 use crate::game::{SpriteType, TypeInfo};
 use crate::ontology::sprites::Mover;
 use crate::share::{Share, exchange};
-use crate::state::{Sprite, State};
+use crate::state::{NONE, Sprite, State};
 use crate::syntax::{Description, Param, Word};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -71,7 +71,8 @@ impl State {
         self.groups[sprite.stype.index()].count += 1;
         self.next_id += 1;
         self.population += 1;
-        exchange(Share::default(), Share::fresh(&sprite), &mut self.sum, &mut self.tides);
+        let share = Share::fresh(&sprite, NONE, &self.parts());
+        exchange(Share::default(), share, &mut self.sum, &mut self.tides);
         let Scenery(types) = Arc::make_mut(self.scenery.get_or_insert_default());
         match types.iter_mut().find(|(other, _)| *other == sprite.stype) {
             Some((_, sprites)) => sprites.push(sprite),

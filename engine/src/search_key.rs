@@ -2,11 +2,12 @@
 
 use crate::SpriteClass;
 use crate::analysis::Keying;
+use crate::form::{Extra, Target};
 use crate::game::{Game, Rules, SpriteType, TypeInfo};
 use crate::hash::{Mixer, SearchKey, bits, two};
 use crate::limits::MAX_TICKS;
 use crate::ontology::avatars::BLOCK_PAUSE;
-use crate::state::{Extra, Replaced, Slot, Sprite, State, Target, flag, memory};
+use crate::state::{Replaced, Slot, Sprite, State, flag, memory};
 
 /// Flags that a later step can read; all others say what the type says already, or where the sprite came from.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
@@ -138,23 +139,24 @@ impl State {
     fn live_words(&self, rules: &Rules, slot: Slot, faceless: bool, to: &mut impl Absorb) {
         let sprite = &self.present(slot);
         let info = &rules.types[sprite.stype.index()];
-        let extra = self.extras.get(usize::from(sprite.extra));
+        let (form, extra) = (self.form_of(sprite), self.extra_of(sprite));
         let held = self.held_by(slot).iter().filter(|held| held.amount != 0);
         // What follows for this sprite is told apart by this word.
         let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
-        to.pair(two((sprite.flags & LIVE) as i32, follows), two(sprite.health, sprite.max_health));
+        to.pair(two((sprite.flags & LIVE) as i32, follows), two(form.health, form.max_health));
         to.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
         if !faceless || sprite.is(flag::ORIENTED) {
-            to.pair(bits(sprite.orientation.x), bits(sprite.orientation.y));
+            to.pair(bits(form.orientation.x), bits(form.orientation.y));
         }
-        to.pair(bits(sprite.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));
+        to.pair(bits(form.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));
         to.pair(
-            two(sprite.count, i32::from(sprite.heading)),
-            two(sprite.time_to_live, i32::from(sprite.spawns.0)),
+            two(sprite.count, sprite.heading() as i32),
+            two(sprite.time_to_live, i32::from(form.spawns.0)),
         );
         if sprite.is(flag::FROZEN) {
             // All others forget their last rectangle at the start of the next step.
-            to.pair(two(sprite.last.x, sprite.last.y), two(sprite.last.w, sprite.last.h));
+            let last = self.last(slot);
+            to.pair(two(last.x, last.y), two(last.w, last.h));
         }
         for held in held {
             to.pair(u64::from(held.resource.0), held.amount as u64);
@@ -182,7 +184,7 @@ impl State {
     /// Spawners fire when their start and the tick together are a multiple of the cooldown. (A start so large that the sum
     /// overflows makes the game one that reads the tick.)
     fn phase(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
-        match sprite.start {
+        match self.form_of(sprite).start {
             // The first update will set it.
             -1 => -1,
             start if info.class.is_some_and(SpriteClass::is_spawner) => {

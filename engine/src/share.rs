@@ -4,25 +4,45 @@
 //! linear in where the sprite is and when it moved last. So what flies needs no look: all that move in the same ticks are one
 //! tide, by whose growth the sum is more after each of their moves.
 
+use crate::form::Form;
+use crate::geometry::Rect;
 use crate::hash::{KEYS, Products, SECRET, bits, fold, two};
-use crate::rest::mark;
-use crate::state::{Sprite, flag};
+use crate::moved::{Resized, last_of};
+use crate::state::{Slot, Sprite, State, flag};
+
+/// Where to find what a sprite does not hold itself. Between steps: nothing bumps.
+#[derive(Clone, Copy)]
+pub(crate) struct Parts<'a> {
+    pub(crate) forms: &'a [Form],
+    pub(crate) resized: &'a [Resized],
+}
+
+impl State {
+    pub(crate) fn parts(&self) -> Parts<'_> {
+        Parts { forms: &self.forms, resized: &self.resized }
+    }
+}
 
 /// What seldom changes of a sprite, hashed.
 ///
 /// The last rectangle becomes the rectangle before the next tick looks at it, but for sprites that are not updated.
+#[inline(always)]
+fn still_hash(sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> u64 {
+    let last = sprite.is(flag::FROZEN).then(|| last_of(sprite, slot, parts.resized));
+    hash_of(sprite, &parts.forms[usize::from(sprite.form)], last.as_ref())
+}
+
 #[inline(never)]
-fn still_hash(sprite: &Sprite) -> u64 {
-    let spawns = u64::from(sprite.spawns.0) << 32 | u64::from(sprite.id);
+fn hash_of(sprite: &Sprite, form: &Form, last: Option<&Rect>) -> u64 {
+    let spawns = u64::from(form.spawns.0) << 32 | u64::from(sprite.id);
     let mut products = Products::NONE
         .and(two(sprite.rect.w, sprite.rect.h), spawns, KEYS[0])
-        .and(bits(sprite.orientation.x), bits(sprite.orientation.y), KEYS[1])
-        .and(bits(sprite.speed), two(sprite.health, sprite.max_health), KEYS[2]);
-    if sprite.start != 0 {
-        products = products.and(sprite.start as u64, 0, KEYS[3]);
+        .and(bits(form.orientation.x), bits(form.orientation.y), KEYS[1])
+        .and(bits(form.speed), two(form.health, form.max_health), KEYS[2]);
+    if form.start != 0 {
+        products = products.and(form.start as u64, 0, KEYS[3]);
     }
-    if sprite.is(flag::FROZEN) {
-        let last = sprite.last;
+    if let Some(last) = last {
         products = products.and(two(last.x, last.y), two(last.w, last.h), [KEYS[3][1], KEYS[0][0]]);
     }
     let (low, high) = products.halves();
@@ -61,14 +81,14 @@ impl Steady {
     const AGES: u64 = 1 << 63;
 
     fn of(sprite: &Sprite, ages: bool) -> Steady {
-        let by = |at: i32, last: i32| u64::from(at.wrapping_sub(last) as u16);
-        let phase = match sprite.period {
+        let phase = match sprite.period() {
             1 => 0,
             period => sprite.moved_at.rem_euclid(i32::from(period)) as u64,
         };
         let ages = if ages { Steady::AGES } else { 0 };
-        let ticks = ages | phase << 48 | u64::from(sprite.period) << 32;
-        Steady(ticks | by(sprite.rect.y, sprite.last.y) << 16 | by(sprite.rect.x, sprite.last.x))
+        let ticks = ages | phase << 48 | u64::from(sprite.period()) << 32;
+        let by = |at: i32, was: i32| u64::from(at.wrapping_sub(was) as u16);
+        Steady(ticks | by(sprite.rect.y, sprite.was.1) << 16 | by(sprite.rect.x, sprite.was.0))
     }
 
     fn period(self) -> u16 {
@@ -96,7 +116,7 @@ fn ages(sprite: &Sprite) -> bool {
 /// Where a sprite is and what changes with moving, as one number.
 #[inline(always)]
 fn word(sprite: &Sprite) -> u64 {
-    let look = u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading) << 32 | u64::from(sprite.flags);
+    let look = u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading()) << 32 | u64::from(sprite.flags);
     let kind = look & (!0 << 32 | u64::from(flag::LASTING));
     let rest = fold(kind ^ SECRET[3], two(sprite.count, sprite.time_to_live) ^ SECRET[1]);
     let moved_at = if ages(sprite) { LATER.wrapping_mul(sprite.moved_at as u64) } else { 0 };
@@ -114,13 +134,13 @@ fn moves(tick: i32, period: u16, phase: u16) -> u64 {
 impl Share {
     /// The share of a sprite, given what it was.
     #[inline(always)]
-    pub(crate) fn renewed(self, sprite: &Sprite) -> Share {
+    pub(crate) fn renewed(self, sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> Share {
         if sprite.flags & (flag::GONE | flag::CHANGED) == 0 {
             return Share::of(sprite, self.still);
         }
         match sprite.is(flag::GONE) {
             true => Share { word: 0, steady: Steady::NONE, still: self.still },
-            false => Share::fresh(sprite),
+            false => Share::fresh(sprite, slot, parts),
         }
     }
 
@@ -128,7 +148,7 @@ impl Share {
     /// moving.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
-        let on_foot = self.steady == Steady::NONE && sprite.rest != mark::FLYING;
+        let on_foot = self.steady == Steady::NONE && !sprite.flies();
         on_foot && sprite.flags & (flag::GONE | flag::CHANGED) == 0
     }
 
@@ -141,15 +161,16 @@ impl Share {
     }
 
     /// The share of a sprite, whatever it was.
-    pub(crate) fn fresh(sprite: &Sprite) -> Share {
-        Share::of(sprite, still_hash(sprite))
+    #[inline(never)]
+    pub(crate) fn fresh(sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> Share {
+        Share::of(sprite, still_hash(sprite, slot, parts))
     }
 
     /// The share of a sprite, given its [`still_hash`].
     #[inline(always)]
     fn of(sprite: &Sprite, still: u64) -> Share {
         let word = word(sprite);
-        if sprite.rest != mark::FLYING {
+        if !sprite.flies() {
             return Share { word, steady: Steady::NONE, still };
         }
         let steady = Steady::of(sprite, ages(sprite));
@@ -253,8 +274,8 @@ fn tide_of(steady: Steady, tides: &mut Vec<Tide>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Rect;
-    use crate::population::model;
+    use crate::population::{form, model};
+    use crate::rest::mark;
     use crate::{Game, SpriteType};
     use std::collections::BTreeSet;
     use std::sync::LazyLock;
@@ -267,14 +288,14 @@ mod tests {
 
     /// A share of a sprite with that number, which is at (x, y) and moves by (dx, dy) every three ticks, the last time in tick 5.
     fn share(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Share {
-        let mut sprite = model(SpriteType(0), &GAME.0.types[0]);
-        (sprite.id, sprite.moved_at, sprite.period, sprite.flags) = (id, 5, 3, 0);
-        (sprite.rect, sprite.last) =
-            (Rect { x, y, w: 10, h: 10 }, Rect { x: x - dx, y: y - dy, w: 10, h: 10 });
+        let info = &GAME.0.types[0];
+        let mut sprite = model(SpriteType(0), info);
+        (sprite.id, sprite.moved_at, sprite.flags) = (id, 5, 0);
+        (sprite.rect, sprite.was) = (Rect { x, y, w: 10, h: 10 }, (x - dx, y - dy));
         if (dx, dy) != (0, 0) {
-            sprite.rest = mark::FLYING;
+            sprite.rest = mark::ASLEEP | 3;
         }
-        Share::fresh(&sprite)
+        Share::fresh(&sprite, 0, &Parts { forms: &[form(info)], resized: &[] })
     }
 
     fn of(shares: &[Share]) -> (Sum, Vec<Tide>) {

@@ -9,12 +9,13 @@ use crate::bump::Bump;
 use crate::chance::Chance;
 use crate::contacts::Mask;
 use crate::flight::Flight;
+use crate::form::{Extra, Form, Target};
 use crate::game::{Action, Outcome, Rules, SpriteType};
-use crate::geometry::{Direction, Rect};
+use crate::geometry::Rect;
 use crate::limits::MAX_SLOTS;
-use crate::ontology::class::SpriteClass;
+use crate::moved::Resized;
 use crate::paths::Ways;
-use crate::rest::Rest;
+use crate::rest::{Rest, mark};
 use crate::scenery::Scenery;
 use crate::share::{Share, Sum, Tide};
 use std::sync::Arc;
@@ -61,45 +62,39 @@ pub(crate) mod flag {
     pub(crate) const BRISK: u32 = 32_768;
     /// More is to be renewed of its share of the hash than what comes with moving.
     pub(crate) const CHANGED: u32 = 65_536;
+    /// In `State::resized`: it had another size at the start of its update.
+    pub(crate) const RESIZED: u32 = 262_144;
     /// It has stepped into a barrier in this tick, and is entered where it comes from (`bump.rs`).
     pub(crate) const BUMPING: u32 = 131_072;
     /// How a sprite lies in its cell.
     pub(crate) const LYING: u32 = LOOSE | OFF;
+    /// Spawner: it has been updated, and `Form::start` says when first.
+    pub(crate) const STARTED: u32 = 524_288;
+    /// NPC: from this bit on, the last drawn direction as an index into the base directions, 4 for none.
+    pub(crate) const HEADING: u32 = 29;
     /// The others are book-keeping, in which two equal states may differ.
     pub(crate) const LASTING: u32 = 0xFF;
 }
 
-/// One sprite.
+/// One sprite: as large as what processors fetch at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sprite {
     pub(crate) rect: Rect,
-    /// The rectangle at the start of the sprite's own update in this tick.
-    pub(crate) last: Rect,
-    pub(crate) orientation: Direction,
-    pub(crate) speed: f64,
+    /// Its corner at the start of its own update in this tick (`moved.rs`).
+    pub(crate) was: (i32, i32),
     /// Creation number, never reused.
     pub(crate) id: u32,
     /// The tick of the last move; `lastmove` of the reference is the tick minus this.
     pub(crate) moved_at: i32,
-    pub(crate) health: i32,
-    pub(crate) max_health: i32,
     pub(crate) time_to_live: i32,
     /// Flicker: its age. NPC: how often the last direction was repeated. Spawner: how many it spawned.
     pub(crate) count: i32,
-    /// Spawner: the tick of its first update.
-    pub(crate) start: i32,
     pub(crate) flags: u32,
-    /// NPC: the last drawn direction as an index into the base directions, 4 for none.
-    pub(crate) heading: u16,
     pub(crate) stype: SpriteType,
-    /// What has happened to it in this tick, as far as rest is concerned (`rest.rs`).
+    /// Index into `State::forms`: its type's form, or one of its own.
+    pub(crate) form: u16,
+    /// What has happened to it in this tick, as far as rest is concerned, and how it flies (`rest.rs`).
     pub(crate) rest: u16,
-    /// Ticks between its moves, in flight.
-    pub(crate) period: u16,
-    /// Spawners: what they make now; updateSpawnType changes it.
-    pub(crate) spawns: SpriteType,
-    /// Index into `State::extras`, or NONE.
-    pub(crate) extra: u16,
     /// The chain of the type.
     pub(crate) next: Slot,
     pub(crate) previous: Slot,
@@ -111,9 +106,34 @@ pub(crate) struct Sprite {
     pub(crate) row: i16,
 }
 
+const _: () = assert!(size_of::<Sprite>() == 64);
+
 impl Sprite {
     pub(crate) fn is(&self, flag: u32) -> bool {
         self.flags & flag != 0
+    }
+
+    /// NPC: the last drawn direction as an index into the base directions, 4 for none.
+    #[inline(always)]
+    pub(crate) fn heading(&self) -> u32 {
+        self.flags >> flag::HEADING
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_heading(&mut self, heading: u32) {
+        self.flags = self.flags & !(7 << flag::HEADING) | heading << flag::HEADING;
+    }
+
+    /// Whether it is in flight (`flight.rs`).
+    #[inline(always)]
+    pub(crate) fn flies(&self) -> bool {
+        self.rest > mark::RESTING
+    }
+
+    /// Ticks between its moves, in flight.
+    #[inline(always)]
+    pub(crate) fn period(&self) -> u16 {
+        self.rest & !mark::ASLEEP
     }
 
     pub(crate) fn set(&mut self, flag: u32, on: bool) {
@@ -162,29 +182,6 @@ pub(crate) struct Replaced {
     /// The place in the list.
     pub(crate) place: u16,
     pub(crate) stype: SpriteType,
-}
-
-/// What only few sprites have: those that turn, fall differently from their type, or pursue one target.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Extra {
-    pub(crate) holder: Slot,
-    pub(crate) rotation: f64,
-    pub(crate) gravity: f64,
-    /// CarAvatar: 0 or 1 in x. WizardAvatar: where it looks.
-    pub(crate) facing: Direction,
-    /// WizardAvatar: the tick of its last block.
-    pub(crate) block_time: i32,
-    /// PathAltChaser: whom it pursues, and where it last knew a way to.
-    pub(crate) target: Target,
-    pub(crate) last_known: Option<(i32, i32)>,
-}
-
-/// Whom a PathAltChaser pursues. The reference keeps the object: a target that is gone is pursued where it was last.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Target {
-    None,
-    Sprite(Slot),
-    Gone(Rect),
 }
 
 /// A timer of the time phase: which one, and when it is due.
@@ -265,6 +262,8 @@ pub struct State {
     /// The passes with a reason, a bit each.
     pub(crate) possible: Vec<u64>,
     pub(crate) moved: Vec<Slot>,
+    /// Those of them that have been resized.
+    pub(crate) resized: Vec<Resized>,
     pub(crate) stale: Vec<Slot>,
     pub(crate) killed: Vec<Slot>,
     /// Sorted by holder and resource.
@@ -279,6 +278,8 @@ pub struct State {
     pub(crate) shields: Vec<(SpriteType, SpriteType, u16)>,
     /// Sprites that a pullWithIt effect has carried in this tick, sorted.
     pub(crate) pulled: Vec<(u16, Slot)>,
+    /// The forms of the types, and of sprites that have one of their own (`form.rs`).
+    pub(crate) forms: Vec<Form>,
     pub(crate) extras: Vec<Extra>,
     /// Sprites at rest (`rest.rs`).
     pub(crate) rests: Vec<Rest>,
@@ -337,7 +338,7 @@ macro_rules! clone_fields {
 
 clone_fields! { to, from;
     copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
-    buffers sprites shares tides groups cells masks covered together meets reasons possible moved stale killed held memory templates shields pulled extras rests watched stamps flights timers replaced counters;
+    buffers sprites shares tides groups cells masks covered together meets reasons possible moved resized stale killed held memory templates shields pulled forms extras rests watched stamps flights timers replaced counters;
     empty touched bumps;
     shared ways scenery
 }
@@ -402,6 +403,7 @@ impl State {
             + bytes(&self.reasons)
             + bytes(&self.possible)
             + bytes(&self.moved)
+            + bytes(&self.resized)
             + bytes(&self.stale)
             + bytes(&self.killed)
             + bytes(&self.held)
@@ -409,6 +411,7 @@ impl State {
             + bytes(&self.templates)
             + bytes(&self.shields)
             + bytes(&self.pulled)
+            + bytes(&self.forms)
             + bytes(&self.extras)
             + bytes(&self.rests)
             + bytes(&self.watched)
@@ -514,15 +517,6 @@ impl State {
         sprite
     }
 
-    /// Turns a sprite.
-    pub(crate) fn face(&mut self, slot: Slot, direction: Direction) {
-        let bits = |direction: Direction| (direction.x.to_bits(), direction.y.to_bits());
-        // Most keep facing where they face, and their share of the hash with it.
-        if bits(self.sprite(slot).orientation) != bits(direction) {
-            self.edit(slot).orientation = direction;
-        }
-    }
-
     /// Takes a slot out of its chains and frees it. The caller calls [`State::forget_gone`] after the last one.
     pub(crate) fn release(&mut self, rules: &Rules, slot: Slot) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
@@ -551,69 +545,24 @@ impl State {
             let start = self.replaced.partition_point(|one| one.holder < slot);
             self.replaced.drain(start..start + count);
         }
-        self.release_extra(slot);
+        self.release_form(slot);
         let next = std::mem::replace(&mut self.free, slot);
         let sprite = self.edit(slot);
         // It stays among the stale, once.
         (sprite.next, sprite.flags) = (next, flag::GONE | flag::STALE);
     }
 
-    fn release_extra(&mut self, slot: Slot) {
-        let extra = self.sprite(slot).extra;
-        if extra != NONE {
-            self.extras.swap_remove(usize::from(extra));
-            if let Some(moved) = self.extras.get(usize::from(extra)) {
-                self.sprites[usize::from(moved.holder)].extra = extra;
-            }
-        }
-    }
-
     /// What refers to slots that have been freed forgets them. Pursuers keep the last rectangle of whom they pursued.
     pub(crate) fn forget_gone(&mut self) {
-        let State { moved, extras, sprites, .. } = self;
-        let gone = |slot: Slot| sprites[usize::from(slot)].is(flag::GONE);
-        moved.retain(|&slot| !gone(slot));
+        self.forget_moved();
+        let State { extras, sprites, .. } = self;
         for extra in extras {
             if let Target::Sprite(slot) = extra.target
-                && gone(slot)
+                && sprites[usize::from(slot)].is(flag::GONE)
             {
                 extra.target = Target::Gone(sprites[usize::from(slot)].rect);
             }
         }
-    }
-
-    /// The extra of a sprite, made from its type's traits if it has none yet.
-    pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
-        let Sprite { stype, extra, .. } = *self.sprite(slot);
-        if extra == NONE {
-            let traits = &rules.types[stype.index()].traits;
-            let is_car = rules.types[stype.index()].class == Some(SpriteClass::CarAvatar);
-            let facing = if is_car { Direction { x: traits.facing, y: 0.0 } } else { traits.facing_dir };
-            self.sprites[usize::from(slot)].extra = self.extras.len() as u16;
-            self.extras.push(Extra {
-                holder: slot,
-                rotation: traits.rotation,
-                gravity: traits.gravity,
-                facing,
-                block_time: traits.last_block_time,
-                target: Target::None,
-                last_known: None,
-            });
-        }
-        let extra = self.sprite(slot).extra;
-        &mut self.extras[usize::from(extra)]
-    }
-
-    pub(crate) fn rotation(&self, rules: &Rules, slot: Slot) -> f64 {
-        let Sprite { stype, extra, .. } = *self.sprite(slot);
-        let own = self.extras.get(usize::from(extra)).map(|extra| extra.rotation);
-        own.unwrap_or(rules.types[stype.index()].traits.rotation)
-    }
-
-    pub(crate) fn gravity(&self, rules: &Rules, slot: Slot) -> f64 {
-        let Sprite { stype, extra, .. } = *self.sprite(slot);
-        let own = self.extras.get(usize::from(extra)).map(|extra| extra.gravity);
-        own.unwrap_or(rules.types[stype.index()].traits.gravity)
     }
 
     /// One of the types that a BomberRandomMissile makes.

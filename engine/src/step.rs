@@ -127,6 +127,7 @@ impl Game {
             reasons: Vec::new(),
             possible: Vec::new(),
             moved: Vec::new(),
+            resized: Vec::new(),
             stale: Vec::new(),
             killed: Vec::new(),
             held: Vec::new(),
@@ -134,6 +135,7 @@ impl Game {
             templates: vec![0; rules.types.len()],
             shields: Vec::new(),
             pulled: Vec::new(),
+            forms: rules.forms.clone(),
             extras: Vec::new(),
             rests: Vec::new(),
             watched: vec![0; State::cell_count(columns, rows)],
@@ -266,30 +268,6 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// The last rectangle becomes the rectangle. The reference does so for every sprite before its own update; only
-    /// those that moved since can tell the difference, and nothing reads another's last rectangle before the events.
-    fn settle_moved(&mut self) {
-        let State { sprites, moved, .. } = &mut *self.state;
-        let mut frozen = false;
-        for &slot in &*moved {
-            let sprite = &mut sprites[usize::from(slot)];
-            if sprite.flags & flag::FROZEN == 0 {
-                sprite.last = sprite.rect;
-                sprite.flags &= !flag::MOVED;
-            } else if sprite.last == sprite.rect {
-                sprite.flags &= !flag::MOVED;
-            } else {
-                // It goes on as having moved.
-                frozen = true;
-            }
-        }
-        if frozen {
-            moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
-        } else {
-            moved.clear();
-        }
-    }
-
     fn update(&mut self, action: Action) {
         let avatar = self.state.avatar;
         if avatar != NONE && !self.state.sprite(avatar).is(flag::DISABLED) {
@@ -344,7 +322,7 @@ impl<'a> Step<'a> {
                         waits
                     }
                     Habit::Draws => {
-                        if sprite.rest == mark::FLYING {
+                        if sprite.flies() {
                             self.land_before_update(slot);
                         }
                         false
@@ -374,14 +352,14 @@ impl<'a> Step<'a> {
             _ => sprites::update(self, slot, mover.class),
         }
         let sprite = &mut self.state.sprites[usize::from(slot)];
-        let tried = mover.foreseen && self.flies && sprite.rect != sprite.last;
+        let tried = mover.foreseen && self.flies && !sprite.is_back();
         sprite.rest = if tried { mark::TRIED } else { mark::NOTHING };
         self.tried |= tried;
     }
 
     /// The reference looks for the picture of a sprite's orientation before each update, and throws if there is none.
     fn turn_picture(&mut self, slot: Slot) {
-        if !Direction::BASE.contains(&self.state.sprite(slot).orientation) {
+        if !Direction::BASE.contains(&self.state.form(slot).orientation) {
             self.stop(Limit::UnfitSprite);
         }
     }

@@ -103,7 +103,7 @@ impl Analysis {
     fn starts_late(&self, state: &State, stype: SpriteType) -> bool {
         let info = &self.game.0.types[stype.index()];
         info.class.is_some_and(SpriteClass::is_spawner)
-            && state.slots(stype).any(|slot| state.sprite(slot).start > i32::MAX - 2 * MAX_TICKS)
+            && state.slots(stype).any(|slot| state.form(slot).start > i32::MAX - 2 * MAX_TICKS)
     }
 
     /// By type: no sprite of it is ever changed, made or ended, by whatever can still happen.

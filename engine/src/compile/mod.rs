@@ -23,7 +23,7 @@ use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites::{self as behaviour, Mover};
 use crate::ontology::terminations::{Condition, Decision, Termination};
-use crate::population::model;
+use crate::population::{form, model};
 use crate::rest::foresight;
 use crate::scenery::{scenery, spoken_of};
 use crate::syntax::{Description, Param, Word, print_bare};
@@ -152,6 +152,7 @@ fn compile_with(
         scenery: scenery(&types, &spoken_of, &movers),
         spoken_of,
         movers,
+        forms: types.iter().map(form).collect(),
         models: (0..).zip(&types).map(|(at, info)| model(SpriteType(at), info)).collect(),
         order,
         mapping,

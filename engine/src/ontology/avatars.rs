@@ -70,15 +70,15 @@ fn glide(step: &mut Step<'_>, slot: Slot) {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn moving(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
     glide(step, slot);
-    let speed = step.state.sprite(slot).speed;
+    let speed = step.state.form(slot).speed;
     physics::active(step, slot, direction, speed)
 }
 
 /// Faces where it went.
-#[inline]
+#[inline(always)]
 fn oriented(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
     let movement = moving(step, slot, direction);
     if movement == Movement::Move && !is_off_grid(step, slot) {
@@ -119,7 +119,7 @@ fn flak(step: &mut Step<'_>, slot: Slot) {
 
 /// Shoots the first kind of shot that it has ammunition for, one body length ahead.
 fn shoot(step: &mut Step<'_>, slot: Slot) {
-    let facing = step.state.sprite(slot).orientation.normalised();
+    let facing = step.state.form(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
 }
 
@@ -141,17 +141,18 @@ fn shoot_kind(step: &mut Step<'_>, slot: Slot, kind: usize, facing: Direction) {
     let traits = &step.rules.types[sprite.stype.index()].traits;
     let ahead =
         |corner: i32, component: f64, size: i32| (f64::from(corner) + component * f64::from(size)) as i32;
-    let x = ahead(sprite.rect.x, facing.x, sprite.last.w);
-    let y = ahead(sprite.rect.y, facing.y, sprite.last.h);
+    let last = step.state.last(slot);
+    let x = ahead(sprite.rect.x, facing.x, last.w);
+    let y = ahead(sprite.rect.y, facing.y, last.h);
     if let Some(shot) = step.add(traits.stypes[kind], x, y) {
         if let Some(&ammo) = traits.ammo.get(kind) {
             step.add_amount(slot, ammo, -1);
         }
         let new = step.state.edit(shot);
-        if new.is(flag::ORIENTED) {
-            new.orientation = facing;
-        }
         new.set(flag::FROM_AVATAR, true);
+        if new.is(flag::ORIENTED) {
+            step.state.face(shot, facing);
+        }
     }
 }
 
@@ -169,20 +170,20 @@ fn shoot_only(step: &mut Step<'_>, slot: Slot, action: Action) {
     let sprite = *step.state.sprite(slot);
     let kinds = step.rules.types[sprite.stype.index()].traits.stypes.len();
     if kind < kinds && is_loaded(step, slot, kind) {
-        shoot_kind(step, slot, kind, sprite.orientation.normalised());
+        shoot_kind(step, slot, kind, step.state.form(slot).orientation.normalised());
     }
 }
 
 /// Turns to the sides only, and leaves something behind.
 fn ongoing_turning(step: &mut Step<'_>, slot: Slot, direction: Direction) {
-    let facing = step.state.sprite(slot).orientation;
+    let facing = step.state.form(slot).orientation;
     if direction != Direction::NONE && direction.x * facing.x + direction.y * facing.y == 0.0 {
         physics::turn(step, slot, direction);
     }
     physics::passive(step, slot);
-    let sprite = *step.state.sprite(slot);
-    if !sprite.rect.intersects(sprite.last) {
-        step.add(sprite.spawns, sprite.last.x, sprite.last.y);
+    let (rect, last) = (step.state.sprite(slot).rect, step.state.last(slot));
+    if !rect.intersects(last) {
+        step.add(step.state.form(slot).spawns, last.x, last.y);
     }
 }
 
@@ -196,14 +197,13 @@ fn aimed(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) 
     if action == Action::Use {
         shoot(step, slot);
     }
-    let sprite = *step.state.sprite(slot);
-    let diff = step.rules.types[sprite.stype.index()].traits.angle_diff;
+    let diff = step.rules.types[step.state.sprite(slot).stype.index()].traits.angle_diff;
     let angle = match action {
         Action::Up => -diff,
         Action::Down => diff,
         _ => 0.0,
     };
-    let Direction { x, y } = sprite.orientation;
+    let Direction { x, y } = step.state.form(slot).orientation;
     let turned = Direction { x: x * cos(angle) - y * sin(angle), y: x * sin(angle) + y * cos(angle) };
     let rotation = libm::atan2(turned.y, turned.x);
     step.state.face(slot, turned);
@@ -213,8 +213,8 @@ fn aimed(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) 
 
 /// Along the rotation, or against it.
 fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
-    let rotation = step.state.rotation(step.rules, slot);
-    let speed = step.state.sprite(slot).speed;
+    let rotation = step.state.rotation(step.rules, step.state.sprite(slot));
+    let speed = step.state.form(slot).speed;
     match action {
         Action::Up => physics::active(step, slot, heading(rotation), speed),
         Action::Down => physics::active(step, slot, heading(rotation + std::f64::consts::PI), speed),
@@ -236,7 +236,7 @@ fn steer(step: &mut Step<'_>, slot: Slot, action: Action) {
 fn spaceship(step: &mut Step<'_>, slot: Slot, action: Action) {
     glide(step, slot);
     if action == Action::Use {
-        let facing = heading(step.state.rotation(step.rules, slot));
+        let facing = heading(step.state.rotation(step.rules, step.state.sprite(slot)));
         shoot_towards(step, slot, facing);
         shoot_towards(step, slot, facing);
     }
@@ -268,16 +268,16 @@ fn lander(step: &mut Step<'_>, slot: Slot, action: Action) {
 
 fn bird(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
     oriented(step, slot, direction);
-    let sprite = *step.state.sprite(slot);
-    let strength = step.rules.types[sprite.stype.index()].traits.jump_strength;
-    let push = if sprite.orientation.x.abs() < 0.5 { Direction::RIGHT } else { Direction::NONE };
+    let form = *step.state.form(slot);
+    let strength = step.rules.types[step.state.sprite(slot).stype.index()].traits.jump_strength;
+    let push = if form.orientation.x.abs() < 0.5 { Direction::RIGHT } else { Direction::NONE };
     if action == Action::Use {
-        step.state.edit(slot).orientation.y = 0.0;
-        physics::active(step, slot, Direction { x: 0.0, y: -strength }, sprite.speed);
+        step.state.edit_form(slot).orientation.y = 0.0;
+        physics::active(step, slot, Direction { x: 0.0, y: -strength }, form.speed);
     }
-    let speed = step.state.sprite(slot).speed;
+    let speed = step.state.form(slot).speed;
     physics::active(step, slot, push, speed);
-    let facing = step.state.sprite(slot).orientation;
+    let facing = step.state.form(slot).orientation;
     step.state.extra(step.rules, slot).rotation = libm::atan2(facing.y, facing.x);
 }
 
@@ -290,7 +290,8 @@ fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Act
     if direction != Direction::NONE {
         let x =
             if grounded { direction.x * traits.ground_speedup } else { direction.x / traits.air_slowdown };
-        physics::active(step, slot, Direction { x, y: direction.y }, sprite.speed);
+        let speed = step.state.form(slot).speed;
+        physics::active(step, slot, Direction { x, y: direction.y }, speed);
     }
     if action == Action::Use && grounded {
         jump(step, slot, traits.jump_strength);
@@ -308,11 +309,11 @@ fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action)
     let ready = step.state.extra(rules, slot).block_time.wrapping_add(BLOCK_PAUSE) <= tick;
     if action == Action::Up && ready {
         physics::active(step, slot, Direction::DOWN, -1.0);
-        let sprite = *step.state.sprite(slot);
+        let (sprite, last) = (*step.state.sprite(slot), step.state.last(slot));
         let facing = step.state.extra(rules, slot).facing;
         for &stype in &rules.types[sprite.stype.index()].traits.stypes {
-            let x = f64::from(sprite.rect.x) + facing.x * f64::from(sprite.last.w) * 1.2;
-            let y = f64::from(sprite.rect.y) + facing.y * f64::from(sprite.last.h);
+            let x = f64::from(sprite.rect.x) + facing.x * f64::from(last.w) * 1.2;
+            let y = f64::from(sprite.rect.y) + facing.y * f64::from(last.h);
             step.add(stype, x as i32, y as i32);
         }
         step.state.extra(rules, slot).block_time = tick;

@@ -1,5 +1,6 @@
 //! Grid and continuous physics (`spec/02` §3).
 
+use crate::form::Form;
 use crate::game::Rules;
 use crate::geometry::{Direction, Rect};
 use crate::state::{Slot, flag};
@@ -35,23 +36,27 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
         return;
     }
     if traits.continuous {
-        if sprite.speed == 0.0 {
+        let &Form { orientation, speed, .. } = step.state.form_of(sprite);
+        if speed == 0.0 {
             return;
         }
-        let (orientation, amount) = (sprite.orientation, sprite.speed as i32);
-        step.displace(slot, orientation, amount);
+        step.displace(slot, orientation, speed as i32);
         let gravity = step.state.gravity(step.rules, slot);
         if gravity > 0.0 && traits.mass > 0.0 && !step.state.sprite(slot).is(flag::ON_GROUND) {
             active(step, slot, Direction { x: 0.0, y: gravity * traits.mass }, 0.0);
         }
         if traits.friction != 0.0 {
-            step.state.edit(slot).speed *= 1.0 - traits.friction;
+            step.state.edit_form(slot).speed *= 1.0 - traits.friction;
         }
         return;
     }
-    let speed = if sprite.speed == -1.0 { 1.0 } else { sprite.speed };
-    if speed != 0.0 && sprite.is(flag::ORIENTED) {
-        let (orientation, block) = (sprite.orientation, f64::from(step.state.block));
+    if !sprite.is(flag::ORIENTED) {
+        return;
+    }
+    let &Form { orientation, speed, .. } = step.state.form_of(sprite);
+    let speed = if speed == -1.0 { 1.0 } else { speed };
+    if speed != 0.0 {
+        let block = f64::from(step.state.block);
         step.displace(slot, orientation, (speed * block) as i32);
     }
 }
@@ -59,12 +64,13 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
 /// Where passive movement takes a sprite of grid physics; None if nowhere.
 pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
     let sprite = step.state.sprite(slot);
-    let speed = if sprite.speed == -1.0 { 1.0 } else { sprite.speed };
+    let &Form { orientation, speed, .. } = step.state.form_of(sprite);
+    let speed = if speed == -1.0 { 1.0 } else { speed };
     if speed == 0.0 || !sprite.is(flag::ORIENTED) {
         return None;
     }
     let block = f64::from(step.state.block);
-    step.shifted(slot, sprite.orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
+    step.shifted(slot, orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
 /// Moves a sprite where it, or its player, wants to go. A speed of 0 stands for the sprite's own.
@@ -80,8 +86,10 @@ pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, spee
         return Movement::Still;
     }
     let speed = match speed {
-        0.0 if sprite.speed <= 0.0 => 1.0,
-        0.0 => sprite.speed,
+        0.0 => match step.state.form_of(sprite).speed {
+            own if own <= 0.0 => 1.0,
+            own => own,
+        },
         speed => speed,
     };
     if traits.rotate_in_place && turn(step, slot, direction) {
@@ -92,34 +100,33 @@ pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, spee
 
 /// Continuous physics: a force changes orientation and speed; the next passive movement moves.
 fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> Movement {
-    let sprite = *step.state.sprite(slot);
-    let traits = &step.rules.types[sprite.stype.index()].traits;
-    let speed = if speed == 0.0 || speed == -1.0 { sprite.speed } else { speed };
+    let &Form { orientation, speed: own, .. } = step.state.form(slot);
+    let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
+    let speed = if speed == 0.0 || speed == -1.0 { own } else { speed };
     // The reference rounds the mass to 32 bits on the way.
     let mass = f64::from(traits.mass as f32);
-    let velocity = Direction {
-        x: force.x / mass + sprite.orientation.x * speed,
-        y: force.y / mass + sprite.orientation.y * speed,
-    };
+    let velocity =
+        Direction { x: force.x / mass + orientation.x * speed, y: force.y / mass + orientation.y * speed };
     let length = (velocity.x * velocity.x + velocity.y * velocity.y).sqrt();
     let limited = if traits.max_speed == -1.0 || length.is_nan() || length <= traits.max_speed {
         length
     } else {
         traits.max_speed
     };
-    let sprite = step.state.edit(slot);
-    sprite.orientation = velocity.normalised();
-    sprite.speed = limited;
+    let form = step.state.edit_form(slot);
+    form.orientation = velocity.normalised();
+    form.speed = limited;
     if force == Direction::NONE { Movement::Still } else { Movement::Move }
 }
 
 /// Changes the orientation if the sprite has one and it is another.
+#[inline(always)]
 pub(crate) fn turn(step: &mut Step<'_>, slot: Slot, direction: Direction) -> bool {
     let sprite = step.state.sprite(slot);
-    if !sprite.is(flag::ORIENTED) || sprite.orientation == direction {
+    if !sprite.is(flag::ORIENTED) || step.state.form_of(sprite).orientation == direction {
         return false;
     }
-    step.state.edit(slot).orientation = direction;
+    step.state.turn_to(slot, direction);
     true
 }
 

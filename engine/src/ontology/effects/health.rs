@@ -15,14 +15,14 @@ pub(super) fn add(
 ) {
     let sprite = step.state.sprite(one);
     let limit = step.rules.types[sprite.stype.index()].traits.limit_health;
-    let health = sprite.health.wrapping_add(value);
+    let health = step.state.form_of(sprite).health.wrapping_add(value);
     if !to_max && health >= limit {
         return step.apply_score(index, false);
     }
     step.apply_score(index, true);
-    let sprite = step.state.edit(one);
-    sprite.health = health.min(limit);
-    sprite.max_health = sprite.max_health.max(sprite.health);
+    let form = step.state.edit_form(one);
+    form.health = health.min(limit);
+    form.max_health = form.max_health.max(form.health);
     if let Some(two) = victim {
         step.kill(two);
     }
@@ -41,9 +41,9 @@ pub(super) fn subtract(
         return step.stop(Limit::NoType);
     }
     let target = stype.and_then(|stype| last_of(step, stype)).unwrap_or(one);
-    let sprite = step.state.edit(target);
-    sprite.health = sprite.health.wrapping_sub(value);
-    let killed = sprite.health <= limit;
+    let form = step.state.edit_form(target);
+    form.health = form.health.wrapping_sub(value);
+    let killed = form.health <= limit;
     step.remember(index, memory::KILLED, killed);
     if killed {
         step.kill(target);

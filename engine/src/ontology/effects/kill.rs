@@ -24,9 +24,9 @@ pub(super) fn all(step: &mut Step<'_>, stype: SpriteType) {
 }
 
 pub(super) fn if_from_above(step: &mut Step<'_>, index: u16, one: Slot, two: Slot) {
-    let (first, second) = (step.state.sprite(one), step.state.sprite(two));
-    let above = first.last.y > second.last.y.wrapping_add(second.rect.h / 2);
-    let falling = second.rect.y > second.last.y;
+    let (second, last) = (step.state.sprite(two), step.state.last(two));
+    let above = step.state.last(one).y > last.y.wrapping_add(second.rect.h / 2);
+    let falling = second.rect.y > last.y;
     when(step, index, one, above && falling);
 }
 
@@ -40,11 +40,11 @@ pub(super) fn if_frontal(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, 
 
 /// killIfFast and killIfSlow: the speed of the one that moves, or the difference of orientations if both do.
 pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fast: bool) {
-    let (first, second) = (*step.state.sprite(one), *step.state.sprite(two));
-    let is_static = |stype: SpriteType| step.rules.types[stype.index()].traits.is_static;
-    let speed = if is_static(first.stype) {
+    let (first, second) = (step.state.form(one), step.state.form(two));
+    let is_static = |slot: Slot| step.rules.types[step.state.sprite(slot).stype.index()].traits.is_static;
+    let speed = if is_static(one) {
         second.speed
-    } else if is_static(second.stype) {
+    } else if is_static(two) {
         first.speed
     } else {
         let x = first.orientation.x - second.orientation.x;
@@ -59,7 +59,7 @@ pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fa
 /// Upright is a rotation of about 3π/2: nose up.
 pub(super) fn if_not_upright(step: &mut Step<'_>, one: Slot) {
     let full = 2.0 * std::f64::consts::PI;
-    let rotation = (step.state.rotation(step.rules, one) + full) % full;
+    let rotation = (step.state.rotation(step.rules, step.state.sprite(one)) + full) % full;
     if !(rotation > 4.4 && rotation < 5.0) {
         step.kill(one);
     }

@@ -337,7 +337,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         (Effect::TurnAround, _) => motion::turn_around(step, one),
         (Effect::ReverseDirection, _) => motion::reverse(step, one),
         (Effect::FlipDirection, _) => motion::flip(step, one),
-        (Effect::HalfSpeed, _) => step.state.edit(one).speed *= 0.5,
+        (Effect::HalfSpeed, _) => step.state.edit_form(one).speed *= 0.5,
         (Effect::WrapAround { offset }, _) => motion::wrap_around(step, one, *offset),
         (Effect::ChangeSpeed { stype, value, how }, _) => motion::change_speed(step, *stype, *value, *how),
         (Effect::Spawn { stype, prob }, _) => spawn::here(step, one, *stype, *prob),

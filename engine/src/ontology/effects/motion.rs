@@ -1,6 +1,7 @@
 //! Effects on place, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
 
 use super::SpeedChange;
+use crate::form::Form;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
@@ -11,7 +12,7 @@ use crate::step::Step;
 pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>) {
     let rect = match flush_with {
         Some(two) => pixel_perfect(step, one, two),
-        None => step.state.sprite(one).last,
+        None => step.state.last(one),
     };
     step.place(one, rect);
 }
@@ -19,7 +20,8 @@ pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>
 /// Flush with the partner on the side the sprite came from; its last rectangle if it did not come straight.
 pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
     let (sprite, other) = (step.state.sprite(one), step.state.sprite(two).rect);
-    let (now, before) = (sprite.rect.centre(), sprite.last.centre());
+    let last = step.state.last(one);
+    let (now, before) = (sprite.rect.centre(), last.centre());
     let came = Direction { x: now.0 - before.0, y: now.1 - before.1 }.normalised();
     let rect = sprite.rect;
     match came {
@@ -27,7 +29,7 @@ pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
         Direction::RIGHT => rect.at(other.x.wrapping_sub(rect.w), rect.y),
         Direction::UP => rect.at(rect.x, other.y.wrapping_add(other.h)),
         Direction::LEFT => rect.at(other.x.wrapping_add(other.w), rect.y),
-        _ => sprite.last,
+        _ => last,
     }
 }
 
@@ -38,7 +40,7 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
     let is_back = |stype: SpriteType| rules.types[stype.index()].order.is_some() && !spare.contains(&stype);
     if rules.first_differs {
         let mut types = (0..rules.types.len() as u16).map(SpriteType).filter(|&stype| is_back(stype));
-        if types.any(|stype| step.state.slots(stype).any(|slot| step.state.sprite(slot).last.h == 0)) {
+        if types.any(|stype| step.state.slots(stype).any(|slot| step.state.last(slot).h == 0)) {
             return step.stop(Limit::FlatSprite);
         }
     }
@@ -46,9 +48,8 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
     step.work(step.state.moved.len());
     for at in 0..step.state.moved.len() {
         let slot = step.state.moved[at];
-        let sprite = step.state.sprite(slot);
-        let (stype, last) = (sprite.stype, sprite.last);
-        if is_back(stype) {
+        let last = step.state.last(slot);
+        if is_back(step.state.sprite(slot).stype) {
             step.place(slot, last);
         }
     }
@@ -56,34 +57,32 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
 
 /// Back, two steps down, and the other way.
 pub(super) fn turn_around(step: &mut Step<'_>, one: Slot) {
-    let sprite = step.state.sprite(one);
-    let last = sprite.last;
-    let cooldown = step.rules.types[sprite.stype.index()].traits.cooldown;
+    let last = step.state.last(one);
+    let cooldown = step.rules.types[step.state.sprite(one).stype.index()].traits.cooldown;
     step.place(one, last);
     for _ in 0..2 {
         step.set_age(one, cooldown);
         // In continuous physics the first of the two changes the speed of the second.
-        let speed = step.state.sprite(one).speed;
+        let speed = step.state.form(one).speed;
         physics::active(step, one, Direction::DOWN, speed);
     }
     reverse(step, one);
 }
 
 pub(super) fn reverse(step: &mut Step<'_>, one: Slot) {
-    let sprite = step.state.edit(one);
-    sprite.orientation = sprite.orientation.reversed();
+    let form = step.state.edit_form(one);
+    form.orientation = form.orientation.reversed();
 }
 
 pub(super) fn flip(step: &mut Step<'_>, one: Slot) {
     let drawn = Direction::BASE[step.state.chance.below(4) as usize];
-    step.state.edit(one).orientation = drawn;
+    step.state.face(one, drawn);
 }
 
 /// To the opposite edge along the orientation, one axis only.
 pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
     let screen = step.state.screen();
-    let sprite = step.state.sprite(one);
-    let (facing, rect) = (sprite.orientation, sprite.rect);
+    let (facing, rect) = (step.state.form(one).orientation, step.state.sprite(one).rect);
     let near = |size: i32| (offset * f64::from(size)) as i32;
     let far = |edge: i32, size: i32| (f64::from(edge) - f64::from(size) * (1.0 + offset)) as i32;
     let to = if facing.x > 0.0 {
@@ -104,7 +103,7 @@ pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
 pub(super) fn align(step: &mut Step<'_>, one: Slot, two: Slot, orient: bool) {
     let other = *step.state.sprite(two);
     if orient {
-        step.state.edit(one).orientation = other.orientation;
+        step.state.face(one, step.state.form(two).orientation);
     }
     let rect = step.state.sprite(one).rect.at(other.rect.x, other.rect.y);
     step.place(one, rect);
@@ -118,10 +117,11 @@ pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: boo
     if step.state.chance.double() >= prob {
         return;
     }
-    step.state.edit(one).orientation = other.orientation;
+    let facing = step.state.form(two).orientation;
+    step.state.face(one, facing);
     if align {
         let rect = step.state.sprite(one).rect;
-        let sideways = other.orientation == Direction::LEFT || other.orientation == Direction::RIGHT;
+        let sideways = facing == Direction::LEFT || facing == Direction::RIGHT;
         let to = if sideways { rect.at(rect.x, other.rect.y) } else { rect.at(other.rect.x, rect.y) };
         step.place(one, to);
     }
@@ -137,8 +137,7 @@ pub(super) fn draw_gaze(step: &mut Step<'_>, one: Slot, two: Slot) {
 /// The partner pushes: the sprite moves where the partner moved in this tick, and faces there.
 pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
-    let other = step.state.sprite(two);
-    let (facing, speed) = (other.orientation, other.speed);
+    let &Form { orientation: facing, speed, .. } = step.state.form(two);
     let mut push = moved.normalised();
     if moved.x * facing.x < 0.0 {
         push.x = -push.x;
@@ -156,12 +155,12 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
     step.work(step.state.pulled.len() / 64);
     step.state.pulled.insert(at, (index, one));
     let direction = step.last_direction(two).normalised();
-    let amount = (step.state.sprite(two).speed * physics::grid_size(step, one)) as i32;
+    let amount = (step.state.form(two).speed * physics::grid_size(step, one)) as i32;
     step.displace(one, direction, amount);
     if step.rules.types[step.state.sprite(one).stype.index()].traits.off_grid {
         let (rect, carrier) = (step.state.sprite(one).rect, step.state.sprite(two).rect);
         step.place(one, rect.at(rect.x, carrier.y.wrapping_sub(carrier.h)));
-        step.state.edit(one).orientation.y = 0.0;
+        step.state.edit_form(one).orientation.y = 0.0;
     }
     if onto {
         let rect = step.state.sprite(two).rect;
@@ -179,11 +178,11 @@ pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
     step.work(usize::from(count));
     let drawn = step.state.chance.below(i32::from(count));
     let exit = step.state.slots(exit_type).nth(drawn as usize).expect("one of the group");
-    let exit = *step.state.sprite(exit);
+    let (exit, facing) = (*step.state.sprite(exit), step.state.form(exit).orientation);
     step.place(one, exit.rect);
     step.set_age(one, 0);
     if exit.is(flag::ORIENTED) {
-        step.state.edit(one).orientation = exit.orientation;
+        step.state.face(one, facing);
     }
 }
 
@@ -197,11 +196,10 @@ pub(super) fn draw_exit(step: &mut Step<'_>, two: Slot) {
 
 /// Where touching a sprite leads.
 fn exit_of(step: &Step<'_>, two: Slot) -> Option<SpriteType> {
-    let sprite = step.state.sprite(two);
-    let info = &step.rules.types[sprite.stype.index()];
+    let info = &step.rules.types[step.state.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
     // What a spawner makes is where it leads to, and may change.
-    let leads_to = if spawns { Some(sprite.spawns) } else { info.leads_to() };
+    let leads_to = if spawns { Some(step.state.form(two).spawns) } else { info.leads_to() };
     leads_to.filter(|&stype| stype != SpriteType::NONE)
 }
 
@@ -211,14 +209,14 @@ pub(super) fn change_speed(step: &mut Step<'_>, stype: SpriteType, value: f64, h
         step.work(usize::from(step.state.group(stype).count));
         let mut slot = step.state.group(stype).head;
         while slot != NONE {
-            let sprite = step.state.edit(slot);
-            sprite.speed = match how {
-                SpeedChange::Increase => sprite.speed + value,
-                SpeedChange::Decrease if sprite.speed - value < 0.0 => 0.0,
-                SpeedChange::Decrease => sprite.speed - value,
+            let form = step.state.edit_form(slot);
+            form.speed = match how {
+                SpeedChange::Increase => form.speed + value,
+                SpeedChange::Decrease if form.speed - value < 0.0 => 0.0,
+                SpeedChange::Decrease => form.speed - value,
                 SpeedChange::Set => value,
             };
-            slot = sprite.next;
+            slot = step.state.sprite(slot).next;
         }
     }
 }

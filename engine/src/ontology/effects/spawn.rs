@@ -45,11 +45,11 @@ pub(super) fn beside(
     if step.state.chance.double() >= prob {
         return;
     }
-    let sprite = step.state.sprite(two);
-    if step_back && sprite.last.intersects(sprite.rect) {
+    let (rect, last) = (step.state.sprite(two).rect, step.state.last(two));
+    if step_back && last.intersects(rect) {
         return;
     }
-    let from = if step_back { sprite.last } else { sprite.rect };
+    let from = if step_back { last } else { rect };
     let block = step.state.block;
     let (x, y) = (from.x.wrapping_add(shift.0 * block), from.y.wrapping_add(shift.1 * block));
     step.add(stype, x, y);
@@ -60,9 +60,9 @@ pub(super) fn behind(step: &mut Step<'_>, two: Slot, stype: SpriteType, prob: f6
     if step.state.chance.double() >= prob {
         return;
     }
-    let sprite = step.state.sprite(two);
-    if !sprite.last.intersects(sprite.rect) {
-        step.add(stype, sprite.last.x, sprite.last.y);
+    let (rect, last) = (step.state.sprite(two).rect, step.state.last(two));
+    if !last.intersects(rect) {
+        step.add(stype, last.x, last.y);
     }
 }
 
@@ -105,7 +105,7 @@ pub(super) fn update_type(
         let mut slot = step.state.group(family).head;
         while slot != NONE && is_spawner {
             let Some(partner) = partner else { return step.stop(Limit::NoSprite) };
-            step.state.edit(slot).spawns = stype;
+            step.state.edit_form(slot).spawns = stype;
             if class == Some(SpriteClass::BomberRandomMissile) {
                 let before = step.state.sprite(partner).stype;
                 step.state.replace_missile(rules, slot, before, stype);

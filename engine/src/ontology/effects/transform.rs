@@ -98,32 +98,31 @@ pub(super) fn to_singleton(
     if let Some(new) = step.add(stype, rect.x, rect.y) {
         inherit(step, one, new);
         if take_orientation {
-            let facing = step.state.sprite(two).orientation.reversed();
-            let sprite = step.state.edit(new);
-            sprite.set(flag::ORIENTED, true);
-            sprite.orientation = facing;
+            let facing = step.state.form(two).orientation.reversed();
+            step.state.edit(new).set(flag::ORIENTED, true);
+            step.state.face(new, facing);
         }
     }
 }
 
 /// As [`hand_over`], but the orientation goes over whatever it is, and health does not.
 fn inherit(step: &mut Step<'_>, old: Slot, new: Slot) {
-    let before = *step.state.sprite(old);
-    if before.is(flag::ORIENTED) && step.state.sprite(new).is(flag::ORIENTED) {
-        step.state.edit(new).orientation = before.orientation;
+    if step.state.sprite(old).is(flag::ORIENTED) && step.state.sprite(new).is(flag::ORIENTED) {
+        step.state.face(new, step.state.form(old).orientation);
     }
     pass_on(step, old, new);
 }
 
 /// What the new sprite takes over from the old one, and the end of the old one.
 fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
-    let before = *step.state.sprite(old);
-    let oriented = step.state.sprite(new).is(flag::ORIENTED) && before.is(flag::ORIENTED);
-    let sprite = step.state.edit(new);
-    if force || (oriented && sprite.orientation == Direction::NONE) {
-        sprite.orientation = before.orientation;
+    let (before, after) = (*step.state.form(old), *step.state.form(new));
+    let oriented = step.state.sprite(new).is(flag::ORIENTED) && step.state.sprite(old).is(flag::ORIENTED);
+    if force || (oriented && after.orientation == Direction::NONE) {
+        step.state.face(new, before.orientation);
     }
-    sprite.health = before.health;
+    if after.health != before.health {
+        step.state.edit_form(new).health = before.health;
+    }
     pass_on(step, old, new);
     if let Some(victim) = victim {
         step.remove(victim);
@@ -133,7 +132,7 @@ fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, fo
 /// The last rectangle, resources and the player; then the old sprite goes.
 fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
     let before = *step.state.sprite(old);
-    step.set_last(new, before.last);
+    step.set_last(new, step.state.last(old));
     if !step.state.held.is_empty() {
         let held: SmallVec<[Held; 4]> = step.state.held_by(old).into();
         for Held { resource, amount, .. } in held {

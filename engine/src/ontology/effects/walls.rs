@@ -1,6 +1,7 @@
 //! Effects of continuous physics at walls and paddles (`spec/03` §5.11, §5.12, §8.3, §9).
 
 use super::motion::pixel_perfect;
+use crate::form::Form;
 use crate::geometry::{Direction, Rect};
 use crate::ontology::physics;
 use crate::overlap::Partners;
@@ -8,10 +9,15 @@ use crate::state::Slot;
 use crate::step::Step;
 use crate::trigonometry::{cos, sin};
 
+/// Pixels right and down that a sprite wants to move in a tick.
+fn velocity(step: &Step<'_>, slot: Slot) -> Direction {
+    let &Form { orientation, speed, .. } = step.state.form(slot);
+    Direction { x: orientation.x * speed, y: orientation.y * speed }
+}
+
 /// Whether a sprite met a rectangle from the side, and from above or below; both or neither are possible.
 fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
-    let sprite = step.state.sprite(one);
-    let rect = sprite.rect;
+    let rect = step.state.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
         a.wrapping_add(a_size).min(b.wrapping_add(b_size)).wrapping_sub(a.max(b))
     };
@@ -20,8 +26,7 @@ fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
     if horizontal || vertical {
         return (horizontal, vertical);
     }
-    let speed = sprite.speed;
-    let velocity = Direction { x: sprite.orientation.x * speed, y: sprite.orientation.y * speed };
+    let (velocity, last) = (velocity(step, one), step.state.last(one));
     let time = |last: i32, size: i32, from: i32, extent: i32, velocity: f64| {
         let gap = if velocity > 0.0 {
             last.wrapping_add(size).wrapping_sub(from)
@@ -32,8 +37,8 @@ fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
         };
         (f64::from(gap.wrapping_abs()) / velocity).abs()
     };
-    let across = time(sprite.last.x, rect.w, other.x, other.w, velocity.x);
-    let along = time(sprite.last.y, rect.h, other.y, other.h, velocity.y);
+    let across = time(last.x, rect.w, other.x, other.w, velocity.x);
+    let along = time(last.y, rect.h, other.y, other.h, velocity.y);
     (across < along, along < across)
 }
 
@@ -50,9 +55,9 @@ fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
         }
     }
     if partners.len() > 1 {
-        let own = step.state.sprite(one).last.centre();
+        let own = step.state.last(one).centre();
         let distance = |slot: &Slot| {
-            let centre = step.state.sprite(*slot).last.centre();
+            let centre = step.state.last(*slot).centre();
             let (x, y) = (centre.0 - own.0, centre.1 - own.1);
             (x * x + y * y).sqrt()
         };
@@ -64,14 +69,14 @@ fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
 /// Everybody who met goes back to where it was.
 fn separate(step: &mut Step<'_>, one: Slot, partners: &[Slot]) {
     for &slot in std::iter::once(&one).chain(partners) {
-        let last = step.state.sprite(slot).last;
+        let last = step.state.last(slot);
         step.place(slot, last);
     }
 }
 
 fn reflect(step: &mut Step<'_>, one: Slot, wall: Rect) {
     let (horizontal, vertical) = collision(step, one, wall);
-    let facing = &mut step.state.edit(one).orientation;
+    let facing = &mut step.state.edit_form(one).orientation;
     if vertical {
         facing.y = -facing.y;
     } else if horizontal {
@@ -101,17 +106,17 @@ pub(super) fn bounce(step: &mut Step<'_>, one: Slot, two: Slot) {
 fn slow(step: &mut Step<'_>, one: Slot, rest: Direction) {
     let gravity = step.state.gravity(step.rules, one);
     let length = (rest.x * rest.x + rest.y * rest.y).sqrt();
-    let sprite = step.state.edit(one);
-    sprite.orientation = rest.normalised();
-    sprite.speed *= length;
-    if sprite.speed < gravity {
-        sprite.speed = gravity;
+    let form = step.state.edit_form(one);
+    form.orientation = rest.normalised();
+    form.speed *= length;
+    if form.speed < gravity {
+        form.speed = gravity;
     }
 }
 
 fn turn_back(step: &mut Step<'_>, one: Slot, wall: Rect) {
     let (_, vertical) = collision(step, one, wall);
-    let ahead = step.state.sprite(one).orientation.x;
+    let ahead = step.state.form(one).orientation.x;
     slow(step, one, Direction { x: if vertical { ahead } else { -ahead }, y: 0.0 });
 }
 
@@ -133,7 +138,7 @@ pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
     let rect = pixel_perfect(step, one, two);
     step.place(one, rect);
     let (own, wall) = (step.state.sprite(one).rect.centre(), step.state.sprite(two).rect.centre());
-    let facing = step.state.sprite(one).orientation;
+    let facing = step.state.form(one).orientation;
     let beside = (own.0 - wall.0).abs() > (own.1 - wall.1).abs();
     let rest = if beside { Direction { x: 0.0, y: facing.y } } else { Direction { x: facing.x, y: 0.0 } };
     slow(step, one, rest);
@@ -142,14 +147,14 @@ pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
 /// Off a paddle: the further from its middle, the steeper.
 pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: f64) {
     let (ball, paddle) = (*step.state.sprite(one), step.state.sprite(two).rect);
-    let velocity = Direction { x: ball.orientation.x * ball.speed, y: ball.orientation.y * ball.speed };
+    let (velocity, last) = (velocity(step, one), step.state.last(one));
     let gap = |last: i32, size: i32, from: i32, extent: i32| {
         let before = last.wrapping_sub(from.wrapping_add(extent)).wrapping_abs();
         let after = last.wrapping_add(size).wrapping_sub(from).wrapping_abs();
         f64::from(before.min(after))
     };
-    let across = (gap(ball.last.x, ball.rect.w, paddle.x, paddle.w) / velocity.x).abs();
-    let along = (gap(ball.last.y, ball.rect.h, paddle.y, paddle.h) / velocity.y).abs();
+    let across = (gap(last.x, ball.rect.w, paddle.x, paddle.w) / velocity.x).abs();
+    let along = (gap(last.y, ball.rect.h, paddle.y, paddle.h) / velocity.y).abs();
     let (own, other) = (ball.rect.centre(), paddle.centre());
     let share = |distance: f64, size: i32| (distance / (0.5 * f64::from(size))).clamp(-1.0, 1.0);
     let facing = if along < across {
@@ -161,8 +166,9 @@ pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: 
         let angle = share(other.1 - own.1, paddle.h) * most;
         Direction { x: cos(angle) * side, y: -sin(angle) }
     } else {
-        step.state.edit(one).orientation.x = -ball.orientation.x;
+        let facing = &mut step.state.edit_form(one).orientation;
+        facing.x = -facing.x;
         return;
     };
-    step.state.edit(one).orientation = facing.normalised();
+    step.state.edit_form(one).orientation = facing.normalised();
 }

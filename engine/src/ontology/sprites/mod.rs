@@ -13,7 +13,7 @@ use crate::state::{Slot, Sprite, State, flag};
 use crate::step::Step;
 
 /// `heading` of an NPC that has not drawn a direction.
-pub(crate) const NO_HEADING: u16 = 4;
+pub(crate) const NO_HEADING: u32 = 4;
 
 /// Whether the update of such sprites does anything at all: if not, they cost nothing in a tick.
 pub(crate) fn is_idle(class: SpriteClass, info: &TypeInfo) -> bool {
@@ -41,7 +41,7 @@ pub(crate) fn draws(class: SpriteClass) -> bool {
 /// Whether [`base`] does nothing to a sprite in this tick: it does not move by itself, or not yet again.
 #[inline]
 pub(crate) fn stays(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
-    let stands = || sprite.speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
+    let stands = || state.form_of(sprite).speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
     sprite.time_to_live < 0
         && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, state))
 }

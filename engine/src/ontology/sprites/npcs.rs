@@ -1,11 +1,12 @@
 //! Characters that move by chance or after others (`spec/02` §7).
 
 use super::NO_HEADING;
+use crate::form::Target;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::physics;
-use crate::state::{NONE, Slot, Sprite, State, Target};
+use crate::state::{NONE, Slot, Sprite, State};
 use crate::step::Step;
 use smallvec::SmallVec;
 
@@ -17,7 +18,7 @@ type Options = SmallVec<[u8; 16]>;
 pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     physics::passive(step, slot);
     let direction = choose(step, slot, class);
-    let speed = step.state.sprite(slot).speed;
+    let speed = step.state.form(slot).speed;
     physics::active(step, slot, direction, speed);
 }
 
@@ -53,22 +54,23 @@ fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
     if sprite.count < cons {
         sprite.count += 1;
     } else {
-        (sprite.count, sprite.heading) = (0, chance.below(4) as u16);
+        sprite.count = 0;
+        sprite.set_heading(chance.below(4) as u32);
     }
-    let heading = sprite.heading;
+    let heading = sprite.heading();
     step.state.chance = chance;
     towards(heading)
 }
 
 /// The last drawn direction.
 fn heading(step: &Step<'_>, slot: Slot) -> Direction {
-    towards(step.state.sprite(slot).heading)
+    towards(step.state.sprite(slot).heading())
 }
 
-fn towards(heading: u16) -> Direction {
+fn towards(heading: u32) -> Direction {
     match heading {
         NO_HEADING => Direction::NONE,
-        heading => Direction::BASE[usize::from(heading)],
+        heading => Direction::BASE[heading as usize],
     }
 }
 

@@ -7,9 +7,9 @@ use crate::state::Slot;
 use crate::step::Step;
 
 pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {
-    if step.state.sprite(slot).orientation == Direction::NIL {
+    if step.state.form(slot).orientation == Direction::NIL {
         let drawn = Direction::BASE[step.state.chance.below(4) as usize];
-        step.state.edit(slot).orientation = drawn;
+        step.state.face(slot, drawn);
     }
     physics::passive(step, slot);
 }
@@ -28,7 +28,7 @@ pub(super) fn flicker(step: &mut Step<'_>, slot: Slot) {
 /// A flicker that spreads in its second update: four draws, always.
 pub(super) fn spreader(step: &mut Step<'_>, slot: Slot) {
     flicker(step, slot);
-    let sprite = *step.state.sprite(slot);
+    let (sprite, last) = (*step.state.sprite(slot), step.state.last(slot));
     if sprite.count != 2 {
         return;
     }
@@ -39,8 +39,8 @@ pub(super) fn spreader(step: &mut Step<'_>, slot: Slot) {
             let at = |corner: i32, component: f64, size: i32| {
                 (f64::from(corner) + component * f64::from(size)) as i32
             };
-            let x = at(sprite.last.x, direction.x, sprite.last.w);
-            let y = at(sprite.last.y, direction.y, sprite.last.h);
+            let x = at(last.x, direction.x, last.w);
+            let y = at(last.y, direction.y, last.h);
             step.add(stype, x, y);
         }
     }

@@ -2,17 +2,18 @@
 
 use super::{base, stays};
 use crate::chance::DRAW;
+use crate::form::Form;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::ontology::traits::Traits;
 use crate::rest::mark;
-use crate::state::{NONE, Slot, State};
+use crate::state::{NONE, Slot, State, flag};
 use crate::step::Step;
 
 /// SpawnPoint and Bomber: a draw in every update; a sprite when the tick and the draw allow it.
 pub(super) fn spawn_point(step: &mut Step<'_>, slot: Slot) {
-    let stype = step.state.sprite(slot).spawns;
+    let stype = step.state.form(slot).spawns;
     produce(step, slot, &[stype]);
 }
 
@@ -37,12 +38,15 @@ pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut 
         let sprite = state.sprite(slot);
         let lives = traits.total <= 0 || sprite.count < traits.total;
         let moves = || sprite.rest & mark::ASLEEP == 0 && !stays(sprite, traits, state);
-        if !lives || sprite.start == -1 || moves() {
+        if !lives || !sprite.is(flag::STARTED) || moves() {
             break;
         }
         let mut drawn = chance;
         let misses = drawn.next(DRAW) >= threshold;
-        let waits = || traits.cooldown != 1 && sprite.start.wrapping_add(state.tick) % traits.cooldown != 0;
+        let waits = || {
+            let start = state.form_of(sprite).start;
+            traits.cooldown != 1 && start.wrapping_add(state.tick) % traits.cooldown != 0
+        };
         if !misses && !waits() {
             break;
         }
@@ -55,22 +59,23 @@ pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut 
 
 fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
     let tick = step.state.tick;
-    if step.state.sprite(slot).start == -1 {
-        step.state.edit(slot).start = tick;
+    if !step.state.sprite(slot).is(flag::STARTED) {
+        step.state.edit_form(slot).start = tick;
+        step.state.edit(slot).set(flag::STARTED, true);
     }
     let draw = f64::from(step.state.chance.float());
     let sprite = step.state.sprite(slot);
+    let &Form { start, orientation, .. } = step.state.form_of(sprite);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    if sprite.start.wrapping_add(tick) % traits.cooldown == 0 && draw < traits.prob {
-        let sprite = *sprite;
+    if start.wrapping_add(tick) % traits.cooldown == 0 && draw < traits.prob {
+        let (x, y) = (sprite.rect.x, sprite.rect.y);
         for &stype in stypes {
-            let Some(made) = step.add(stype, sprite.rect.x, sprite.rect.y) else { continue };
+            let Some(made) = step.add(stype, x, y) else { continue };
             step.state.edit_motion(slot).count += 1;
-            let new = step.state.edit(made);
             if traits.spawn_orientation != Direction::NONE {
-                new.orientation = traits.spawn_orientation;
-            } else if new.orientation == Direction::NONE {
-                new.orientation = sprite.orientation;
+                step.state.face(made, traits.spawn_orientation);
+            } else if step.state.form(made).orientation == Direction::NONE {
+                step.state.face(made, orientation);
             }
         }
     }
@@ -83,7 +88,7 @@ fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
 /// Moves at random, then does what a spawn point does, where it now stands.
 pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
     let direction = Direction::BASE[step.state.chance.below(4) as usize];
-    let speed = step.state.sprite(slot).speed;
+    let speed = step.state.form(slot).speed;
     physics::active(step, slot, direction, speed);
     spawn_point(step, slot);
 }
@@ -96,8 +101,8 @@ pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
     }
     let drawn = step.state.chance.below(count as i32) as usize;
     let stype = step.state.missile(step.rules, slot, drawn);
-    if step.state.sprite(slot).spawns != stype {
-        step.state.edit(slot).spawns = stype;
+    if step.state.form(slot).spawns != stype {
+        step.state.edit_form(slot).spawns = stype;
     }
     spawn_point(step, slot);
 }

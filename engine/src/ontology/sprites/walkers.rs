@@ -1,5 +1,6 @@
 //! Walkers: they follow the ground and turn at walls (`spec/02` §7.6).
 
+use crate::form::Form;
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::state::{Slot, flag};
@@ -7,10 +8,10 @@ use crate::step::Step;
 
 pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
-    let sprite = *step.state.sprite(slot);
+    let sprite = step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    if traits.air_steering || sprite.rect.x == sprite.last.x {
-        let ahead = sprite.orientation.x;
+    if traits.air_steering || sprite.rect.x == step.state.last(slot).x {
+        let ahead = step.state.form(slot).orientation.x;
         let x = if ahead > 0.0 {
             1.0
         } else if ahead < 0.0 {
@@ -22,8 +23,8 @@ pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
         step.state.face(slot, direction);
         physics::active(step, slot, direction, traits.max_speed);
     }
-    if step.state.sprite(slot).speed.to_bits() != traits.max_speed.to_bits() {
-        step.state.edit(slot).speed = traits.max_speed;
+    if step.state.form(slot).speed.to_bits() != traits.max_speed.to_bits() {
+        step.state.edit_form(slot).speed = traits.max_speed;
     }
     step.state.edit_motion(slot).set(flag::ON_GROUND, false);
 }
@@ -36,16 +37,17 @@ pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
     if sprite.is(flag::ON_GROUND) && traits.probability > step.state.jumps.double() {
         jump(step, slot, traits.jump_strength);
     } else {
-        physics::active(step, slot, sprite.orientation, sprite.speed);
+        let &Form { orientation, speed, .. } = step.state.form(slot);
+        physics::active(step, slot, orientation, speed);
     }
     step.state.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
 /// Upwards, and off the ground at once.
 pub(in crate::ontology) fn jump(step: &mut Step<'_>, slot: Slot, strength: f64) {
-    let sprite = step.state.edit(slot);
-    sprite.orientation.y = 0.0;
-    let speed = sprite.speed;
+    let form = step.state.edit_form(slot);
+    form.orientation.y = 0.0;
+    let speed = form.speed;
     physics::active(step, slot, Direction { x: 0.0, y: -strength }, speed);
     let cooldown = step.rules.types[step.state.sprite(slot).stype.index()].traits.cooldown;
     step.set_age(slot, cooldown);

@@ -1,0 +1,178 @@
+//! What sprites of a type have in common until something happens to them: where they face, how fast and how healthy they are.
+//!
+//! Sprites share the form of their type, and have one of their own from the first change on: a sprite is half as large, and a
+//! copy of a state takes half as long.
+
+use crate::game::{Rules, SpriteType};
+use crate::geometry::{Direction, Rect};
+use crate::ontology::class::SpriteClass;
+use crate::state::{NONE, Slot, Sprite, State};
+
+/// What seldom changes of a sprite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Form {
+    pub(crate) orientation: Direction,
+    pub(crate) speed: f64,
+    pub(crate) health: i32,
+    pub(crate) max_health: i32,
+    /// Spawner: the tick of its first update.
+    pub(crate) start: i32,
+    /// Spawners: what they make now; updateSpawnType changes it.
+    pub(crate) spawns: SpriteType,
+    /// Index into `State::extras`, or NONE.
+    pub(crate) extra: u16,
+    /// Whose form it is; NONE for that of a type.
+    pub(crate) holder: Slot,
+}
+
+/// What only few sprites have: those that turn, fall differently from their type, or pursue one target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Extra {
+    pub(crate) holder: Slot,
+    pub(crate) rotation: f64,
+    pub(crate) gravity: f64,
+    /// CarAvatar: 0 or 1 in x. WizardAvatar: where it looks.
+    pub(crate) facing: Direction,
+    /// WizardAvatar: the tick of its last block.
+    pub(crate) block_time: i32,
+    /// PathAltChaser: whom it pursues, and where it last knew a way to.
+    pub(crate) target: Target,
+    pub(crate) last_known: Option<(i32, i32)>,
+}
+
+/// Whom a PathAltChaser pursues. The reference keeps the object: a target that is gone is pursued where it was last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Target {
+    None,
+    Sprite(Slot),
+    Gone(Rect),
+}
+
+impl State {
+    /// The form of a sprite, scenery included.
+    #[inline(always)]
+    pub(crate) fn form_of(&self, sprite: &Sprite) -> &Form {
+        &self.forms[usize::from(sprite.form)]
+    }
+
+    #[inline(always)]
+    pub(crate) fn form(&self, slot: Slot) -> &Form {
+        self.form_of(self.sprite(slot))
+    }
+
+    /// The form of a sprite, to be changed: its own from now on.
+    #[inline]
+    pub(crate) fn edit_form(&mut self, slot: Slot) -> &mut Form {
+        let at = usize::from(self.edit(slot).form);
+        if self.forms[at].holder == slot { &mut self.forms[at] } else { self.part_form(slot) }
+    }
+
+    /// Gives a sprite a form of its own.
+    #[inline(never)]
+    fn part_form(&mut self, slot: Slot) -> &mut Form {
+        let sprite = &mut self.sprites[usize::from(slot)];
+        let at = usize::from(std::mem::replace(&mut sprite.form, self.forms.len() as u16));
+        self.forms.push(Form { holder: slot, ..self.forms[at] });
+        self.forms.last_mut().expect("it was just pushed")
+    }
+
+    /// Turns a sprite.
+    #[inline(always)]
+    pub(crate) fn face(&mut self, slot: Slot, direction: Direction) {
+        let bits = |direction: Direction| (direction.x.to_bits(), direction.y.to_bits());
+        // Most keep facing where they face, and their share of the hash with it.
+        if bits(self.form(slot).orientation) != bits(direction) {
+            self.turn_to(slot, direction);
+        }
+    }
+
+    /// [`State::face`] of one that faces elsewhere.
+    #[inline(never)]
+    pub(crate) fn turn_to(&mut self, slot: Slot, direction: Direction) {
+        self.edit_form(slot).orientation = direction;
+    }
+
+    /// A sprite that goes gives back what is its own.
+    pub(crate) fn release_form(&mut self, slot: Slot) {
+        let at = self.sprite(slot).form;
+        let Form { holder, extra, .. } = self.forms[usize::from(at)];
+        if holder != slot {
+            return;
+        }
+        if extra != NONE {
+            self.extras.swap_remove(usize::from(extra));
+            if let Some(&Extra { holder, .. }) = self.extras.get(usize::from(extra)) {
+                let form = self.sprite(holder).form;
+                self.forms[usize::from(form)].extra = extra;
+            }
+        }
+        self.forms.swap_remove(usize::from(at));
+        if let Some(moved) = self.forms.get(usize::from(at)) {
+            self.sprites[usize::from(moved.holder)].form = at;
+        }
+    }
+
+    /// The extra of a sprite, made from its type's traits if it has none yet.
+    pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
+        if self.form(slot).extra == NONE {
+            let info = &rules.types[self.sprite(slot).stype.index()];
+            let traits = &info.traits;
+            let is_car = info.class == Some(SpriteClass::CarAvatar);
+            let facing = if is_car { Direction { x: traits.facing, y: 0.0 } } else { traits.facing_dir };
+            self.edit_form(slot).extra = self.extras.len() as u16;
+            self.extras.push(Extra {
+                holder: slot,
+                rotation: traits.rotation,
+                gravity: traits.gravity,
+                facing,
+                block_time: traits.last_block_time,
+                target: Target::None,
+                last_known: None,
+            });
+        }
+        let extra = self.form(slot).extra;
+        &mut self.extras[usize::from(extra)]
+    }
+
+    /// The extra of a sprite that has one.
+    pub(crate) fn extra_of(&self, sprite: &Sprite) -> Option<&Extra> {
+        self.extras.get(usize::from(self.form_of(sprite).extra))
+    }
+
+    pub(crate) fn rotation(&self, rules: &Rules, sprite: &Sprite) -> f64 {
+        let own = self.extra_of(sprite).map(|extra| extra.rotation);
+        own.unwrap_or(rules.types[sprite.stype.index()].traits.rotation)
+    }
+
+    pub(crate) fn gravity(&self, rules: &Rules, slot: Slot) -> f64 {
+        let sprite = self.sprite(slot);
+        let own = self.extra_of(sprite).map(|extra| extra.gravity);
+        own.unwrap_or(rules.types[sprite.stype.index()].traits.gravity)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Action, Game, Seed};
+
+    const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    arrow > Missile orientation=LEFT speed=1\n    wall > Immovable\n    \
+                        grave > Immovable\n    car > CarAvatar\n  LevelMapping\n    a > arrow\n    w > wall\n    g > grave\n    A > car\n  \
+                        InteractionSet\n    arrow wall > reverseDirection\n    arrow wall > stepBack\n    arrow grave > killSprite\n    \
+                        car EOS > stepBack\n  TerminationSet\n    Timeout limit=50 win=True\n";
+
+    #[test]
+    fn a_sprite_has_a_form_of_its_own_from_the_first_change_on_and_gives_it_back() {
+        let game = Game::from_source(GAME).unwrap();
+        let mut state = game.start(&game.level("wa g\nga w\nA   \n").unwrap(), Seed::from_text("arrows"));
+        let types = game.sprite_types().count();
+        let mut forms = Vec::new();
+        for _ in 0..5 {
+            forms.push(state.forms.len() - types);
+            game.step(&mut state, Action::Nil);
+            state.recount(&game).unwrap();
+            assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
+        }
+        // First the car's, then that of the arrow that turns back at the wall, until it ends. The other one just ends.
+        assert_eq!(forms, [0, 1, 2, 2, 1]);
+    }
+}

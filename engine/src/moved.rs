@@ -1,0 +1,133 @@
+//! Where sprites were at the start of their own last update, which the reference remembers of each.
+//!
+//! A sprite holds its corner of then. Its size of then is its size now, but for those few that have been resized since.
+
+use crate::geometry::Rect;
+use crate::state::{Slot, Sprite, State, flag};
+use crate::step::Step;
+
+/// The size that a sprite had before it was resized in this tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Resized {
+    pub(crate) slot: Slot,
+    pub(crate) w: i32,
+    pub(crate) h: i32,
+}
+
+/// The rectangle of a sprite at the start of its own update in this tick.
+#[inline]
+pub(crate) fn last_of(sprite: &Sprite, slot: Slot, resized: &[Resized]) -> Rect {
+    let last = sprite.rect.at(sprite.was.0, sprite.was.1);
+    if sprite.is(flag::RESIZED) { of_size_then(last, slot, resized) } else { last }
+}
+
+#[cold]
+fn of_size_then(last: Rect, slot: Slot, resized: &[Resized]) -> Rect {
+    let found = resized.iter().find(|one| one.slot == slot);
+    found.map_or(last, |&Resized { w, h, .. }| Rect { w, h, ..last })
+}
+
+impl Sprite {
+    /// Whether it is where it was at the start of its own update in this tick, and has not been resized since.
+    #[inline]
+    pub(crate) fn is_back(&self) -> bool {
+        self.was == (self.rect.x, self.rect.y) && !self.is(flag::RESIZED)
+    }
+}
+
+impl State {
+    /// The rectangle of a sprite at the start of its own update in this tick.
+    #[inline]
+    pub(crate) fn last(&self, slot: Slot) -> Rect {
+        last_of(self.sprite(slot), slot, &self.resized)
+    }
+
+    /// Changes where a sprite was at the start of its own update in this tick: it counts as moved.
+    pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
+        let sprite = &mut self.sprites[usize::from(slot)];
+        let (before, resized) = (sprite.flags, (sprite.rect.w, sprite.rect.h) != (last.w, last.h));
+        sprite.was = (last.x, last.y);
+        sprite.set(flag::MOVED, true);
+        sprite.set(flag::RESIZED, resized);
+        if before & flag::MOVED == 0 {
+            self.moved.push(slot);
+        }
+        if before & flag::RESIZED != 0 {
+            self.resized.retain(|one| one.slot != slot);
+        }
+        if resized {
+            self.resized.push(Resized { slot, w: last.w, h: last.h });
+        }
+    }
+
+    /// Sprites that have gone have not moved.
+    pub(crate) fn forget_moved(&mut self) {
+        let State { moved, resized, sprites, .. } = self;
+        let stays = |slot: Slot| !sprites[usize::from(slot)].is(flag::GONE);
+        moved.retain(|&slot| stays(slot));
+        resized.retain(|one| stays(one.slot));
+    }
+}
+
+impl Step<'_> {
+    /// The last rectangle becomes the rectangle. The reference does so for every sprite before its own update; only
+    /// those that moved since can tell the difference, and nothing reads another's last rectangle before the events.
+    #[inline]
+    pub(crate) fn settle_moved(&mut self) {
+        let State { sprites, moved, resized, .. } = &mut *self.state;
+        let mut frozen = false;
+        for &slot in &*moved {
+            let sprite = &mut sprites[usize::from(slot)];
+            if sprite.flags & flag::FROZEN == 0 {
+                sprite.was = (sprite.rect.x, sprite.rect.y);
+                sprite.flags &= !(flag::MOVED | flag::RESIZED);
+            } else if last_of(sprite, slot, resized) == sprite.rect {
+                sprite.flags &= !(flag::MOVED | flag::RESIZED);
+            } else {
+                // It goes on as having moved.
+                frozen = true;
+            }
+        }
+        if frozen {
+            moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
+        } else {
+            moved.clear();
+        }
+        if !resized.is_empty() {
+            resized.retain(|one| sprites[usize::from(one.slot)].is(flag::RESIZED));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::Action;
+    use crate::{Game, Seed};
+
+    /// A bud that opens is a flower of two cells, and has been a bud until the next update.
+    const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    bud > Immovable\n    flower > Immovable wMult=2\n    avatar > MovingAvatar\n  \
+                        LevelMapping\n    b > bud\n    f > flower\n    A > avatar\n  InteractionSet\n    bud avatar > transformTo stype=flower\n    \
+                        avatar EOS > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";
+
+    #[test]
+    fn what_was_smaller_is_known_to_have_been_until_its_next_update() {
+        let game = Game::from_source(GAME).unwrap();
+        let mut state = game.start(&game.level("Ab f \n").unwrap(), Seed::from_text("bud"));
+        let flower = game.sprite_type("flower").unwrap();
+        let sizes = |state: &State| {
+            state
+                .slots(flower)
+                .map(|slot| (state.sprite(slot).rect.w, state.last(slot).w))
+                .collect::<Vec<_>>()
+        };
+        // The first of a type has the size of a cell until its first update.
+        assert_eq!(sizes(&state), [(20, 10)]);
+        game.step(&mut state, Action::Right);
+        assert_eq!(sizes(&state), [(20, 20), (20, 10)]);
+        state.recount(&game).unwrap();
+        assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
+        game.step(&mut state, Action::Nil);
+        assert_eq!(sizes(&state), [(20, 20), (20, 20)]);
+    }
+}
