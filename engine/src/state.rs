@@ -324,7 +324,12 @@ macro_rules! clone_fields {
             fn clone_from(&mut self, $from: &State) {
                 let $to = self;
                 $($to.$scalar = $from.$scalar;)*
-                $($to.$buffer.clone_from(&$from.$buffer);)*
+                $(if $from.$buffer.is_empty() {
+                    // As many are: copying nothing would cost a call.
+                    $to.$buffer.clear();
+                } else {
+                    $to.$buffer.clone_from(&$from.$buffer);
+                })*
                 // These hold nothing between steps.
                 $($to.$empty.clear();)*
                 // Counting who shares it is not free, and seldom needed.
