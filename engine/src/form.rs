@@ -1,7 +1,7 @@
 //! What sprites of a type have in common until something happens to them: where they face, how fast and how healthy they are.
 //!
-//! Sprites share the form of their type, and have one of their own from the first change on: a sprite is half as large, and a
-//! copy of a state takes half as long.
+//! Sprites share the form of their type, and have one of their own from the first change on. That keeps sprites small, and what
+//! copies of a state have to copy.
 
 use crate::game::{Rules, SpriteType};
 use crate::geometry::{Direction, Rect};

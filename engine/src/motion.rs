@@ -70,6 +70,7 @@ impl Step<'_> {
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
         let sprite = *self.state.sprite(slot);
         self.note_change(&sprite);
+        self.work(self.state.resized.len() / 64);
         self.state.edit(slot);
         self.state.set_last(slot, last);
     }

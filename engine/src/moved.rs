@@ -23,12 +23,12 @@ pub(crate) fn last_of(sprite: &Sprite, slot: Slot, resized: &[Resized]) -> Rect 
 
 #[cold]
 fn of_size_then(last: Rect, slot: Slot, resized: &[Resized]) -> Rect {
-    let found = resized.iter().find(|one| one.slot == slot);
-    found.map_or(last, |&Resized { w, h, .. }| Rect { w, h, ..last })
+    let found = resized.binary_search_by_key(&slot, |one| one.slot);
+    found.map_or(last, |at| Rect { w: resized[at].w, h: resized[at].h, ..last })
 }
 
 impl Sprite {
-    /// Whether it is where it was at the start of its own update in this tick, and has not been resized since.
+    /// Whether it is where it was at the start of its own update in this tick, and as large.
     #[inline]
     pub(crate) fn is_back(&self) -> bool {
         self.was == (self.rect.x, self.rect.y) && !self.is(flag::RESIZED)
@@ -52,11 +52,18 @@ impl State {
         if before & flag::MOVED == 0 {
             self.moved.push(slot);
         }
-        if before & flag::RESIZED != 0 {
-            self.resized.retain(|one| one.slot != slot);
+        if resized || before & flag::RESIZED != 0 {
+            self.note_size(slot, resized, last);
         }
-        if resized {
-            self.resized.push(Resized { slot, w: last.w, h: last.h });
+    }
+
+    #[inline(never)]
+    fn note_size(&mut self, slot: Slot, resized: bool, Rect { w, h, .. }: Rect) {
+        let one = Resized { slot, w, h };
+        match self.resized.binary_search_by_key(&slot, |one| one.slot) {
+            Ok(at) if resized => self.resized[at] = one,
+            Ok(at) => drop(self.resized.remove(at)),
+            Err(at) => self.resized.insert(at, one),
         }
     }
 
@@ -81,8 +88,8 @@ impl Step<'_> {
             if sprite.flags & flag::FROZEN == 0 {
                 sprite.was = (sprite.rect.x, sprite.rect.y);
                 sprite.flags &= !(flag::MOVED | flag::RESIZED);
-            } else if last_of(sprite, slot, resized) == sprite.rect {
-                sprite.flags &= !(flag::MOVED | flag::RESIZED);
+            } else if sprite.is_back() {
+                sprite.flags &= !flag::MOVED;
             } else {
                 // It goes on as having moved.
                 frozen = true;

@@ -226,6 +226,9 @@ impl State {
         if let Some(holder) = holders.clone().find(|&holder| self.form(holder).holder != holder) {
             return Err(format!("slot {holder} has a form that it does not use"));
         }
+        if !self.resized.is_sorted_by_key(|one| one.slot) {
+            return Err("what was resized is out of order".to_owned());
+        }
         if !self.held.is_sorted_by_key(|held| (held.holder, held.resource)) {
             return Err("what is held is out of order".to_owned());
         }

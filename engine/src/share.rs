@@ -10,7 +10,7 @@ use crate::hash::{KEYS, Products, SECRET, bits, fold, two};
 use crate::moved::{Resized, last_of};
 use crate::state::{Slot, Sprite, State, flag};
 
-/// Where to find what a sprite does not hold itself. Between steps: nothing bumps.
+/// Where to find what a sprite does not hold itself.
 #[derive(Clone, Copy)]
 pub(crate) struct Parts<'a> {
     pub(crate) forms: &'a [Form],

@@ -262,7 +262,7 @@ pub struct State {
     /// The passes with a reason, a bit each.
     pub(crate) possible: Vec<u64>,
     pub(crate) moved: Vec<Slot>,
-    /// Those of them that have been resized.
+    /// Those of them that have another size now, sorted by slot.
     pub(crate) resized: Vec<Resized>,
     pub(crate) stale: Vec<Slot>,
     pub(crate) killed: Vec<Slot>,
