@@ -138,7 +138,7 @@ impl State {
     /// The bits of all that cover cells that a small sprite covers.
     #[inline(always)]
     fn bits_under(&self, cell: usize, flags: u32) -> u64 {
-        let bits = |cell: usize| self.masks[cell].any;
+        let bits = |cell: usize| self.masks[cell];
         let below = cell + (self.columns + 2) as usize;
         match (flags & flag::RIGHT != 0, flags & flag::BELOW != 0) {
             (false, false) => bits(cell),
@@ -163,7 +163,13 @@ impl Step<'_> {
     }
 
     #[inline(never)]
-    fn bump_into(&mut self, slot: Slot, aim: Rect, from: Located, (cell, flags): (usize, u32)) -> bool {
+    pub(crate) fn bump_into(
+        &mut self,
+        slot: Slot,
+        aim: Rect,
+        from: Located,
+        (cell, flags): (usize, u32),
+    ) -> bool {
         let sprite = self.state.sprite(slot);
         let barriers = &self.rules.barriers[sprite.stype.index()];
         let before = self.state.cell(i32::from(from.column), i32::from(from.row));

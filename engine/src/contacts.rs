@@ -14,13 +14,6 @@ const NO: u16 = u16::MAX;
 /// Types beyond share the last bit: their rules are looked at more often than needed, and found right all the same.
 const BITS: usize = 64;
 
-/// The bits of the types that cover a cell, and of those of which several sprites do.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Mask {
-    pub(crate) any: u64,
-    pub(crate) many: u64,
-}
-
 /// A type in masks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Kind {
@@ -38,8 +31,8 @@ impl Kind {
     }
 
     /// Whether someone is in a cell of such a mask that a rule pairs the type with.
-    pub(crate) fn has_partners_among(&self, mask: Mask) -> bool {
-        mask.any & self.partners != 0
+    pub(crate) fn has_partners_among(&self, mask: u64) -> bool {
+        mask & self.partners != 0
     }
 }
 
@@ -167,7 +160,8 @@ fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
 impl State {
     /// Nothing is anywhere yet.
     pub(crate) fn empty_contacts(&mut self, contacts: &Contacts) {
-        self.masks = vec![Mask::default(); self.cells.len()];
+        self.masks = vec![0; self.cells.len()];
+        self.crowds.clear();
         self.together = vec![0; contacts.pairs()];
         self.meets = vec![0; contacts.bits];
         self.reasons = vec![0; contacts.sides.len()];
@@ -181,12 +175,12 @@ impl State {
     #[inline(always)]
     pub(crate) fn arrive(&mut self, contacts: &Contacts, kind: &Kind, cell: usize) {
         let mask = &mut self.masks[cell];
-        let partners = if mask.any & kind.own == 0 {
-            let others = mask.any & kind.partners;
-            mask.any |= kind.own;
+        let partners = if *mask & kind.own == 0 {
+            let others = *mask & kind.partners;
+            *mask |= kind.own;
             others
         } else {
-            mask.many |= kind.own;
+            self.crowd(kind, cell);
             kind.partners & kind.own
         };
         if partners != 0 {
@@ -197,19 +191,32 @@ impl State {
     /// A sprite does not cover a cell any more; the chains tell so already.
     #[inline(always)]
     pub(crate) fn depart(&mut self, contacts: &Contacts, kind: &Kind, cell: usize) {
-        let mask = &mut self.masks[cell];
-        let partners = if mask.many & kind.own == 0 {
-            mask.any &= !kind.own;
-            mask.any & kind.partners
+        let partners = if self.crowds_in(cell) & kind.own == 0 {
+            let mask = &mut self.masks[cell];
+            *mask &= !kind.own;
+            *mask & kind.partners
         } else {
             if self.count_in(contacts, cell, kind.own) < 2 {
-                self.masks[cell].many &= !kind.own;
+                self.crowds[cell] &= !kind.own;
             }
             kind.partners & kind.own
         };
         if partners != 0 {
             ones(partners).for_each(|other| self.meet_less(contacts, contacts.pair(kind.bit(), other)));
         }
+    }
+
+    /// The bits of the types of which several sprites cover a cell.
+    #[inline(always)]
+    pub(crate) fn crowds_in(&self, cell: usize) -> u64 {
+        self.crowds.get(cell).copied().unwrap_or(0)
+    }
+
+    /// Notes that several sprites of a type cover a cell.
+    #[inline(never)]
+    fn crowd(&mut self, kind: &Kind, cell: usize) {
+        self.crowds.resize(self.masks.len(), 0);
+        self.crowds[cell] |= kind.own;
     }
 
     /// How many sprites with the bit cover a cell; counts to two.

@@ -69,6 +69,7 @@ mod state;
 mod step;
 pub mod syntax;
 mod trigonometry;
+mod walk;
 
 pub use analysis::Analysis;
 pub use chance::Chance;

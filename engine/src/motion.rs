@@ -77,29 +77,62 @@ impl Step<'_> {
 
     /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids.
     pub(crate) fn displace(&mut self, slot: Slot, direction: Direction, amount: i32) -> bool {
-        let sprite = self.state.sprite(slot);
-        if self.rules.types[sprite.stype.index()].traits.cooldown > self.age(slot) {
+        if self.is_held_up(slot) {
             return false;
         }
-        let Some(rect) = self.shifted(slot, direction, amount) else { return false };
-        let special = sprite.is(flag::FROZEN | flag::BUMPING) || rect == sprite.rect || rect.h == 0;
+        let Some(aim) = self.shifted(slot, direction, amount) else { return false };
+        self.go_or_walk(slot, aim);
+        true
+    }
+
+    /// [`Step::displace`] along one of [`Direction::BASE`], by some pixels.
+    #[inline(always)]
+    pub(crate) fn displace_along(&mut self, slot: Slot, base: usize, amount: i32) -> bool {
+        if self.is_held_up(slot) {
+            return false;
+        }
+        let Rect { x, y, .. } = self.state.sprite(slot).rect;
+        let by = if base < 2 { amount.saturating_neg() } else { amount };
+        let (dx, dy) = if base % 2 == 0 { (0, by) } else { (by, 0) };
+        let aim = self.state.sprite(slot).rect.at(x.wrapping_add(dx), y.wrapping_add(dy));
+        self.go_or_walk(slot, aim);
+        true
+    }
+
+    /// Whether a sprite's cooldown forbids it to move.
+    #[inline(always)]
+    fn is_held_up(&self, slot: Slot) -> bool {
+        self.rules.types[self.state.sprite(slot).stype.index()].traits.cooldown > self.age(slot)
+    }
+
+    #[inline(always)]
+    fn go_or_walk(&mut self, slot: Slot, aim: Rect) {
+        if self.rests || !self.walk(slot, aim) {
+            self.go(slot, aim);
+        }
+    }
+
+    /// Moves a sprite to any place, as its own movement does.
+    #[inline(never)]
+    fn go(&mut self, slot: Slot, aim: Rect) {
+        let sprite = self.state.sprite(slot);
+        let special = sprite.is(flag::FROZEN | flag::BUMPING) || aim == sprite.rect || aim.h == 0;
         if special {
-            self.place(slot, rect);
+            self.place(slot, aim);
             self.set_age(slot, 0);
-            return true;
+            return;
         }
         // The same in one go.
         self.state.sprites[usize::from(slot)].moved_at = self.state.tick;
-        let (from, to) = self.state.locate_move(slot, rect);
-        if self.bumps && self.bump(slot, rect, from, to) {
-            return true;
+        let (from, to) = self.state.locate_move(slot, aim);
+        if self.bumps && self.bump(slot, aim, from, to) {
+            return;
         }
         if self.rests {
-            self.place_noisily(slot, rect, from, to);
+            self.place_noisily(slot, aim, from, to);
         } else {
-            self.state.relocate_to(self.rules, slot, rect, from, to);
+            self.state.relocate_to(self.rules, slot, aim, from, to);
         }
-        true
     }
 
     /// Where a displacement leads; None if it is none.

@@ -63,8 +63,7 @@ impl State {
     #[inline(always)]
     pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
         let cell = self.cell_of(sprite);
-        let mask = self.masks[cell];
-        if (mask.any & !own | mask.many) & side.bits != 0 {
+        if (self.masks[cell] & !own | self.crowds_in(cell)) & side.bits != 0 {
             return true;
         }
         let lies = sprite.flags & flag::LOOSE;
@@ -84,7 +83,7 @@ impl State {
         let width = usize::from(sprite.is(flag::RIGHT));
         let top = self.cell_of(sprite);
         let rows = [top, top + stride, top + stride * (1 + usize::from(sprite.is(flag::BELOW)))];
-        rows.iter().any(|&cell| (self.masks[cell].any | self.masks[cell + width].any) & side.bits != 0)
+        rows.iter().any(|&cell| (self.masks[cell] | self.masks[cell + width]) & side.bits != 0)
     }
 
     /// The rest of [`State::may_overlap`]: for sprites in several cells, and where some of the side are large.
@@ -92,10 +91,7 @@ impl State {
         if lies & flag::BIG != 0 {
             return true;
         }
-        let others = |cell: usize| {
-            let mask = self.masks[cell];
-            mask.any & !own | mask.many
-        };
+        let others = |cell: usize| self.masks[cell] & !own | self.crowds_in(cell);
         let stride = (self.columns + 2) as usize;
         let mut bits = 0;
         if lies & flag::RIGHT != 0 {
@@ -195,7 +191,7 @@ impl State {
         above: u32,
         hits: &mut Hits,
     ) -> usize {
-        if self.masks[cell].any & side.bits == 0 {
+        if self.masks[cell] & side.bits == 0 {
             return 1;
         }
         self.overlapping_among(cell, side, one, above, hits)

@@ -5,7 +5,6 @@
 //! thousands.
 
 use crate::chance::Chance;
-use crate::contacts::Mask;
 use crate::flight::Flight;
 use crate::form::{Extra, Form, Target};
 use crate::game::{Action, Outcome, SpriteType};
@@ -72,7 +71,7 @@ macro_rules! state_fields {
 
 state_fields! {
     scalars tick score chance avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
-    buffers sprites shares tides groups cells masks covered together meets reasons possible moved resized stale killed held memory templates shields pulled forms extras rests watched stamps flights timers replaced counters;
+    buffers sprites shares tides groups cells masks crowds covered together meets reasons possible moved resized stale killed held memory templates shields pulled forms extras rests watched stamps flights timers replaced counters;
     scratch touched bumps ways scenery
 }
 
@@ -211,7 +210,6 @@ macro_rules! fields {
 fields! {
     Rect { x y w h }
     Direction { x y }
-    Mask { any many }
     Flight { slot due }
     Rest { slot pass left top right bottom }
     Timer { due timed }

@@ -62,18 +62,14 @@ impl State {
     /// Which types share cells, and which rules are possible therefore.
     fn recount_contacts(&self, game: &Game) -> Result<(), String> {
         let fresh = self.contacts_from_scratch(&game.0);
-        let kept =
-            (&self.masks, &self.together, &self.meets, &self.reasons, &self.possible, (self.big, self.off));
-        let counted = (
-            &fresh.masks,
-            &fresh.together,
-            &fresh.meets,
-            &fresh.reasons,
-            &fresh.possible,
-            (fresh.big, fresh.off),
-        );
+        let contacts = |state: &State| {
+            let crowds: Vec<u64> = (0..state.cells.len()).map(|cell| state.crowds_in(cell)).collect();
+            let State { masks, together, meets, reasons, possible, big, off, .. } = state;
+            format!("{masks:?} {crowds:?} {together:?} {meets:?} {reasons:?} {possible:?} {big} {off}")
+        };
+        let (kept, counted) = (contacts(self), contacts(&fresh));
         if kept != counted {
-            return Err(format!("contacts: counted {counted:?}, kept {kept:?}"));
+            return Err(format!("contacts: counted {counted}, kept {kept}"));
         }
         let bits = |state: &State| {
             let few = [state.loose_bits, state.big_bits, state.vast];

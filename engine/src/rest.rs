@@ -14,6 +14,7 @@ use crate::game::{EffectInfo, Pass, SpriteType, TypeInfo};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use crate::ontology::physics;
+use crate::ontology::sprites::is_idle;
 use crate::state::{NONE, Slot, Sprite, State, flag};
 use crate::step::Step;
 
@@ -105,7 +106,10 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
                     | C::RandomMissile
             )
         );
+        let is_idle = info.class.is_some_and(|class| is_idle(class, info));
         (plain || draws(info) && !traits.oriented_image)
+            // What never moves by itself has nothing to be foreseen.
+            && !is_idle
             && !traits.continuous
             // What waits, and comes to another cell with every move, costs less as it is.
             && (traits.cooldown <= 1 || traits.cooldown <= LONGEST_PERIOD && traits.speed.abs() < 1.0)

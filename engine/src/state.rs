@@ -7,7 +7,6 @@
 
 use crate::bump::Bump;
 use crate::chance::Chance;
-use crate::contacts::Mask;
 use crate::flight::Flight;
 use crate::form::{Extra, Form, Target};
 use crate::game::{Action, Outcome, Rules, SpriteType};
@@ -246,7 +245,9 @@ pub struct State {
     pub(crate) census_changed: bool,
     pub(crate) cells: Vec<Slot>,
     /// By cell: the bits of the types that cover it (`contacts.rs`).
-    pub(crate) masks: Vec<Mask>,
+    pub(crate) masks: Vec<u64>,
+    /// By cell: the bits of the types of which several sprites cover it; empty as long as there are none.
+    pub(crate) crowds: Vec<u64>,
     /// By cell: the bits of the sprites larger than a cell that cover it, or did not long ago; empty without any.
     pub(crate) covered: Vec<u64>,
     /// How often such a sprite has left cells since `covered` was tidied.
@@ -343,7 +344,7 @@ macro_rules! clone_fields {
 
 clone_fields! { to, from;
     copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
-    buffers sprites shares tides groups cells masks covered together meets reasons possible moved resized stale killed held memory templates shields pulled forms extras rests watched stamps flights timers replaced counters;
+    buffers sprites shares tides groups cells masks crowds covered together meets reasons possible moved resized stale killed held memory templates shields pulled forms extras rests watched stamps flights timers replaced counters;
     empty touched bumps;
     shared ways scenery
 }
@@ -402,6 +403,7 @@ impl State {
             + bytes(&self.tides)
             + bytes(&self.cells)
             + bytes(&self.masks)
+            + bytes(&self.crowds)
             + bytes(&self.covered)
             + bytes(&self.together)
             + bytes(&self.meets)

@@ -119,6 +119,7 @@ impl Game {
             groups: vec![Group::EMPTY; rules.types.len()],
             cells: vec![NONE; State::cell_count(columns, rows)],
             masks: Vec::new(),
+            crowds: Vec::new(),
             covered: Vec::new(),
             left_behind: 0,
             vast: 0,

@@ -14,23 +14,17 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
     use SpriteClass as C;
     let stype = step.state.sprite(slot).stype;
     let class = step.rules.types[stype.index()].class.expect("an avatar has a class");
-    let direction = match action {
-        Action::Up => Direction::UP,
-        Action::Left => Direction::LEFT,
-        Action::Down => Direction::DOWN,
-        Action::Right => Direction::RIGHT,
-        Action::Nil | Action::Use => Direction::NONE,
-    };
+    let direction = base(action).map_or(Direction::NONE, |base| Direction::BASE[base]);
     match class {
         C::FlakAvatar => {
-            if moving(step, slot, direction) == Movement::Still && action == Action::Use {
+            if moving(step, slot, action) == Movement::Still && action == Action::Use {
                 flak(step, slot);
             }
         }
         C::OrientedAvatar => {
-            oriented(step, slot, direction);
+            oriented(step, slot, action);
         }
-        C::ShootAvatar => shooting(step, slot, direction, action),
+        C::ShootAvatar => shooting(step, slot, action),
         C::ShootOnlyAvatar => shoot_only(step, slot, action),
         C::OngoingAvatar | C::OngoingShootAvatar => {
             if direction != Direction::NONE {
@@ -43,19 +37,30 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
         }
         C::OngoingTurningAvatar => ongoing_turning(step, slot, direction),
         C::MissileAvatar => physics::passive(step, slot),
-        C::AimedAvatar => aimed(step, slot, direction, action),
+        C::AimedAvatar => aimed(step, slot, action),
         C::SpaceshipAvatar => spaceship(step, slot, action),
         C::CarAvatar => car(step, slot, action),
         C::LanderAvatar => lander(step, slot, action),
-        C::BirdAvatar => bird(step, slot, direction, action),
+        C::BirdAvatar => bird(step, slot, action),
         C::PlatformerAvatar => {
             platformer(step, slot, direction, action);
             step.state.edit_motion(slot).set(flag::ON_GROUND, false);
         }
         C::WizardAvatar => wizard(step, slot, direction, action),
         _ => {
-            moving(step, slot, direction);
+            moving(step, slot, action);
         }
+    }
+}
+
+/// Where an action leads, of [`Direction::BASE`].
+fn base(action: Action) -> Option<usize> {
+    match action {
+        Action::Up => Some(0),
+        Action::Left => Some(1),
+        Action::Down => Some(2),
+        Action::Right => Some(3),
+        Action::Nil | Action::Use => None,
     }
 }
 
@@ -71,16 +76,19 @@ fn glide(step: &mut Step<'_>, slot: Slot) {
 }
 
 #[inline(always)]
-fn moving(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
+fn moving(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
     glide(step, slot);
     let speed = step.state.form(slot).speed;
-    physics::active(step, slot, direction, speed)
+    match base(action) {
+        Some(base) => physics::active_along(step, slot, base, speed),
+        None => physics::active(step, slot, Direction::NONE, speed),
+    }
 }
 
 /// Faces where it went.
 #[inline(always)]
-fn oriented(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
-    let movement = moving(step, slot, direction);
+fn oriented(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
+    let movement = moving(step, slot, action);
     if movement == Movement::Move && !is_off_grid(step, slot) {
         let facing = step.last_direction(slot).normalised();
         step.state.face(slot, facing);
@@ -88,8 +96,8 @@ fn oriented(step: &mut Step<'_>, slot: Slot, direction: Direction) -> Movement {
     movement
 }
 
-fn shooting(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
-    if oriented(step, slot, direction) == Movement::Still && action == Action::Use {
+fn shooting(step: &mut Step<'_>, slot: Slot, action: Action) {
+    if oriented(step, slot, action) == Movement::Still && action == Action::Use {
         shoot(step, slot);
     }
 }
@@ -192,8 +200,8 @@ fn heading(angle: f64) -> Direction {
 }
 
 /// Shoots twice, turns its aim up or down, and thrusts along it.
-fn aimed(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
-    shooting(step, slot, direction, action);
+fn aimed(step: &mut Step<'_>, slot: Slot, action: Action) {
+    shooting(step, slot, action);
     if action == Action::Use {
         shoot(step, slot);
     }
@@ -266,8 +274,8 @@ fn lander(step: &mut Step<'_>, slot: Slot, action: Action) {
     }
 }
 
-fn bird(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
-    oriented(step, slot, direction);
+fn bird(step: &mut Step<'_>, slot: Slot, action: Action) {
+    oriented(step, slot, action);
     let form = *step.state.form(slot);
     let strength = step.rules.types[step.state.sprite(slot).stype.index()].traits.jump_strength;
     let push = if form.orientation.x.abs() < 0.5 { Direction::RIGHT } else { Direction::NONE };

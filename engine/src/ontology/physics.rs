@@ -98,6 +98,18 @@ pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, spee
     if step.displace(slot, direction, (speed * block) as i32) { Movement::Move } else { Movement::Still }
 }
 
+/// [`active`] along one of [`Direction::BASE`].
+#[inline(always)]
+pub(crate) fn active_along(step: &mut Step<'_>, slot: Slot, base: usize, speed: f64) -> Movement {
+    let sprite = step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    let pixels = (speed * f64::from(step.state.block)) as i32;
+    if traits.continuous || traits.stationary || traits.rotate_in_place || pixels == 0 {
+        return active(step, slot, Direction::BASE[base], speed);
+    }
+    if step.displace_along(slot, base, pixels) { Movement::Move } else { Movement::Still }
+}
+
 /// Continuous physics: a force changes orientation and speed; the next passive movement moves.
 fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> Movement {
     let &Form { orientation, speed: own, .. } = step.state.form(slot);

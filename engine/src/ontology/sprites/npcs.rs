@@ -6,7 +6,7 @@ use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::physics;
-use crate::state::{NONE, Slot, Sprite, State};
+use crate::state::{NONE, Slot, Sprite, State, flag};
 use crate::step::Step;
 use smallvec::SmallVec;
 
@@ -16,20 +16,41 @@ type Options = SmallVec<[u8; 16]>;
 /// Drifts, then goes where it wants to.
 #[inline(always)]
 pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
-    physics::passive(step, slot);
-    let direction = choose(step, slot, class);
+    let sprite = step.state.sprite(slot);
+    let traits = &step.rules.types[sprite.stype.index()].traits;
+    // All others do not drift.
+    if sprite.is(flag::FIRST_TICK | flag::ORIENTED) || traits.continuous {
+        physics::passive(step, slot);
+    }
+    let direction = if wanders(class) {
+        let heading = random_heading(step, slot, traits.cons);
+        if heading != NO_HEADING {
+            let speed = step.state.form(slot).speed;
+            physics::active_along(step, slot, heading as usize, speed);
+            return;
+        }
+        Direction::NONE
+    } else {
+        pursue(step, slot, class)
+    };
     let speed = step.state.form(slot).speed;
     physics::active(step, slot, direction, speed);
 }
 
-/// Where a character wants to go. That is all that one does that has to wait, see [`super::waits`].
+/// What a character does that has to wait, see [`super::waits`]: it chooses where to go.
 #[inline(always)]
-pub(crate) fn choose(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
-    if !matches!(class, SpriteClass::RandomNPC | SpriteClass::RandomInertial) {
-        return pursue(step, slot, class);
+pub(crate) fn choose(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
+    if wanders(class) {
+        let cons = step.rules.types[step.state.sprite(slot).stype.index()].traits.cons;
+        random_heading(step, slot, cons);
+    } else {
+        pursue(step, slot, class);
     }
-    let cons = step.rules.types[step.state.sprite(slot).stype.index()].traits.cons;
-    random_move(step, slot, cons)
+}
+
+/// Whether characters of the class go where chance leads them.
+fn wanders(class: SpriteClass) -> bool {
+    matches!(class, SpriteClass::RandomNPC | SpriteClass::RandomInertial)
 }
 
 #[inline(never)]
@@ -47,8 +68,13 @@ fn pursue(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
 }
 
 /// A drawn direction, kept for `cons` more updates.
-#[inline]
 fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
+    towards(random_heading(step, slot, cons))
+}
+
+/// [`random_move`] as an index of the base directions, or [`NO_HEADING`].
+#[inline]
+fn random_heading(step: &mut Step<'_>, slot: Slot, cons: i32) -> u32 {
     let mut chance = step.state.chance;
     let sprite = step.state.edit_motion(slot);
     if sprite.count < cons {
@@ -59,7 +85,7 @@ fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
     }
     let heading = sprite.heading();
     step.state.chance = chance;
-    towards(heading)
+    heading
 }
 
 /// The last drawn direction.
