@@ -6,16 +6,17 @@
 
 use crate::course::{Course, Subject, first_digest, subjects};
 use crate::instructions;
-use agents::{Budget, Mcts, MctsConfig, Planner};
+use agents::{Batch, Budget, Mcts, MctsConfig, Planner};
 use anyhow::Context;
 use cpu_time::ThreadTime;
 use engine::analysis::{Analysis, Spatiality};
-use engine::{Seed, State};
+use engine::{Action, Seed, State};
+use rayon::ThreadPoolBuilder;
 use std::fmt::Write;
 use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Reports ticks per second, the time of a copy, and the ratio to the reference, for every game of a folder.
 ///
@@ -37,6 +38,9 @@ pub(crate) struct Args {
     /// Also forward-model calls per second of MCTS
     #[arg(long)]
     mcts: bool,
+    /// Also how many times as fast two threads step a batch as one does: a tick at a time, and 32 ticks at a time
+    #[arg(long)]
+    batch: bool,
     /// Also instructions per tick, if valgrind is installed
     #[arg(long)]
     instructions: bool,
@@ -63,7 +67,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let reference = args.reference.as_deref().map(figures).transpose()?.unwrap_or_default();
     let mut csv = String::from(
-        "game,ticks_per_s,ratio,clone_ns,state_bytes,instructions_per_tick,mcts_calls_per_s,digest\n",
+        "game,ticks_per_s,ratio,clone_ns,state_bytes,instructions_per_tick,mcts_calls_per_s,batch_step,batch_play,digest\n",
     );
     println!("{}", csv.trim_end());
     let (mut grid, mut continuous) = (Vec::new(), Vec::new());
@@ -78,8 +82,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
         let count = || instructions::per_tick(&args.games, &subject.name);
         let shown = |figure: Option<f64>| figure.map_or(String::new(), |figure| format!("{figure:.0}"));
+        let [batch_step, batch_play] = [1, 32]
+            .map(|ticks| if args.batch { format!("{:.2}", speedup(subject, ticks)) } else { String::new() });
         let row = format!(
-            "{},{speed:.0},{},{:.0},{},{},{},{:032x}",
+            "{},{speed:.0},{},{:.0},{},{},{},{batch_step},{batch_play},{:032x}",
             subject.name,
             ratio.map_or(String::new(), |ratio| format!("{ratio:.1}")),
             clone_time(&subject.start) * 1e9,
@@ -162,4 +168,50 @@ fn mcts_calls(subject: &Subject) -> f64 {
         subject.game.step(&mut state, action);
     }
     calls as f64 / time.as_secs_f64()
+}
+
+#[allow(clippy::disallowed_methods, reason = "how long it took is shown, and decides nothing")]
+pub(crate) fn now() -> Instant {
+    Instant::now()
+}
+
+/// How many times as fast as one thread two are, at stepping a batch so many ticks at a time: the best of three each, which take
+/// turns.
+fn speedup(subject: &Subject, ticks: usize) -> f64 {
+    let pools = [1, 2].map(|threads| {
+        ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
+    });
+    let mut best = [0.0f64; 2];
+    for _ in 0..3 {
+        for (pool, best) in pools.iter().zip(&mut best) {
+            *best = best.max(pool.install(|| batch_speed(subject, ticks)));
+        }
+    }
+    best[1] / best[0]
+}
+
+/// Ticks per second on the clock on the wall, new episodes included.
+fn batch_speed(subject: &Subject, ticks: usize) -> f64 {
+    const LANES: usize = 1024;
+    let seed = Seed::from_text(&subject.name);
+    let mut batch = Batch::fork(&subject.game, &subject.start, LANES, seed);
+    let mut sampler = seed.sampler();
+    let actions = subject.game.actions(&subject.start);
+    let plans: Vec<Vec<Action>> =
+        (0..16).map(|_| (0..LANES * ticks).map(|_| *sampler.choose(actions)).collect()).collect();
+    let mut round = |count: usize| {
+        for plan in plans.iter().cycle().take(count) {
+            batch.play(plan).expect("a plan for every lane");
+            batch.reset_over();
+        }
+    };
+    // Lets buffers grow and threads start.
+    round(64 / ticks);
+    let clock = now();
+    let mut rounds = 0;
+    while clock.elapsed() < Duration::from_millis(300) {
+        round(1);
+        rounds += 1;
+    }
+    (rounds * LANES * ticks) as f64 / clock.elapsed().as_secs_f64()
 }

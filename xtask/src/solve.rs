@@ -1,5 +1,6 @@
 //! `cargo xtask solve`: which levels of a folder of games does the portfolio win?
 
+use crate::bench::now;
 use crate::levels::load;
 use agents::{PortfolioConfig, Solution, solve};
 use anyhow::Context;
@@ -10,7 +11,6 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Looks for a win of every level of every game, with the portfolio of planners, and lists what it finds: won (every win is
 /// replayed), impossible (proved), unknown, or without a win that can be reached by the rules.
@@ -74,11 +74,6 @@ impl Found {
             Found::NoWin => "no-win",
         }
     }
-}
-
-#[allow(clippy::disallowed_methods, reason = "how long it took is shown, and decides nothing")]
-fn now() -> Instant {
-    Instant::now()
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
