@@ -93,7 +93,7 @@ impl Step<'_> {
         }
         let Rect { x, y, .. } = self.state.sprite(slot).rect;
         let by = if base < 2 { amount.saturating_neg() } else { amount };
-        let (dx, dy) = if base % 2 == 0 { (0, by) } else { (by, 0) };
+        let (dx, dy) = if base.is_multiple_of(2) { (0, by) } else { (by, 0) };
         let aim = self.state.sprite(slot).rect.at(x.wrapping_add(dx), y.wrapping_add(dy));
         self.go_or_walk(slot, aim);
         true
