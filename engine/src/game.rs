@@ -181,6 +181,8 @@ pub(crate) struct TypeInfo {
     pub(crate) first_differs: bool,
     /// What the player can do with it; [`Action::Nil`] alone if nothing.
     pub(crate) actions: &'static [Action],
+    /// The same, a bit each.
+    pub(crate) keys: u8,
 }
 
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
@@ -433,6 +435,11 @@ impl Game {
     /// What the player can do now, besides nothing: sorted; only [`Action::Nil`] without an avatar.
     pub fn actions(&self, state: &State) -> &'static [Action] {
         state.avatar_type().map_or(&[Action::Nil], |stype| self.0.types[stype.index()].actions)
+    }
+
+    /// Whether that is among [`Game::actions`].
+    pub(crate) fn allows(&self, state: &State, action: Action) -> bool {
+        state.avatar_type().is_some_and(|stype| self.0.types[stype.index()].keys >> action as u8 & 1 != 0)
     }
 
     /// What the player can do, besides nothing, as an avatar of that type: sorted.

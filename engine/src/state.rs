@@ -372,7 +372,7 @@ impl State {
 
     /// Whether the episode is over.
     pub fn is_over(&self) -> bool {
-        self.outcome != Outcome::Ongoing
+        !matches!(self.outcome, Outcome::Ongoing)
     }
 
     /// The game's chance.

@@ -206,11 +206,11 @@ impl Game {
         if state.is_over() {
             return state.outcome;
         }
-        let allowed = self.actions(state).contains(&action);
+        let action = if self.allows(state, action) { action } else { Action::Nil };
         let mut step = Step::new(&self.0, state);
         step.begin_rest(plainly);
         step.bumps = step.rules.any_barriers && !plainly && !watch.wants_meetings();
-        step.cycle(if allowed { action } else { Action::Nil }, watch);
+        step.cycle(action, watch);
         watch.worked(step.work);
         state.outcome
     }

@@ -271,6 +271,10 @@ fn type_info<'a>(
     };
     let scales = [traits.width_factor, traits.height_factor] != [1.0, 1.0];
     let unknown_parameters = if policy == Policy::Reference { unknown_parameters } else { 0 };
+    let actions = match class.map(SpriteClass::actions) {
+        None | Some([]) => &[Action::Nil],
+        Some(actions) => actions,
+    };
     TypeInfo {
         name: sprite.name.clone(),
         class,
@@ -287,10 +291,8 @@ fn type_info<'a>(
         incomplete: false,
         unknown_parameters,
         first_differs: scales || unknown_parameters > 0 || class == Some(SpriteClass::OngoingTurningAvatar),
-        actions: match class.map(SpriteClass::actions) {
-            None | Some([]) => &[Action::Nil],
-            Some(actions) => actions,
-        },
+        keys: actions.iter().fold(0, |keys, &action| keys | 1 << action as u8),
+        actions,
         ground_aware: class.is_some_and(SpriteClass::is_ground_aware),
     }
 }
