@@ -29,6 +29,7 @@
 mod ablation;
 pub mod analysis;
 mod arrange;
+mod belongings;
 mod bump;
 mod causes;
 mod chance;

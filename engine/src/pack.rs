@@ -4,6 +4,7 @@
 //! bytes in which it differs from a base, usually the start of the search: some hundred bytes instead of tens of
 //! thousands.
 
+use crate::belongings::{Held, Replaced};
 use crate::chance::Chance;
 use crate::flight::Flight;
 use crate::form::{Extra, Form, Target};
@@ -12,7 +13,7 @@ use crate::geometry::{Direction, Rect};
 use crate::moved::Resized;
 use crate::rest::Rest;
 use crate::share::{Share, Steady, Tide};
-use crate::state::{Group, Held, Replaced, Sprite, State, Timer};
+use crate::state::{Group, Sprite, State, Timer};
 
 /// A state, as it differs from a base. Only [`State::unpack_from`] with the same base makes sense of it.
 #[derive(Clone, Debug)]

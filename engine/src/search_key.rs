@@ -2,12 +2,13 @@
 
 use crate::SpriteClass;
 use crate::analysis::Keying;
+use crate::belongings::Replaced;
 use crate::form::{Extra, Target};
 use crate::game::{Game, Rules, SpriteType, TypeInfo};
 use crate::hash::{Mixer, SearchKey, bits, two};
 use crate::limits::MAX_TICKS;
 use crate::ontology::avatars::BLOCK_PAUSE;
-use crate::state::{Replaced, Slot, Sprite, State, flag, memory};
+use crate::state::{Slot, Sprite, State, flag, memory};
 
 /// Flags that a later step can read; all others say what the type says already, or where the sprite came from.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;

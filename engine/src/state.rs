@@ -5,6 +5,7 @@
 //! Effects read and write sprites through the methods here and in `population.rs` and `motion.rs` only, so that the layout can
 //! change without them.
 
+use crate::belongings::{Held, Replaced};
 use crate::bump::Bump;
 use crate::chance::Chance;
 use crate::flight::Flight;
@@ -164,23 +165,6 @@ pub(crate) struct Group {
 impl Group {
     pub(crate) const EMPTY: Group =
         Group { head: NONE, tail: NONE, count: 0, disabled: 0, loose: 0, big: 0, off: 0, asleep: 0 };
-}
-
-/// A number of a resource that a sprite holds; entries stay at 0 (`spec/02` §1.1).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Held {
-    pub(crate) holder: Slot,
-    pub(crate) resource: SpriteType,
-    pub(crate) amount: i32,
-}
-
-/// An entry of the list of a BomberRandomMissile that is another one now.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Replaced {
-    pub(crate) holder: Slot,
-    /// The place in the list.
-    pub(crate) place: u16,
-    pub(crate) stype: SpriteType,
 }
 
 /// A timer of the time phase: which one, and when it is due.
@@ -475,38 +459,6 @@ impl State {
         tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()
     }
 
-    /// Where the entry of a resource is, or would be.
-    fn find_held(&self, holder: Slot, resource: SpriteType) -> Result<usize, usize> {
-        self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
-    }
-
-    /// How much of a resource a sprite holds.
-    pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
-        self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
-    }
-
-    /// Adds to a resource, not below 0; the entry is made even for 0.
-    pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
-        match self.find_held(holder, resource) {
-            Ok(at) => self.held[at].amount = self.held[at].amount.wrapping_add(change).max(0),
-            Err(at) => self.held.insert(at, Held { holder, resource, amount: change.max(0) }),
-        }
-    }
-
-    /// Takes from a resource that is there, also below 0.
-    pub(crate) fn overdraw(&mut self, holder: Slot, resource: SpriteType, cost: i32) {
-        if let Ok(at) = self.find_held(holder, resource) {
-            self.held[at].amount = self.held[at].amount.saturating_sub(cost);
-        }
-    }
-
-    /// What a sprite holds, by resource.
-    pub(crate) fn held_by(&self, holder: Slot) -> &[Held] {
-        let start = self.held.partition_point(|held| held.holder < holder);
-        let end = self.held.partition_point(|held| held.holder <= holder);
-        &self.held[start..end]
-    }
-
     /// A sprite, to be changed: its share of the running hash is to be renewed.
     pub(crate) fn edit(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = self.edit_motion(slot);
@@ -542,16 +494,7 @@ impl State {
             NONE => self.groups[stype.index()].tail = previous,
             next => self.sprites[usize::from(next)].previous = previous,
         }
-        if !self.held.is_empty() {
-            let count = self.held_by(slot).len();
-            let start = self.held.partition_point(|held| held.holder < slot);
-            self.held.drain(start..start + count);
-        }
-        if !self.replaced.is_empty() {
-            let count = self.replaced_by(slot).len();
-            let start = self.replaced.partition_point(|one| one.holder < slot);
-            self.replaced.drain(start..start + count);
-        }
+        self.release_belongings(slot);
         self.release_form(slot);
         let next = std::mem::replace(&mut self.free, slot);
         let sprite = self.edit(slot);
@@ -569,41 +512,6 @@ impl State {
             {
                 extra.target = Target::Gone(sprites[usize::from(slot)].rect);
             }
-        }
-    }
-
-    /// One of the types that a BomberRandomMissile makes.
-    pub(crate) fn missile(&self, rules: &Rules, slot: Slot, place: usize) -> SpriteType {
-        let own = |_| rules.types[self.sprite(slot).stype.index()].traits.stypes[place];
-        self.find_replaced(slot, place).map_or_else(own, |at| self.replaced[at].stype)
-    }
-
-    fn find_replaced(&self, slot: Slot, place: usize) -> Result<usize, usize> {
-        self.replaced.binary_search_by_key(&(slot, place), |one| (one.holder, usize::from(one.place)))
-    }
-
-    /// The replaced entries of a sprite's list.
-    pub(crate) fn replaced_by(&self, slot: Slot) -> &[Replaced] {
-        let start = self.replaced.partition_point(|one| one.holder < slot);
-        let end = self.replaced.partition_point(|one| one.holder <= slot);
-        &self.replaced[start..end]
-    }
-
-    /// Replaces the first entry of a BomberRandomMissile's list that is `before`.
-    pub(crate) fn replace_missile(
-        &mut self,
-        rules: &Rules,
-        slot: Slot,
-        before: SpriteType,
-        stype: SpriteType,
-    ) {
-        let count = rules.types[self.sprite(slot).stype.index()].traits.stypes.len();
-        let Some(place) = (0..count).find(|&place| self.missile(rules, slot, place) == before) else {
-            return;
-        };
-        match self.find_replaced(slot, place) {
-            Ok(at) => self.replaced[at].stype = stype,
-            Err(at) => self.replaced.insert(at, Replaced { holder: slot, place: place as u16, stype }),
         }
     }
 

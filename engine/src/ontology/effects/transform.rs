@@ -1,10 +1,11 @@
 //! Effects that turn sprites into others (`spec/03` §5.8, §7.5, §8.5).
 
 use super::TransformIfCount;
+use crate::belongings::Held;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::limits::EFFECT_WORK;
-use crate::state::{Held, NONE, Slot, flag};
+use crate::state::{NONE, Slot, flag};
 use crate::step::Step;
 use smallvec::SmallVec;
 
