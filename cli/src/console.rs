@@ -38,7 +38,7 @@ impl Console {
     pub(crate) fn document(&self, value: &impl Serialize) -> Result<(), Failure> {
         if self.json {
             let text = serde_json::to_string_pretty(value)
-                .map_err(|error| Failure::surroundings(error, "the answer cannot be written as JSON"))?;
+                .map_err(|error| Failure::environment(error, "the answer cannot be written as JSON"))?;
             out(format_args!("{text}\n"));
         }
         Ok(())
@@ -100,7 +100,7 @@ impl Stopwatch {
 fn out(text: std::fmt::Arguments<'_>) {
     let mut stdout = std::io::stdout().lock();
     if stdout.write_fmt(text).and_then(|()| stdout.flush()).is_err() {
-        std::process::exit(i32::from(crate::failure::SURROUNDINGS));
+        std::process::exit(i32::from(crate::failure::ENVIRONMENT));
     }
 }
 

@@ -40,8 +40,8 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
 /// Writes an episode.
 pub(crate) fn write(path: &Path, episode: &Episode) -> Result<(), Failure> {
     let text = serde_json::to_string(episode)
-        .map_err(|error| Failure::surroundings(error, "the episode cannot be written as JSON"))?;
-    std::fs::write(path, text).map_err(|error| Failure::surroundings(error, path.display()))
+        .map_err(|error| Failure::environment(error, "the episode cannot be written as JSON"))?;
+    std::fs::write(path, text).map_err(|error| Failure::environment(error, path.display()))
 }
 
 /// The level to show: the one that is named; else the one that the episode was recorded on; else the first.

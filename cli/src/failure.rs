@@ -6,8 +6,8 @@ use std::fmt;
 pub(crate) const NO: u8 = 1;
 /// The question is malformed.
 pub(crate) const MALFORMED: u8 = 2;
-/// The surroundings failed.
-pub(crate) const SURROUNDINGS: u8 = 3;
+/// An environment failure: I/O, network, disk full.
+pub(crate) const ENVIRONMENT: u8 = 3;
 
 /// No answer.
 #[derive(Debug)]
@@ -15,7 +15,7 @@ pub(crate) enum Failure {
     /// Usage, VGDL or recipe errors.
     Malformed(anyhow::Error),
     /// Input or output, network, a full disk.
-    Surroundings(anyhow::Error),
+    Environment(anyhow::Error),
 }
 
 /// Yes or no, or why there is neither.
@@ -27,22 +27,22 @@ impl Failure {
         Failure::Malformed(anyhow::anyhow!("{message}"))
     }
 
-    /// The surroundings failed, in these words.
-    pub(crate) fn surroundings(error: impl Into<anyhow::Error>, what: impl fmt::Display) -> Failure {
-        Failure::Surroundings(error.into().context(what.to_string()))
+    /// An environment failure, in these words.
+    pub(crate) fn environment(error: impl Into<anyhow::Error>, what: impl fmt::Display) -> Failure {
+        Failure::Environment(error.into().context(what.to_string()))
     }
 
     pub(crate) fn code(&self) -> u8 {
         match self {
             Failure::Malformed(_) => MALFORMED,
-            Failure::Surroundings(_) => SURROUNDINGS,
+            Failure::Environment(_) => ENVIRONMENT,
         }
     }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (Failure::Malformed(error) | Failure::Surroundings(error)) = self;
+        let (Failure::Malformed(error) | Failure::Environment(error)) = self;
         write!(f, "{error:#}")
     }
 }

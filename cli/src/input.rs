@@ -175,7 +175,7 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
             Failure::malformed(format!("{}: there is no such folder", folder.display()))
         }
-        _ => Failure::surroundings(error, folder.display()),
+        _ => Failure::environment(error, folder.display()),
     };
     let mut paths = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(failed)? {
@@ -190,11 +190,11 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.display();
     let file = std::fs::File::open(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => Failure::malformed(format!("{name}: there is no such file")),
-        _ => Failure::surroundings(error, name.to_string()),
+        _ => Failure::environment(error, name.to_string()),
     })?;
     let mut bytes = Vec::new();
     let read = file.take(limit as u64 + 1).read_to_end(&mut bytes);
-    read.map_err(|error| Failure::surroundings(error, name.to_string()))?;
+    read.map_err(|error| Failure::environment(error, name.to_string()))?;
     if bytes.len() > limit {
         return Err(Failure::malformed(format!(
             "{name}: larger than {limit} bytes, the limit for such a file"

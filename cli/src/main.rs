@@ -11,6 +11,7 @@ mod game_report;
 mod input;
 mod level_report;
 mod page;
+mod paths;
 mod play;
 mod verbs;
 
@@ -20,7 +21,7 @@ use std::process::ExitCode;
 
 /// Mints verified benchmarks of new arcade games, and checks them.
 ///
-/// Exit status: 0 yes or done; 1 the answer is no; 2 the question is malformed; 3 the surroundings failed.
+/// Exit status: 0 yes or done; 1 the answer is no; 2 the question is malformed; 3 environment failure (I/O, network, disk full).
 #[derive(Parser)]
 #[command(name = "arcade", version, propagate_version = true, max_term_width = 100)]
 struct Cli {

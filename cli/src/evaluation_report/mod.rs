@@ -61,7 +61,7 @@ pub(crate) fn write_evaluation_report(draft: Draft, results: &Results<'_>) -> Re
     });
     let document = Document { evaluations: asked.collect(), study };
     let json = serde_json::to_string_pretty(&document);
-    let json = json.map_err(|error| Failure::surroundings(error, "the report"))? + "\n";
+    let json = json.map_err(|error| Failure::environment(error, "the report"))? + "\n";
     let told = told::Told::of(results);
     let mut files = vec![
         ("report.html".to_owned(), page::render(results, &told, &tables)?),

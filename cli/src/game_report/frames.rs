@@ -81,5 +81,5 @@ fn middle(reported: &ReportedGame) -> Option<(&engine::Level, State)> {
 }
 
 fn failed(error: RenderError) -> Failure {
-    Failure::surroundings(error, "the pictures of the games")
+    Failure::environment(error, "the pictures of the games")
 }

@@ -28,7 +28,7 @@ pub(crate) fn write_game_report(
     report: &GameSetReport,
     showcase: &Showcase<'_>,
 ) -> Result<(), Failure> {
-    let json = report.to_json().map_err(|error| Failure::surroundings(error, "the report"))?;
+    let json = report.to_json().map_err(|error| Failure::environment(error, "the report"))?;
     let frames = frames::Frames::draw(showcase.games)?;
     let html = page::render(report, showcase, &frames)?;
     for (name, bytes) in

@@ -85,7 +85,7 @@ fn drawn(game: &Game, looks: &Looks, level: &Level) -> Result<Picture, Failure> 
 }
 
 fn failed(error: RenderError) -> Failure {
-    Failure::surroundings(error, "the pictures of the levels")
+    Failure::environment(error, "the pictures of the levels")
 }
 
 /// `7, hard`, with the difficulty that was asked for where it is another one.

@@ -31,7 +31,7 @@ pub(crate) fn write_level_report(
     report: &LevelSetReport,
     pictures: &Pictures<'_>,
 ) -> Result<(), Failure> {
-    let json = report.to_json().map_err(|error| Failure::surroundings(error, "the report"))?;
+    let json = report.to_json().map_err(|error| Failure::environment(error, "the report"))?;
     let boards = boards::Boards::draw(report, pictures)?;
     let html = page::render(report, pictures, &boards)?;
     for (name, bytes) in

@@ -65,5 +65,5 @@ pub(crate) fn render_with(
         environment.add_template("page.html", template)?;
         environment.get_template("page.html")?.render(Value::from(Serde(page)))
     };
-    render().map_err(|error: minijinja::Error| Failure::surroundings(error, "the page of the report"))
+    render().map_err(|error: minijinja::Error| Failure::environment(error, "the page of the report"))
 }

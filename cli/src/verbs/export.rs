@@ -161,14 +161,14 @@ pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
             Ok(false)
         }
         ReleasedError::Snapshot(error) => Err(verify::failure(error)),
-        error @ ReleasedError::Changed { .. } => Err(Failure::Surroundings(error.into())),
+        error @ ReleasedError::Changed { .. } => Err(Failure::Environment(error.into())),
     }
 }
 
 fn failure(error: ExportError) -> Failure {
     match error {
         #[cfg(feature = "parquet")]
-        error @ ExportError::Parquet(_) => Failure::Surroundings(error.into()),
+        error @ ExportError::Parquet(_) => Failure::Environment(error.into()),
         error @ ExportError::NoTwin(_) => Failure::malformed(error.to_string()),
     }
 }

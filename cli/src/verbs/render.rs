@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::{episodes, input};
+use crate::{episodes, input, paths};
 use agents::{Budget, Limits, PLANNERS, PlannerSpec, play};
 use engine::{Analysis, Episode, Game, Level, Seed, State};
 use render::{Animation, Looks, RenderError, Style, Symbols};
@@ -146,7 +146,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.document(&json!({
         "game": input.source.name,
         "level": named.name,
-        "file": args.out,
+        "file": paths::in_json(&args.out),
         "format": format.name(),
         "bytes": bytes.len(),
         "ticks": subject.actions.len(),
@@ -158,7 +158,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Some(text) if to_screen => console.say(text.trim_end()),
         _ => {
             std::fs::write(&args.out, &bytes)
-                .map_err(|error| Failure::surroundings(error, args.out.display()))?;
+                .map_err(|error| Failure::environment(error, args.out.display()))?;
             let ticks = match subject.actions.len() {
                 0 => String::new(),
                 ticks => format!(", tick {ticks}"),
@@ -258,6 +258,6 @@ fn failed(error: RenderError) -> Failure {
         RenderError::TooLarge { .. } | RenderError::TooLargeForGif { .. } => {
             Failure::malformed(format!("{error}: {help}"))
         }
-        error => Failure::surroundings(error, "the picture cannot be written"),
+        error => Failure::environment(error, "the picture cannot be written"),
     }
 }

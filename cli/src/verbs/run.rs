@@ -144,7 +144,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         rows: rows(args, &subjects, &planners, &entries, &lines),
     };
     if let Some(path) = &args.csv {
-        write_csv(path, &lines).map_err(|error| Failure::surroundings(error, path.display()))?;
+        write_csv(path, &lines).map_err(|error| Failure::environment(error, path.display()))?;
     }
     console.document(&report)?;
     console.say(table(&report.rows).trim_end());

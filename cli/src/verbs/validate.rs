@@ -152,8 +152,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 fn save(witness: &Episode, path: &PathBuf) -> Result<(), Failure> {
     let text = serde_json::to_string(witness)
-        .map_err(|error| Failure::surroundings(error, "the witness cannot be written as JSON"))?;
-    std::fs::write(path, text).map_err(|error| Failure::surroundings(error, path.display()))
+        .map_err(|error| Failure::environment(error, "the witness cannot be written as JSON"))?;
+    std::fs::write(path, text).map_err(|error| Failure::environment(error, path.display()))
 }
 
 fn document_of<'a>(analysis: &Analysis, judged: &'a Judged<'_>) -> LevelDocument<'a> {

@@ -177,7 +177,7 @@ pub(crate) fn failure(error: SnapshotError) -> Failure {
         {
             absent(path)
         }
-        SnapshotError::Io { .. } => Failure::Surroundings(error.into()),
+        SnapshotError::Io { .. } => Failure::Environment(error.into()),
         _ => Failure::Malformed(error.into()),
     }
 }

@@ -220,7 +220,7 @@ impl Replay {
         let result = result(&log, &state, steps.len());
         show(&state, format!("the end: {result}"), Some("the end"))?;
         let data = Data { cell: CELL, prefix: &tiles.prefix, changes: &boards.changes, captions: &captions };
-        let data = serde_json::to_string(&data).map_err(|error| Failure::surroundings(error, "a replay"))?;
+        let data = serde_json::to_string(&data).map_err(|error| Failure::environment(error, "a replay"))?;
         let mut spoken = talks(&log);
         let told_first = spoken.first_mut().map(|first| std::mem::take(&mut first.shown)).unwrap_or_default();
         let words = spoken.iter().any(|talk| !talk.answers.is_empty());
@@ -287,7 +287,7 @@ fn figure(looks: &Looks, state: &State, head: &'static str, at: usize) -> Result
 }
 
 fn failed(error: RenderError) -> Failure {
-    Failure::surroundings(error, "the boards of a replay")
+    Failure::environment(error, "the boards of a replay")
 }
 
 /// `won in 34 steps, score 5`.

@@ -305,7 +305,7 @@ fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, read
     }
     console.say(format_args!("results in {}", folder.display()));
     match halted {
-        Some(why) if *infrastructure => Err(Failure::surroundings(
+        Some(why) if *infrastructure => Err(Failure::environment(
             anyhow::anyhow!("{why}"),
             format_args!("{open} episodes are open, --resume goes on with them"),
         )),
@@ -319,7 +319,7 @@ fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, read
 
 pub(crate) fn failure(error: EvaluationError) -> Failure {
     match error {
-        EvaluationError::Io { .. } => Failure::Surroundings(error.into()),
+        EvaluationError::Io { .. } => Failure::Environment(error.into()),
         EvaluationError::Malformed(_) => Failure::Malformed(error.into()),
     }
 }

@@ -224,7 +224,7 @@ pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + S
         return Err(Failure::malformed("--jobs takes a number of threads, at least 1"));
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).build();
-    let pool = pool.map_err(|error| Failure::surroundings(error, "threads cannot be started"))?;
+    let pool = pool.map_err(|error| Failure::environment(error, "threads cannot be started"))?;
     Ok(pool.install(work))
 }
 

@@ -15,7 +15,7 @@ pub(super) fn commit(recipe: &str, out: Option<&Path>, console: &Console) -> Ans
     let name = name.filter(|name| !name.is_empty()).ok_or_else(|| Failure::malformed("name the release"))?;
     let out = out.map_or_else(|| PathBuf::from(format!("{name}.secret.json")), Path::to_path_buf);
     let chance =
-        entropy().map_err(|error| Failure::surroundings(error, "no chance to be had from the system"))?;
+        entropy().map_err(|error| Failure::environment(error, "no chance to be had from the system"))?;
     let secret = Secret::draw(&name, chance);
     let commitment = secret.commitment();
     let text = serde_json::to_string_pretty(&secret).expect("a secret is plain data");
@@ -31,7 +31,7 @@ pub(super) fn commit(recipe: &str, out: Option<&Path>, console: &Console) -> Ans
             "`{}` exists: a secret is never overwritten; choose another --out",
             out.display()
         )),
-        _ => Failure::surroundings(error, format!("cannot write `{}`", out.display())),
+        _ => Failure::environment(error, format!("cannot write `{}`", out.display())),
     })?;
     console.document(&json!({ "name": name, "commitment": commitment, "secret": out }))?;
     console.say(format_args!(

@@ -34,7 +34,7 @@ pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String
 
 fn unwritable(error: std::io::Error, file: &Path) -> Failure {
     let next = "check that it may be accessed and that the disk has room";
-    Failure::surroundings(error, format_args!("cannot write `{}`: {next}", file.display()))
+    Failure::environment(error, format_args!("cannot write `{}`: {next}", file.display()))
 }
 
 /// Checks an item by its proof, against a root that comes from elsewhere.
@@ -103,7 +103,7 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     let io = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => Failure::malformed(format_args!("`{}` does not exist", file.display())),
-        _ => Failure::surroundings(error, format_args!("cannot read `{}`", file.display())),
+        _ => Failure::environment(error, format_args!("cannot read `{}`", file.display())),
     };
     if !fs::metadata(file).map_err(io)?.is_file() {
         return Err(Failure::malformed(format_args!("`{}` is not a file", file.display())));
