@@ -14,6 +14,7 @@ mod page;
 mod paths;
 mod play;
 mod verbs;
+mod version;
 
 use clap::{Parser, Subcommand};
 use console::Console;
@@ -23,7 +24,7 @@ use std::process::ExitCode;
 ///
 /// Exit status: 0 yes or done; 1 the answer is no; 2 the question is malformed; 3 environment failure (I/O, network, disk full).
 #[derive(Parser)]
-#[command(name = "arcade", version, propagate_version = true, max_term_width = 100)]
+#[command(name = "arcade", version = version::version(), propagate_version = true, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,

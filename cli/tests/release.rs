@@ -49,6 +49,32 @@ fn the_root_of_tiny_is_the_one_in_the_repository() {
     assert_eq!(document["root"].as_str().unwrap(), include_str!("tiny.root").trim());
 }
 
+#[test]
+fn the_version_tells_what_it_mints_and_replays() {
+    let output = run(TINY.path(), &["--version"], 0);
+    let expect = format!(
+        "arcade {} (GENERATION {}, SEMANTICS {})\n",
+        env!("CARGO_PKG_VERSION"),
+        generators::GENERATION,
+        engine::SEMANTICS
+    );
+    assert_eq!(text(&output.stdout), expect);
+    let manifest = fs::read_to_string(TINY.path().join("tiny/MANIFEST.json")).unwrap();
+    let expect = format!("\"version\": \"{}\"", snapshots::version::CURRENT.number);
+    assert!(manifest.contains(&expect), "{manifest}");
+}
+
+/// A release of another generation names the version that mints it, and the commands that install that.
+#[test]
+fn an_old_release_names_the_version_that_regenerates_it() {
+    let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/suite/snapshots/format-1");
+    let output = run(TINY.path(), &["regenerate", stored], 2);
+    let stderr = text(&output.stderr);
+    assert!(stderr.contains("minted by arcade 0.6.0 (GENERATION 6, SEMANTICS 2)"), "{stderr}");
+    let command = "git checkout ea25e6ab8ad7 && cargo install --locked --path cli";
+    assert!(stderr.contains(command), "{stderr}");
+}
+
 /// The first command of the README, in an empty folder.
 #[test]
 fn the_starter_is_minted_and_verifies() {

@@ -21,6 +21,7 @@
 //!     kind: Kind::Open,
 //!     semantics: 1,
 //!     generation: 1,
+//!     version: Some("0.1.0".into()),
 //!     parent: None,
 //!     canary: canary(&Digest::of(recipe.to_string().as_bytes())),
 //!     commitment: None,
@@ -73,6 +74,7 @@ mod sealed;
 mod striving;
 pub mod twin;
 mod verify;
+pub mod version;
 mod witness;
 
 pub use ancestry::{AncestryError, follow};

@@ -6,8 +6,8 @@
 //! - one leaf per item: every file of the release but `MANIFEST.json` itself, at its path;
 //! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]; no file of that name may exist), whose digest is
 //!   the BLAKE3 of the [canonical JSON](crate::canonical) of the *header*: an object of the manifest's fields
-//!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe` and `semantics`, with
-//!   `null` where there is no parent or no commitment.
+//!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format 2
+//!   on, `version`, with `null` where there is no parent or no commitment.
 //!
 //! Not under the root are `items` (the tree is built from them), their sizes (a digest fixes the size), `root`
 //! itself and `lockfile`: the last is provenance only, since two builds with the same semantics mint the same
@@ -22,10 +22,13 @@ use serde_json::Value;
 use crate::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
 use crate::error::SnapshotError;
 use crate::merkle::{self, Leaf};
+use crate::version::MintedBy;
 use engine::Digest;
 
 /// The snapshot format that this crate writes, and the newest that it reads.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
+/// The oldest snapshot format that this crate reads: its manifests name no version.
+pub(crate) const OLDEST_FORMAT: u32 = 1;
 /// The file that holds the manifest, at the top of the release.
 pub const MANIFEST_FILE: &str = "MANIFEST.json";
 /// The path of the leaf that puts the manifest's header under the root.
@@ -47,6 +50,10 @@ pub struct Manifest {
     pub semantics: u32,
     /// The generators' `GENERATION` when this was minted: the recipe gives the same bytes under the same.
     pub generation: u32,
+    /// The [version](crate::version) that minted this, such as `0.12.0`: the first of its generation, whichever fixed it since.
+    /// None in format 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub version: Option<String>,
     /// Root of the release before, or none for the first.
     pub parent: Option<Digest>,
     /// The GUID in every file that can carry one: see [`canary`](crate::canary()).
@@ -104,6 +111,8 @@ struct Header<'a> {
     kind: Kind,
     semantics: u32,
     generation: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    version: Option<&'a str>,
     parent: Option<Digest>,
     canary: &'a str,
     commitment: Option<Digest>,
@@ -111,6 +120,11 @@ struct Header<'a> {
 }
 
 impl Manifest {
+    /// The version that minted it.
+    pub fn minted_by(&self) -> MintedBy {
+        MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
+    }
+
     /// The leaves of the tree, by the bytes of their paths: the items and the header, for [`merkle::root`] and
     /// [`merkle::prove`].
     ///
@@ -123,6 +137,7 @@ impl Manifest {
             kind: self.kind,
             semantics: self.semantics,
             generation: self.generation,
+            version: self.version.as_deref(),
             parent: self.parent,
             canary: &self.canary,
             commitment: self.commitment,
@@ -251,6 +266,7 @@ pub(crate) mod tests {
             kind: Kind::Sealed,
             semantics: 3,
             generation: 4,
+            version: Some("0.4.0".into()),
             parent: Some(Digest::of(b"the release before")),
             canary: crate::canary(&Digest::of(b"commitment")),
             commitment: Some(Digest::of(b"commitment")),
@@ -268,16 +284,28 @@ pub(crate) mod tests {
         example(&[("games/x/lvl0.txt", b"w"), ("README.md", b"read me")])
     }
 
-    /// Computed by an independent implementation: this text and this root are what format 1 means.
+    /// Computed by an independent implementation: these texts and these roots are what the formats mean.
     #[test]
     fn golden() {
+        #[track_caller]
+        fn check(manifest: &Manifest, expect: &str, root: &str) {
+            let bytes = manifest.to_bytes().expect("sound");
+            assert_eq!(String::from_utf8(bytes).expect("JSON is UTF-8"), expect);
+            assert_eq!(manifest.root.to_string(), root);
+            assert_eq!(&Manifest::parse(expect.as_bytes()).expect("golden"), manifest);
+        }
         let manifest = two_files();
-        let bytes = manifest.to_bytes().expect("sound");
-        let expect = include_str!("manifest/golden.json");
-        assert_eq!(String::from_utf8(bytes).expect("JSON is UTF-8"), expect);
-        assert_eq!(
-            manifest.root.to_string(),
-            "6871261f83a66c26cd308695d0019b0d88fce29a5d0d5c1ba27ff490c54e5175"
+        check(
+            &manifest,
+            include_str!("manifest/format-2.json"),
+            "18004ddc5792ffe7321ac8267a161b1e4b232638edf40883b17be88c300a7705",
+        );
+        let mut old = Manifest { format: 1, version: None, ..manifest };
+        old.seal_root().expect("distinct paths");
+        check(
+            &old,
+            include_str!("manifest/format-1.json"),
+            "6871261f83a66c26cd308695d0019b0d88fce29a5d0d5c1ba27ff490c54e5175",
         );
     }
 
@@ -297,8 +325,10 @@ pub(crate) mod tests {
             change(&mut manifest);
             manifest.computed_root().expect("distinct paths")
         };
-        let changes: [&dyn Fn(&mut Manifest); 13] = [
-            &|m| m.format = 2,
+        let changes: [&dyn Fn(&mut Manifest); 15] = [
+            &|m| m.format = 1,
+            &|m| m.version = Some("0.4.1".into()),
+            &|m| m.version = None,
             &|m| m.name.push('x'),
             &|m| m.kind = Kind::Open,
             &|m| m.semantics += 1,
@@ -365,21 +395,21 @@ pub(crate) mod tests {
     fn the_format_is_judged_first() {
         refuse(
             r#"{ "format": 7, "novelty": [] }"#,
-            "snapshot format 7 is newer than this arcade understands (1): use a newer arcade",
+            "snapshot format 7 is newer than this arcade understands (2): use a newer arcade",
         );
         refuse(r#"{ "format": 18446744073709551615 }"#, "snapshot format 18446744073709551615 is newer");
         refuse("[7]", "snapshot format 7 is newer");
         let text = two_files().text().expect("plain recipe");
         refuse(
-            &text.replace("\"format\": 1", "\"format\": 3"),
-            "it says format 3, but has the shape of format 1",
+            &text.replace("\"format\": 2", "\"format\": 3"),
+            "it says format 3, but has the shape of format 2",
         );
         refuse(r#"{ "format": -1 }"#, "invalid value");
         refuse("{}", "missing field `format`");
         refuse("", "EOF");
         refuse(
-            &text.replace("\"format\": 1", "\"format\": 0"),
-            "it says format 0, but has the shape of format 1",
+            &text.replace("\"format\": 2", "\"format\": 0"),
+            "it says format 0, but has the shape of format 2",
         );
     }
 
@@ -388,7 +418,7 @@ pub(crate) mod tests {
         let text = two_files().text().expect("plain recipe");
         refuse(&text.replacen('{', "{\"more\": 1,", 1), "unknown field `more`");
         refuse(&text.replace("\"size\": 1", "\"size\": 1, \"mode\": 7"), "unknown field `mode`");
-        refuse(&text.replacen('{', "{\"format\": 1,", 1), "duplicate field `format`");
+        refuse(&text.replacen('{', "{\"format\": 2,", 1), "duplicate field `format`");
         refuse(&text.replace("\"sealed\"", "\"Sealed\""), "unknown variant `Sealed`");
         refuse(&text[..text.len() - 3], "EOF");
         refuse(&format!("{text}{{"), "trailing characters");

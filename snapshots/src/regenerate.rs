@@ -6,6 +6,7 @@ use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
 use crate::mint::{MintError, Minted, Plan, Shelf, Sink, lay_out};
 use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::{SECRET_FILE, Secret, read_secret};
+use crate::version::{CURRENT, MintedBy};
 use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -14,17 +15,10 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum RegenerateError {
     /// Other generators made it.
-    #[error(
-        "this release was minted under generation {generation} and semantics {semantics}; this arcade has \
-         {} and {}: use an arcade that has the same",
-        generators::GENERATION,
-        engine::SEMANTICS
-    )]
+    #[error("this release was minted by {minted_by}; this is arcade {CURRENT}: {}", next_move(minted_by))]
     OtherVersion {
-        /// In the manifest.
-        generation: u32,
-        /// In the manifest.
-        semantics: u32,
+        /// According to the manifest.
+        minted_by: MintedBy,
     },
     /// Its seed is not public.
     #[error(
@@ -45,6 +39,16 @@ pub enum RegenerateError {
     /// The folder cannot be read.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
+}
+
+/// The version to regenerate with, and how it is installed.
+fn next_move(minted_by: &MintedBy) -> String {
+    match minted_by.install_command() {
+        Some(command) => {
+            format!("install that version in a clone of the repository (`{command}`) and regenerate with it")
+        }
+        None => "neither the manifest nor this arcade knows a version that mints it".to_owned(),
+    }
 }
 
 /// The release minted again, and where it differs.
@@ -85,9 +89,9 @@ impl Regeneration {
         })?;
         let manifest =
             Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
-        let Manifest { generation, semantics, .. } = manifest;
-        if generation != generators::GENERATION || semantics != engine::SEMANTICS {
-            return Err(RegenerateError::OtherVersion { generation, semantics });
+        let minted_by = manifest.minted_by();
+        if (minted_by.generation, minted_by.semantics) != (CURRENT.generation, CURRENT.semantics) {
+            return Err(RegenerateError::OtherVersion { minted_by });
         }
         let secret = match manifest.kind {
             Kind::Open => None,

@@ -2,20 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use super::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use super::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, OLDEST_FORMAT};
 use crate::canary::is_canary;
 use crate::error::SnapshotError;
 use crate::folder::Limits;
 use crate::path::check_path;
+use crate::version::is_version_number;
 
 /// The first thing that is wrong. Cost: O(n log n) in the items.
 pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
-    if manifest.format != FORMAT {
-        return Err(unsound(format!(
-            "it says format {}, but has the shape of format {FORMAT}",
-            manifest.format
-        )));
-    }
+    check_format(manifest)?;
     let name = &manifest.name;
     if name.contains('/') || check_path(name).is_err() {
         return Err(unsound(format!("the name `{}` is not one safe path component", name.escape_debug())));
@@ -32,6 +28,24 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
         _ => {}
     }
     check_items(&manifest.items, &Limits::SNAPSHOT)
+}
+
+/// From format 2 on a manifest names the version that minted it.
+fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
+    let shape = if manifest.version.is_some() { FORMAT } else { OLDEST_FORMAT };
+    if manifest.format != shape {
+        return Err(unsound(format!(
+            "it says format {}, but has the shape of format {shape}",
+            manifest.format
+        )));
+    }
+    match &manifest.version {
+        Some(version) if !is_version_number(version) => {
+            let shown = version.escape_debug();
+            Err(unsound(format!("the version `{shown}` is not three numbers, as in `0.12.0`")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A [`SnapshotError::Manifest`] that does not know its place yet.
@@ -123,7 +137,12 @@ mod tests {
 
     #[test]
     fn headers() {
-        refuse(|m| m.format = 2, "it says format 2, but has the shape of format 1");
+        refuse(|m| m.format = 1, "it says format 1, but has the shape of format 2");
+        refuse(|m| m.version = None, "it says format 2, but has the shape of format 1");
+        refuse(
+            |m| m.version = Some("0.12.0; rm x".into()),
+            "the version `0.12.0; rm x` is not three numbers",
+        );
         refuse(|m| m.name = String::new(), "the name `` is not one safe path component");
         refuse(|m| m.name = "a/b".into(), "the name `a/b` is not");
         refuse(|m| m.name = "a\u{1b}".into(), "the name `a\\u{1b}` is not");

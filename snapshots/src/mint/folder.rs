@@ -87,6 +87,7 @@ impl<'a, 'b> Folder<'a, 'b> {
             kind: if self.is_sealed { Kind::Sealed } else { Kind::Open },
             semantics: engine::SEMANTICS,
             generation: generators::GENERATION,
+            version: Some(crate::version::CURRENT.number.to_owned()),
             parent: recipe.parent,
             canary: self.canary,
             commitment: recipe.commitment,

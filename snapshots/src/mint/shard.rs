@@ -15,6 +15,7 @@ use crate::canonical::to_canonical_json;
 use crate::folder::{self, Limits};
 use crate::manifest::{Item, MANIFEST_LIMIT};
 use crate::recipe::Recipe;
+use crate::version::{CURRENT, MintedBy};
 use crate::{Digest, Draft, SnapshotError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -231,13 +232,8 @@ fn shard_file(folder: &Path) -> Result<ShardFile, MergeError> {
     }
     let file: ShardFile = serde_json::from_slice(&bytes).map_err(syntax)?;
     if (file.generation, file.semantics) != (generators::GENERATION, engine::SEMANTICS) {
-        let what = format!(
-            "made under generation {} and semantics {}; this arcade has {} and {}: use the arcade that made it",
-            file.generation,
-            file.semantics,
-            generators::GENERATION,
-            engine::SEMANTICS
-        );
+        let made_by = MintedBy { version: None, generation: file.generation, semantics: file.semantics };
+        let what = format!("made by {made_by}; this is arcade {CURRENT}: merge with the arcade that made it");
         return Err(unsound(folder, what));
     }
     let Shard { number, of } = file.shard;

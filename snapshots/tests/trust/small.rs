@@ -91,6 +91,7 @@ pub(crate) fn small(name: &str, parent: Option<Digest>) -> Small {
         kind: Kind::Open,
         semantics: engine::SEMANTICS,
         generation: generators::GENERATION,
+        version: Some(snapshots::version::CURRENT.number.to_owned()),
         parent,
         canary: mark,
         commitment: None,
