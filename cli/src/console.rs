@@ -1,36 +1,98 @@
 //! Standard output, standard error and progress bars.
 
-use crate::failure::Failure;
+use crate::failure::{Answer, ENVIRONMENT, Failure, NO};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::GraphicalTheme;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Display;
-use std::io::{IsTerminal, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Where a verb writes.
 pub(crate) struct Console {
     json: bool,
     quiet: bool,
+    output: Mutex<Output>,
+}
+
+/// The state of standard output.
+#[derive(Default)]
+struct Output {
+    /// The reader has left (`arcade … | head`), or writing has failed: nothing more is written.
+    is_closed: bool,
+    failure: Option<io::Error>,
+    /// A document has been written; there is never a second one.
+    is_documented: bool,
+}
+
+impl Output {
+    fn write(&mut self, target: &mut impl Write, text: std::fmt::Arguments<'_>) {
+        if self.is_closed {
+            return;
+        }
+        self.note(target.write_fmt(text).and_then(|()| target.flush()));
+    }
+
+    fn note(&mut self, result: io::Result<()>) {
+        if let Err(error) = result {
+            self.is_closed = true;
+            self.failure = Some(error).filter(|error| error.kind() != ErrorKind::BrokenPipe);
+        }
+    }
 }
 
 impl Console {
     pub(crate) fn new(json: bool, quiet: bool) -> Console {
-        Console { json, quiet }
+        Console { json, quiet, output: Mutex::default() }
+    }
+
+    /// Writes to standard output. A reader that leaves early changes nothing: the verb goes on to its end, and to its exit
+    /// status. A device that is full is reported by [`finish`](Console::finish), when the files of the verb are written.
+    fn out(&self, text: std::fmt::Arguments<'_>, is_document: bool) {
+        let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
+        output.is_documented |= is_document;
+        output.write(&mut io::stdout().lock(), text);
+    }
+
+    /// Takes note of how it went where a library wrote to standard output.
+    pub(crate) fn printed(&self, result: io::Result<()>) {
+        let result = result.and_then(|()| io::stdout().flush());
+        self.output.lock().unwrap_or_else(PoisonError::into_inner).note(result);
+    }
+
+    /// Reports a failure, and returns the exit status of a verb with this answer.
+    pub(crate) fn finish(&self, answer: Answer) -> u8 {
+        let status = match answer {
+            Ok(true) => 0,
+            Ok(false) => NO,
+            Err(failure) => {
+                self.error(&failure);
+                failure.code()
+            }
+        };
+        let broken = self.output.lock().unwrap_or_else(PoisonError::into_inner).failure.take();
+        match broken {
+            Some(error) => {
+                self.report(&Failure::environment(error, "cannot write to standard output"));
+                ENVIRONMENT
+            }
+            None => status,
+        }
     }
 
     /// The answer, for people; nothing where JSON is wanted.
     pub(crate) fn say(&self, text: impl Display) {
         if !self.json {
-            out(format_args!("{}\n", shown(&text.to_string())));
+            self.out(format_args!("{}\n", shown(&text.to_string())), false);
         }
     }
 
     /// The content of a file, as it is, for people; nothing where JSON is wanted.
     pub(crate) fn file(&self, content: &str) {
         if !self.json {
-            out(format_args!("{content}"));
+            self.out(format_args!("{content}"), false);
         }
     }
 
@@ -39,33 +101,46 @@ impl Console {
         if self.json {
             let text = serde_json::to_string_pretty(value)
                 .map_err(|error| Failure::environment(error, "the answer cannot be written as JSON"))?;
-            out(format_args!("{text}\n"));
+            self.out(format_args!("{text}\n"), true);
         }
         Ok(())
     }
 
     /// A line of JSON, for people and programs alike: what a verb says that goes on after its answer.
     pub(crate) fn line(&self, value: &serde_json::Value) {
-        out(format_args!("{value}\n"));
+        self.out(format_args!("{value}\n"), true);
     }
 
     /// Remarks beside the answer.
     pub(crate) fn remark(&self, text: impl Display) {
         if !self.quiet {
-            let _ = writeln!(std::io::stderr(), "{}", shown(&text.to_string()));
+            let _ = writeln!(io::stderr(), "{}", shown(&text.to_string()));
         }
     }
 
-    /// What went wrong: said even when quiet.
+    /// The failure, said even when quiet; as a document too where JSON is wanted and the verb has written none.
     pub(crate) fn error(&self, failure: &Failure) {
-        let _ = writeln!(std::io::stderr(), "error: {}", shown(&failure.to_string()));
+        self.report(failure);
+        self.error_document(failure);
+    }
+
+    /// The failure for programs, where JSON is wanted and no document has been written.
+    pub(crate) fn error_document(&self, failure: &Failure) {
+        let is_documented = self.output.lock().unwrap_or_else(PoisonError::into_inner).is_documented;
+        if self.json && !is_documented {
+            self.out(format_args!("{:#}\n", failure.document()), true);
+        }
+    }
+
+    fn report(&self, failure: &Failure) {
+        let _ = writeln!(io::stderr(), "error: {}", shown(&failure.to_string()));
     }
 
     /// A bar on standard error if that is a terminal.
     pub(crate) fn progress(&self, length: u64, what: &'static str) -> ProgressBar {
         let bar = ProgressBar::with_draw_target(
             Some(length),
-            if self.quiet || !std::io::stderr().is_terminal() {
+            if self.quiet || !io::stderr().is_terminal() {
                 ProgressDrawTarget::hidden()
             } else {
                 ProgressDrawTarget::stderr()
@@ -96,18 +171,10 @@ impl Stopwatch {
     }
 }
 
-/// Writes to standard output. A reader that has left (`arcade … | head`) ends the program quietly.
-fn out(text: std::fmt::Arguments<'_>) {
-    let mut stdout = std::io::stdout().lock();
-    if stdout.write_fmt(text).and_then(|()| stdout.flush()).is_err() {
-        std::process::exit(i32::from(crate::failure::ENVIRONMENT));
-    }
-}
-
 /// Text as a terminal may see it. It may quote what a stranger wrote, so that control characters are spelt out, but for
 /// the colours of our own diagnostics, which have some where standard error is a terminal.
 fn shown(text: &str) -> Cow<'_, str> {
-    let is_terminal = std::io::stderr().is_terminal();
+    let is_terminal = io::stderr().is_terminal();
     escaped(text, &if is_terminal { colours() } else { Vec::new() })
 }
 
@@ -146,6 +213,34 @@ fn escaped<'a>(text: &'a str, kept: &[String]) -> Cow<'a, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A writer that always fails.
+    struct Broken(ErrorKind);
+
+    impl Write for Broken {
+        fn write(&mut self, _bytes: &[u8]) -> io::Result<usize> {
+            Err(self.0.into())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_reader_that_leaves_is_no_failure_and_a_full_device_is_one() {
+        for (kind, expect) in
+            [(ErrorKind::BrokenPipe, None), (ErrorKind::StorageFull, Some(ErrorKind::StorageFull))]
+        {
+            let mut output = Output::default();
+            output.write(&mut Broken(kind), format_args!("text"));
+            assert!(output.is_closed);
+            assert_eq!(output.failure.as_ref().map(io::Error::kind), expect);
+            let mut later = Vec::new();
+            output.write(&mut later, format_args!("more"));
+            assert!(later.is_empty());
+        }
+    }
 
     #[track_caller]
     fn check(text: &str, expect: &str) {

@@ -1,10 +1,36 @@
 //! Diagnostics as people and programs read them.
 
+use crate::failure::Failure;
 use crate::input::Named;
 use engine::{Diagnostic, Severity, line_and_column};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use serde::Serialize;
+use std::fmt;
 use std::io::IsTerminal;
+
+/// The problems of a file, as an error.
+#[derive(Debug)]
+pub(crate) struct Problems {
+    /// The line that says how many there are.
+    pub(crate) summary: String,
+    pub(crate) placed: Vec<Placed>,
+    text: String,
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl std::error::Error for Problems {}
+
+/// The failure of a verb that cannot go on because of the problems of a file.
+pub(crate) fn failure(source: &Named, problems: &[Diagnostic]) -> Failure {
+    let text = in_words(source, problems);
+    let summary = text.lines().next().unwrap_or_default().to_owned();
+    Failure::Malformed(Problems { summary, placed: placed(source, problems), text }.into())
+}
 
 /// A summary line, then every problem with its place.
 pub(crate) fn in_words(source: &Named, problems: &[Diagnostic]) -> String {
@@ -45,7 +71,7 @@ pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
 }
 
 /// One problem for programs.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub(crate) struct Placed {
     file: String,
     line: usize,

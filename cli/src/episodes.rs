@@ -3,6 +3,7 @@
 
 use crate::failure::Failure;
 use crate::input::{GameInput, Named, read_text};
+use crate::whole_file;
 use engine::{Episode, Game, Level};
 use serde::Deserialize;
 use snapshots::Witness;
@@ -37,11 +38,11 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
     }
 }
 
-/// Writes an episode.
+/// Writes an episode: the file is complete, or as it was before.
 pub(crate) fn write(path: &Path, episode: &Episode) -> Result<(), Failure> {
     let text = serde_json::to_string(episode)
         .map_err(|error| Failure::environment(error, "the episode cannot be written as JSON"))?;
-    std::fs::write(path, text).map_err(|error| Failure::environment(error, path.display()))
+    whole_file::write(path, text.as_bytes())
 }
 
 /// The level to show: the one that is named; else the one that the episode was recorded on; else the first.
@@ -53,7 +54,7 @@ pub(crate) fn level(
 ) -> Result<(Named, Level), Failure> {
     let checked = |named: Named| match game.level(&named.text) {
         Ok(level) => Ok((named, level)),
-        Err(problems) => Err(Failure::malformed(crate::diagnostics::in_words(&named, &problems.0))),
+        Err(problems) => Err(crate::diagnostics::failure(&named, &problems.0)),
     };
     if let Some(name) = name {
         return checked(input.level(name)?);

@@ -1,6 +1,10 @@
 //! Why a verb has no answer, and the exit status that says so.
 
+use crate::diagnostics::Problems;
+use serde_json::{Value, json};
 use std::fmt;
+use std::io::{self, ErrorKind};
+use std::path::Path;
 
 /// The answer is no.
 pub(crate) const NO: u8 = 1;
@@ -32,17 +36,142 @@ impl Failure {
         Failure::Environment(error.into().context(what.to_string()))
     }
 
+    /// The file at `path` cannot be read: the user named one that is not there, or the system refuses.
+    pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
+        let name = path.display();
+        match error.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory => {
+                Failure::malformed(format_args!("{name}: there is no such file"))
+            }
+            ErrorKind::InvalidFilename => {
+                Failure::malformed(format_args!("{name}: there is no such file, and none can have this name"))
+            }
+            ErrorKind::IsADirectory => {
+                Failure::malformed(format_args!("{name} is a folder: name a file in it"))
+            }
+            _ => Failure::environment(error, format_args!("cannot read `{name}`")),
+        }
+    }
+
+    /// The file at `path` cannot be written: the user named an impossible place, or the system refuses.
+    pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
+        let name = path.display();
+        match error.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory => Failure::malformed(format_args!(
+                "cannot write `{name}`: its folder does not exist; create it first, or name another file"
+            )),
+            ErrorKind::InvalidFilename => Failure::malformed(format_args!(
+                "cannot write `{name}`: no file can have this name; choose a shorter one"
+            )),
+            ErrorKind::IsADirectory => {
+                Failure::malformed(format_args!("cannot write `{name}`: it is a folder; name a file in it"))
+            }
+            _ => Failure::environment(error, format_args!("cannot write `{name}`")),
+        }
+    }
+
     pub(crate) fn code(&self) -> u8 {
         match self {
             Failure::Malformed(_) => MALFORMED,
             Failure::Environment(_) => ENVIRONMENT,
         }
     }
+
+    /// The failure for programs; `problems` has a place for each where a file of the user is at fault.
+    pub(crate) fn document(&self) -> Value {
+        let (kind, error) = match self {
+            Failure::Malformed(error) => ("malformed", error),
+            Failure::Environment(error) => ("environment", error),
+        };
+        let problems = error.downcast_ref::<Problems>();
+        let message = problems.map_or_else(|| self.to_string(), |problems| problems.summary.clone());
+        let mut document = json!({ "status": self.code(), "kind": kind, "message": message });
+        if let Some(problems) = problems {
+            document["problems"] = json!(problems.placed);
+        }
+        json!({ "error": document })
+    }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (Failure::Malformed(error) | Failure::Environment(error)) = self;
-        write!(f, "{error:#}")
+        write!(f, "{error:#}")?;
+        let mut causes = error.chain().filter_map(|cause| cause.downcast_ref::<io::Error>());
+        match causes.find_map(|cause| advice(cause.kind())) {
+            Some(advice) if matches!(self, Failure::Environment(_)) => write!(f, "; {advice}"),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The next move, where the cause suggests one.
+fn advice(kind: ErrorKind) -> Option<&'static str> {
+    match kind {
+        ErrorKind::PermissionDenied => Some("check the permissions of the file and of the folders above it"),
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Some("make room there and try again"),
+        ErrorKind::ReadOnlyFilesystem => Some("choose a place that can be written"),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(failure: &Failure, status: u8, message: &str) {
+        assert_eq!(failure.to_string(), message);
+        assert_eq!(failure.code(), status);
+    }
+
+    #[test]
+    fn what_may_not_be_entered_is_not_called_absent() {
+        let at = Path::new("games/a");
+        check(&Failure::read(at, ErrorKind::NotFound.into()), MALFORMED, "games/a: there is no such file");
+        check(
+            &Failure::read(at, ErrorKind::PermissionDenied.into()),
+            ENVIRONMENT,
+            "cannot read `games/a`: permission denied; check the permissions of the file and of the folders above it",
+        );
+        check(
+            &Failure::read(at, ErrorKind::IsADirectory.into()),
+            MALFORMED,
+            "games/a is a folder: name a file in it",
+        );
+    }
+
+    #[test]
+    fn advice_fits_the_cause() {
+        let at = Path::new("a.gif");
+        check(
+            &Failure::write(at, ErrorKind::StorageFull.into()),
+            ENVIRONMENT,
+            "cannot write `a.gif`: no storage space; make room there and try again",
+        );
+        check(
+            &Failure::write(at, ErrorKind::TimedOut.into()),
+            ENVIRONMENT,
+            "cannot write `a.gif`: timed out",
+        );
+        let of_snapshots = snapshots::SnapshotError::Io {
+            action: "write",
+            path: at.to_owned(),
+            source: ErrorKind::PermissionDenied.into(),
+        };
+        check(
+            &crate::verbs::verify::failure(of_snapshots),
+            ENVIRONMENT,
+            "cannot write `a.gif`: permission denied; check the permissions of the file and of the folders above it",
+        );
+    }
+
+    #[test]
+    fn a_failure_is_a_document() {
+        let document = Failure::malformed("name a game").document();
+        assert_eq!(
+            document,
+            json!({ "error": { "status": 2, "kind": "malformed", "message": "name a game" } })
+        );
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::embedded;
 use crate::failure::Failure;
+use crate::paths;
 use engine::{Game, MAX_LEVEL_TEXT, MAX_SOURCE};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -61,7 +62,7 @@ impl GameInput {
     /// A level as the user names it: a file, or the number of one that comes with the game.
     pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
         let path = Path::new(name);
-        if path.exists() {
+        if paths::look(path)?.is_some() {
             return LevelInput::File(path.to_owned()).read();
         }
         let number = name.strip_prefix("lvl").unwrap_or(name).trim_end_matches(".txt").parse::<usize>();
@@ -86,11 +87,11 @@ fn number_like(name: &str) -> bool {
 /// Finds a game: a .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game.
 pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     let path = Path::new(name);
-    if path.is_dir() {
-        return game_in(path)?
-            .ok_or_else(|| Failure::malformed(format!("{name}: no game.vgdl or game.txt in this folder")));
+    let found = paths::look(path)?;
+    if found.as_ref().is_some_and(|found| found.is_dir()) {
+        return game_in(path)?.ok_or_else(|| no_game_in(path));
     }
-    if path.exists() {
+    if found.is_some() {
         let text = read_text(path, MAX_SOURCE)?;
         let whole_folder = path.file_stem().is_some_and(|stem| stem == "game");
         let folder = path.parent().unwrap_or(Path::new("."));
@@ -104,8 +105,9 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     let corpus = embedded::corpus()?;
     let Some(found) = corpus.find(name) else {
         let near = engine::nearest(name, corpus.games.iter().map(|game| game.name.as_str()));
-        let help = match near {
-            Some(near) => format!("did you mean the corpus game `{near}`?"),
+        let near = near.map(|near| format!("the corpus game `{near}`"));
+        let help = match near.or_else(|| beside(path).map(|near| format!("`{near}`"))) {
+            Some(near) => format!("there is no such file, folder or corpus game; did you mean {near}?"),
             None => "there is no such file, folder or corpus game".to_owned(),
         };
         return Err(Failure::malformed(format!("{name}: {help}")));
@@ -126,10 +128,11 @@ const CORPUS: &str = "corpus";
 /// Finds games: what [`game`] finds, all games in a folder of such folders, and `corpus`: all games of the corpus.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
-    if name == CORPUS && !path.exists() {
+    let found = paths::look(path)?;
+    if name == CORPUS && found.is_none() {
         return embedded::corpus()?.games.iter().map(|known| game(&known.name)).collect();
     }
-    if !path.is_dir() {
+    if !found.is_some_and(|found| found.is_dir()) {
         return Ok(vec![game(name)?]);
     }
     if let Some(game) = game_in(path)? {
@@ -137,24 +140,59 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     }
     let mut games = Vec::new();
     for folder in sorted_entries(path)? {
-        if folder.is_dir() {
+        if paths::look(&folder)?.is_some_and(|found| found.is_dir()) {
             games.extend(game_in(&folder)?);
         }
     }
     if games.is_empty() {
-        return Err(Failure::malformed(format!("{name}: neither a game nor a folder of games")));
+        return Err(no_game_in(path));
     }
     Ok(games)
 }
 
+/// Advice for a folder without a game: it may be a release, whose games are further down.
+fn no_game_in(folder: &Path) -> Failure {
+    let name = folder.display();
+    let below = folder.join("games");
+    let games = sorted_entries(&below).unwrap_or_default();
+    match games.iter().find(|game| game.join("game.vgdl").is_file()) {
+        Some(first) => Failure::malformed(format!(
+            "{name}: no game in this folder, but in {}: name that folder where several games are taken, or one game, such as {}",
+            below.display(),
+            first.display()
+        )),
+        None => Failure::malformed(format!("{name}: no game.vgdl or game.txt in this folder")),
+    }
+}
+
+/// The path in the same folder whose name is the nearest to this one's, as after a slip of the fingers.
+fn beside(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| *folder != Path::new(""))?;
+    let wanted = path.file_name()?.to_string_lossy();
+    let there = sorted_entries(folder).ok()?;
+    let names: Vec<_> = there.iter().filter_map(|path| path.file_name()?.to_str()).collect();
+    let near = engine::nearest(&wanted, names.into_iter())?;
+    Some(folder.join(near).display().to_string())
+}
+
 fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
-    let file = ["game.vgdl", "game.txt"].iter().map(|file| folder.join(file)).find(|path| path.exists());
-    let Some(path) = file else { return Ok(None) };
+    let Some(path) = first_file(folder, ["game.vgdl", "game.txt"])? else { return Ok(None) };
     let text = read_text(&path, MAX_SOURCE)?;
     let title =
         folder.file_name().map_or_else(|| folder.display().to_string(), |n| n.to_string_lossy().into_owned());
     let source = Named { name: path.display().to_string(), text };
     Ok(Some(GameInput { source, title, levels: level_files(folder)? }))
+}
+
+/// The first of these that the folder has.
+pub(crate) fn first_file(folder: &Path, names: [&str; 2]) -> Result<Option<PathBuf>, Failure> {
+    for name in names {
+        let path = folder.join(name);
+        if paths::look(&path)?.is_some() {
+            return Ok(Some(path));
+        }
+    }
+    Ok(None)
 }
 
 fn level_files(folder: &Path) -> Result<Vec<LevelInput>, Failure> {
@@ -175,7 +213,7 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
             Failure::malformed(format!("{}: there is no such folder", folder.display()))
         }
-        _ => Failure::environment(error, folder.display()),
+        _ => Failure::read(folder, error),
     };
     let mut paths = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(failed)? {
@@ -185,16 +223,21 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
+/// How the archive of a release begins.
+const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+
 /// Reads a text file of at most `limit` bytes; of a larger one no more than that is read.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.display();
-    let file = std::fs::File::open(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => Failure::malformed(format!("{name}: there is no such file")),
-        _ => Failure::environment(error, name.to_string()),
-    })?;
+    let file = std::fs::File::open(path).map_err(|error| Failure::read(path, error))?;
     let mut bytes = Vec::new();
     let read = file.take(limit as u64 + 1).read_to_end(&mut bytes);
-    read.map_err(|error| Failure::environment(error, name.to_string()))?;
+    read.map_err(|error| Failure::read(path, error))?;
+    if bytes.starts_with(&ZSTD) {
+        return Err(Failure::malformed(format!(
+            "{name}: an archive, where a text file is wanted; unpack it (tar -xf {name}), and name a file or folder in it"
+        )));
+    }
     if bytes.len() > limit {
         return Err(Failure::malformed(format!(
             "{name}: larger than {limit} bytes, the limit for such a file"

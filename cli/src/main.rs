@@ -10,14 +10,20 @@ mod failure;
 mod game_report;
 mod input;
 mod level_report;
+mod manual;
 mod page;
 mod paths;
 mod play;
+mod threads;
+mod usage;
 mod verbs;
 mod version;
+mod whole_file;
 
 use clap::{Parser, Subcommand};
 use console::Console;
+use failure::Answer;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Mints verified benchmarks of new arcade games, and checks them.
@@ -55,44 +61,45 @@ enum Verb {
     Describe(verbs::describe::Args),
     Fmt(verbs::fmt::Args),
     Conformance(verbs::conformance::Args),
+    Recipes(verbs::recipes::Args),
+    Docs(verbs::docs::Args),
+    Completions(verbs::completions::Args),
+    Man(verbs::man::Args),
 }
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    let cli = match usage::parse(&arguments) {
         Ok(cli) => cli,
-        Err(error) => {
-            // Help and version are answers; everything else is a malformed question.
-            let code = if error.use_stderr() { failure::MALFORMED } else { 0 };
-            let _ = error.print();
-            return ExitCode::from(code);
-        }
+        Err(status) => return ExitCode::from(status),
     };
     let console = Console::new(cli.json, cli.quiet);
-    let answer = match cli.verb {
-        Verb::Release(args) => verbs::release::run(&args, &console),
-        Verb::Merge(args) => verbs::merge::run(&args, &console),
-        Verb::Regenerate(args) => verbs::regenerate::run(&args, &console),
-        Verb::Verify(args) => verbs::verify::run(&args, &console),
-        Verb::Validate(args) => verbs::validate::run(&args, &console),
-        Verb::Generate(args) => verbs::generate::run(&args, &console),
-        Verb::Run(args) => verbs::run::run(&args, &console),
-        Verb::Evaluate(args) => verbs::evaluate::run(&args, &console),
-        Verb::ServePlayer(args) => verbs::serve_player::run(&args, &console),
-        Verb::Report(args) => verbs::report::run(&args, &console),
-        Verb::Diff(args) => verbs::diff::run(&args, &console),
-        Verb::Export(args) => verbs::export::run(&args, &console),
-        Verb::Play(args) => verbs::play::run(&args, &console),
-        Verb::Render(args) => verbs::render::run(&args, &console),
-        Verb::Describe(args) => verbs::describe::run(&args, &console),
-        Verb::Fmt(args) => verbs::fmt::run(&args, &console),
-        Verb::Conformance(args) => verbs::conformance::run(&args, &console),
-    };
-    match answer {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(failure::NO),
-        Err(failure) => {
-            console.error(&failure);
-            ExitCode::from(failure.code())
-        }
+    ExitCode::from(console.finish(answer(cli.verb, &console)))
+}
+
+fn answer(verb: Verb, console: &Console) -> Answer {
+    threads::start()?;
+    match verb {
+        Verb::Release(args) => verbs::release::run(&args, console),
+        Verb::Merge(args) => verbs::merge::run(&args, console),
+        Verb::Regenerate(args) => verbs::regenerate::run(&args, console),
+        Verb::Verify(args) => verbs::verify::run(&args, console),
+        Verb::Validate(args) => verbs::validate::run(&args, console),
+        Verb::Generate(args) => verbs::generate::run(&args, console),
+        Verb::Run(args) => verbs::run::run(&args, console),
+        Verb::Evaluate(args) => verbs::evaluate::run(&args, console),
+        Verb::ServePlayer(args) => verbs::serve_player::run(&args, console),
+        Verb::Report(args) => verbs::report::run(&args, console),
+        Verb::Diff(args) => verbs::diff::run(&args, console),
+        Verb::Export(args) => verbs::export::run(&args, console),
+        Verb::Play(args) => verbs::play::run(&args, console),
+        Verb::Render(args) => verbs::render::run(&args, console),
+        Verb::Describe(args) => verbs::describe::run(&args, console),
+        Verb::Fmt(args) => verbs::fmt::run(&args, console),
+        Verb::Conformance(args) => verbs::conformance::run(&args, console),
+        Verb::Recipes(args) => verbs::recipes::run(&args, console),
+        Verb::Docs(args) => verbs::docs::run(&args, console),
+        Verb::Completions(args) => verbs::completions::run(&args, console),
+        Verb::Man(args) => verbs::man::run(&args, console),
     }
 }

@@ -1,6 +1,9 @@
-//! Paths as text.
+//! Paths: as text, and what is there.
 
+use crate::failure::Failure;
 use std::borrow::Cow;
+use std::fs::{self, Metadata};
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The path for a JSON document: bytes that are not UTF-8 become U+FFFD. `json!` panics on a path that is not UTF-8, so
@@ -9,9 +12,35 @@ pub(crate) fn in_json(path: &Path) -> Cow<'_, str> {
     path.to_string_lossy()
 }
 
+/// The file or folder at `path`, links followed; none if nothing is there. A folder that may not be entered is a failure, not
+/// an absence.
+pub(crate) fn look(path: &Path) -> Result<Option<Metadata>, Failure> {
+    match fs::metadata(path) {
+        Ok(found) => Ok(Some(found)),
+        Err(error) => absent_or_failed(path, error),
+    }
+}
+
+fn absent_or_failed<T>(path: &Path, error: std::io::Error) -> Result<Option<T>, Failure> {
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::InvalidFilename => Ok(None),
+        _ => Err(Failure::read(path, error)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_may_not_be_entered_is_not_absent() {
+        let look = |kind: ErrorKind| absent_or_failed::<()>(Path::new("a/b"), kind.into());
+        assert!(look(ErrorKind::NotFound).expect("absent").is_none());
+        assert!(look(ErrorKind::NotADirectory).expect("absent").is_none());
+        let refused = look(ErrorKind::PermissionDenied).expect_err("refused");
+        assert_eq!(refused.code(), crate::failure::ENVIRONMENT);
+        assert!(refused.to_string().starts_with("cannot read `a/b`: permission denied"), "{refused}");
+    }
 
     #[cfg(unix)]
     #[test]

@@ -12,7 +12,7 @@ use crate::path::PathProblem;
 #[non_exhaustive]
 pub enum SnapshotError {
     /// The file system refused.
-    #[error("cannot {action} `{}`: check that it may be accessed and that the disk has room", .path.display())]
+    #[error("cannot {action} `{}`", .path.display())]
     Io {
         /// What was tried: a verb, as in "cannot read".
         action: &'static str,
@@ -251,7 +251,7 @@ mod tests {
     fn the_source_is_kept() {
         let refused = io::Error::from(io::ErrorKind::PermissionDenied);
         let error = SnapshotError::io("read", Path::new("a/b"))(refused);
-        assert!(error.to_string().starts_with("cannot read `a/b`: "), "{error}");
+        assert_eq!(error.to_string(), "cannot read `a/b`");
         assert!(error.source().is_some());
     }
 

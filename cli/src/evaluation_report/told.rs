@@ -32,8 +32,8 @@ impl Told {
         let mut counted = vec![episodes(study), common(study, levels)];
         counted.extend(answers(study));
         counted.push(
-            "Intervals are for 95 %. A dash is a value that is not known, never 0. What each section tells is in docs/report.md, what \
-             each number is in docs/metrics.md."
+            "Intervals are for 95 %. A dash is a value that is not known, never 0. `arcade docs report` explains each section, \
+             `arcade docs metrics` each number."
                 .to_owned(),
         );
         Told { title, subtitle: subtitle(evaluations), counted, warnings: study.notes.clone() }

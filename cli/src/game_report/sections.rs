@@ -51,7 +51,7 @@ fn validity(report: &GameSetReport) -> Section {
     for (criterion, count) in &validity.obstacles {
         facts.push(Fact::share(format!("fail first: {criterion}"), &Share::new(*count, report.count)));
     }
-    section("Do they meet the criteria?", "What each criterion asks is in docs/validate.md.", facts)
+    section("Do they meet the criteria?", "See `arcade docs validate` for what each criterion asks.", facts)
 }
 
 fn skill(skill: &Skill) -> Section {

@@ -46,7 +46,10 @@ fn validity(report: &LevelSetReport) -> Section {
         facts.push(Fact::share(format!("fail first: {criterion}"), &Share::new(*count, report.count)));
     }
     let fits = validity.fit.iter().map(beside).collect();
-    Section { fits, ..section("Are they levels?", "What each criterion asks is in docs/validate.md.", facts) }
+    Section {
+        fits,
+        ..section("Are they levels?", "See `arcade docs validate` for what each criterion asks.", facts)
+    }
 }
 
 fn solvability(report: &LevelSetReport) -> Section {

@@ -124,8 +124,7 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
 /// The compiled game, or why it does not compile.
 fn load_game(games: &Path, name: &str) -> Result<Result<Game, String>, Failure> {
     let folder = games.join(name);
-    let file = ["game.txt", "game.vgdl"].iter().map(|file| folder.join(file)).find(|path| path.exists());
-    let Some(path) = file else {
+    let Some(path) = input::first_file(&folder, ["game.txt", "game.vgdl"])? else {
         let message =
             format!("{}: no game.txt or game.vgdl, but there are traces of `{name}`", folder.display());
         return Err(Failure::malformed(message));

@@ -61,7 +61,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 fn prospects(analysis: &Analysis, named: &Named) -> Result<Prospects, Failure> {
     let level = analysis.game().level(&named.text);
-    let level = level.map_err(|problems| Failure::malformed(diagnostics::in_words(named, &problems.0)))?;
+    let level = level.map_err(|problems| diagnostics::failure(named, &problems.0))?;
     let reach = analysis.reach(&level);
     Ok(Prospects {
         level: named.name.clone(),

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// Compares two snapshots, the earlier first: what is new, kept, changed and gone; how difficulties, kinds, mechanics and win
 /// rates differ; how far apart the games are.
 ///
-/// Every figure is explained in docs/diff.md. --json has all of them, item by item.
+/// Every figure is explained in `arcade docs diff`. --json has all of them, item by item.
 ///
 /// Exit status 0: compared. 1: one of the two does not verify. 2: one is not a snapshot.
 ///

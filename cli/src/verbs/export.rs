@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 ///
 /// A dataset has one row a level, with rules, level, legend, kind, difficulty and digests; PATH gets README.md, the dataset card
 /// that hubs read, and one file of rows in data/. Rows hold no solutions unless asked for. The columns are explained in
-/// docs/export.md. With --twin, every game has another surface and the same mechanics (docs/twins.md). The same snapshot
+/// `arcade docs export`. With --twin, every game has another surface and the same mechanics (see `arcade docs twins`). The same snapshot
 /// gives the same bytes.
 ///
 /// Exit status 0: written. 1: the snapshot does not verify, and nothing is written. 2: not a snapshot.

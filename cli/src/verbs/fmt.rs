@@ -1,7 +1,7 @@
 //! `arcade fmt`: the canonical print of a game.
 
 use crate::console::Console;
-use crate::failure::{Answer, Failure};
+use crate::failure::Answer;
 use crate::{diagnostics, input};
 use engine::{Diagnostics, syntax};
 use serde_json::json;
@@ -24,7 +24,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let (description, problems) = syntax::parse(&source.text);
     if Diagnostics::has_errors(&problems) {
         // A line that cannot be read has no canonical form: printing the rest would lose it.
-        return Err(Failure::malformed(diagnostics::in_words(&source, &problems)));
+        return Err(diagnostics::failure(&source, &problems));
     }
     let text = syntax::print(&description);
     let canonical = text == source.text;

@@ -1,14 +1,18 @@
 //! One file per verb: its flags, what it does, what it prints.
 
+pub(crate) mod completions;
 pub(crate) mod conformance;
 pub(crate) mod describe;
 pub(crate) mod diff;
+pub(crate) mod docs;
 pub(crate) mod evaluate;
 pub(crate) mod export;
 pub(crate) mod fmt;
 pub(crate) mod generate;
+pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod play;
+pub(crate) mod recipes;
 pub(crate) mod regenerate;
 pub(crate) mod release;
 pub(crate) mod render;

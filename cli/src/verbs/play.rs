@@ -6,7 +6,7 @@ use crate::play::board::Signs;
 use crate::play::screen;
 use crate::play::session::{MAX_PACE, Player, Session};
 use crate::play::view::View;
-use crate::{episodes, input};
+use crate::{episodes, input, paths};
 use agents::{Budget, PLANNERS, PlannerSpec};
 use engine::describe::Guide;
 use engine::{Analysis, Seed};
@@ -104,7 +104,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "ticks": ticks,
         "score": score,
         "outcome": episode.outcome,
-        "recorded": written,
+        "recorded": written.map(|path| paths::in_json(path)),
     }))?;
     let outcome = format!("{:?}", episode.outcome).to_lowercase();
     console.say(format_args!("{}: {outcome} after {ticks} ticks, score {score}", named.name));

@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::{episodes, input, paths};
+use crate::{episodes, input, paths, whole_file};
 use agents::{Budget, Limits, PLANNERS, PlannerSpec, play};
 use engine::{Analysis, Episode, Game, Level, Seed, State};
 use render::{Animation, Looks, RenderError, Style, Symbols};
@@ -143,6 +143,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let text = (format == Format::Text).then(|| String::from_utf8_lossy(&bytes).into_owned());
     let to_screen = args.out == Path::new("-");
+    if !to_screen {
+        whole_file::write(&args.out, &bytes)?;
+    }
     console.document(&json!({
         "game": input.source.name,
         "level": named.name,
@@ -157,8 +160,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     match text {
         Some(text) if to_screen => console.say(text.trim_end()),
         _ => {
-            std::fs::write(&args.out, &bytes)
-                .map_err(|error| Failure::environment(error, args.out.display()))?;
             let ticks = match subject.actions.len() {
                 0 => String::new(),
                 ticks => format!(", tick {ticks}"),

@@ -5,13 +5,14 @@ use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
 use crate::verbs::release::in_pool;
+use crate::whole_file;
 use agents::{Budget, Limits, PlannerSpec, play};
 use engine::{Game, Level, Outcome, SEMANTICS, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
 use statistics::{Summary, Z95, wilson};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Plays planners on games and reports win rates with 95 % intervals, per game and pooled.
 ///
@@ -21,7 +22,7 @@ pub(crate) struct Args {
     /// Games, or folders of games; corpus games by name
     #[arg(value_name = "GAMES", required = true)]
     games: Vec<String>,
-    /// Planners, each perhaps with its own budget: `mcts,olets:500` (docs/planners.md)
+    /// Planners, each perhaps with its own budget: `mcts,olets:500` (see `arcade docs planners`)
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "mcts")]
     planner: Vec<String>,
     /// Forward-model calls of one decision
@@ -80,7 +81,7 @@ struct Line<'a> {
     seconds: f64,
 }
 
-/// The answer in `--json`, as `docs/run.md` describes it.
+/// The answer in `--json`, as the page `run` of the docs describes it.
 #[derive(Serialize)]
 struct Report<'a> {
     semantics: u32,
@@ -144,7 +145,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         rows: rows(args, &subjects, &planners, &entries, &lines),
     };
     if let Some(path) = &args.csv {
-        write_csv(path, &lines).map_err(|error| Failure::environment(error, path.display()))?;
+        whole_file::write(path, &csv(&lines).map_err(|error| Failure::environment(error, path.display()))?)?;
     }
     console.document(&report)?;
     console.say(table(&report.rows).trim_end());
@@ -168,7 +169,7 @@ fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
 }
 
 fn level(game: &Game, text: &Named) -> Result<Level, Failure> {
-    game.level(&text.text).map_err(|problems| Failure::malformed(diagnostics::in_words(text, &problems.0)))
+    game.level(&text.text).map_err(|problems| diagnostics::failure(text, &problems.0))
 }
 
 /// Seeds hang on game, level, planner and run only: adding a game or a planner changes no other episode.
@@ -308,10 +309,10 @@ fn table(rows: &[Row<'_>]) -> String {
     text
 }
 
-fn write_csv(path: &Path, lines: &[Line<'_>]) -> Result<(), csv::Error> {
-    let mut file = csv::Writer::from_path(path)?;
+fn csv(lines: &[Line<'_>]) -> Result<Vec<u8>, anyhow::Error> {
+    let mut table = csv::Writer::from_writer(Vec::new());
     for line in lines {
-        file.serialize(line)?;
+        table.serialize(line)?;
     }
-    Ok(file.flush()?)
+    Ok(table.into_inner().map_err(|error| error.into_error())?)
 }

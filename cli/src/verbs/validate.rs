@@ -16,8 +16,8 @@ use validators::{Criteria, Panel, Report};
 /// Judges a game and its levels: all problems of the files first, then each criterion of a release.
 ///
 /// The verdict comes first, a line for each level and one for the game; then the reasons, each with what was seen and what
-/// to try. Whether every rule is used is asked of the game over all its levels, if no level is left out. docs/validate.md
-/// says what each criterion asks.
+/// to try. Whether every rule is used is asked of the game over all its levels, if no level is left out. See
+/// `arcade docs validate` for what each criterion asks.
 ///
 /// Exit status 0: every level and the game meet every criterion. 1: one does not, or could not be shown to. 2: a file is
 /// malformed.
@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Ok(game) => game,
         Err(problems) => {
             console.document(&Document::of_malformed(&input.source, &problems.0))?;
-            return Err(Failure::malformed(diagnostics::in_words(&input.source, &problems.0)));
+            return Err(diagnostics::failure(&input.source, &problems.0));
         }
     };
     let levels: Vec<Named> = match args.levels[..] {
@@ -151,9 +151,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 fn save(witness: &Episode, path: &PathBuf) -> Result<(), Failure> {
-    let text = serde_json::to_string(witness)
-        .map_err(|error| Failure::environment(error, "the witness cannot be written as JSON"))?;
-    std::fs::write(path, text).map_err(|error| Failure::environment(error, path.display()))
+    crate::episodes::write(path, witness)
 }
 
 fn document_of<'a>(analysis: &Analysis, judged: &'a Judged<'_>) -> LevelDocument<'a> {

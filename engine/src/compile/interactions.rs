@@ -285,7 +285,7 @@ impl<'a> Reader<'a> {
         let Some(effect) = effect else {
             let message = format!("no effect named `{name}`");
             let problem = Diagnostic::error("unknown-effect", self.line.effect.span, message);
-            let problem = problem.help("docs/ontology/effects has a page for each effect");
+            let problem = problem.help("see `arcade docs effects` for all effects");
             let told = self.told + self.problems.len();
             self.problems.push(problem.suggest_after(told, name, effects::NAMES.iter().copied()));
             return None;
@@ -597,7 +597,7 @@ impl Arguments for Reader<'_> {
             || {
                 let message = format!("no effect named `{name}`");
                 let problem = Diagnostic::error("unknown-effect", param.value.span, message);
-                let problem = problem.help("docs/ontology/effects has a page for each effect");
+                let problem = problem.help("see `arcade docs effects` for all effects");
                 let told = self.told + self.problems.len();
                 self.problems.push(problem.suggest_after(told, name, effects::NAMES.iter().copied()));
                 NO_KEYWORD

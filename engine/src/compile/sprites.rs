@@ -302,7 +302,7 @@ fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClas
     if found.is_none() {
         let message = format!("no sprite class named `{}`", word.text);
         let problem = Diagnostic::error("unknown-class", word.span, message);
-        let problem = problem.help("docs/ontology/sprites has a page for each class");
+        let problem = problem.help("see `arcade docs sprites` for all classes");
         problems.push(problem.suggest(&word.text, SpriteClass::ALL.iter().map(|class| class.name())));
     }
     found

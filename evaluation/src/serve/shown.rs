@@ -64,7 +64,7 @@ impl<'a> Shown<'a> {
     /// It lists no actions.
     pub(super) fn of(messages: &'a [ChatMessage]) -> Result<Shown<'a>, Unanswerable> {
         let missing = |what: &str| {
-            Unanswerable(format!("the prompt has no {what}; see docs/prompts.md for what stands where"))
+            Unanswerable(format!("the prompt has no {what}; see `arcade docs prompts` for what stands where"))
         };
         let fixed = Sections::of(messages.first().ok_or_else(|| missing("messages"))?);
         let mut turns = messages.iter().rev().map(Sections::of);

@@ -144,7 +144,7 @@ fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {
     let _ = write!(
         text,
         "## Reading it\n\n```python\nimport datasets, pandas\n\nitems = datasets.load_dataset(\"DIR\", split=\"{SPLIT}\")   # DIR: this \
-         folder\ntable = {load}\n```\n\nThe columns are explained in the project's `docs/export.md`.\n"
+         folder\ntable = {load}\n```\n\nSee `arcade docs export` for what each column holds.\n"
     );
     text
 }

@@ -36,8 +36,8 @@ pub(crate) struct Args {
     /// A snapshot's folder; or games, folders of games, corpus games by name, `corpus` for all of them
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
-    /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (docs/planners.md), `replay:FILE`,
-    /// `human`, `reflex` (docs/serve-player.md); or a program of yours, `"cmd:python3 my_agent.py"` (docs/agents.md)
+    /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (see `arcade docs planners`), `replay:FILE`,
+    /// `human`, `reflex` (see `arcade docs serve-player`); or a program of yours, `"cmd:python3 my_agent.py"` (see `arcade docs agents`)
     #[arg(long, value_name = "NAME", required_unless_present = "model", conflicts_with = "model")]
     player: Option<String>,
     /// Only these of the games

@@ -24,7 +24,7 @@ const ANSWER_TOKENS: u64 = 100;
 #[derive(clap::Args)]
 #[command(next_help_heading = "Language models")]
 pub(crate) struct ModelArgs {
-    /// A language model: `openai:ID`, `anthropic:ID`, `gemini:ID`; any name with --base-url (docs/models.md)
+    /// A language model: `openai:ID`, `anthropic:ID`, `gemini:ID`; any name with --base-url (see `arcade docs models`)
     #[arg(long, value_name = "ID")]
     pub(crate) model: Option<String>,
     /// Where an OpenAI-compatible server answers: vLLM, llama.cpp, Ollama, `arcade serve-player`
@@ -87,7 +87,7 @@ pub(crate) struct ModelArgs {
 
 /// What is shown of the game, and how.
 #[derive(clap::Args)]
-#[command(next_help_heading = "Prompts (docs/prompts.md)")]
+#[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
     /// Whether earlier turns are shown
     #[arg(long, value_enum, default_value = "zero-shot")]

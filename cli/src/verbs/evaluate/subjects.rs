@@ -81,7 +81,7 @@ fn of_input(input: &GameInput, choice: &Choice<'_>) -> Result<Option<Subject>, F
     let subject = Subject::read(&id, &input.source.text, &levels, facts);
     subject.map(Some).map_err(|Unreadable { level, problems }| {
         let file = level.map_or(&input.source, |number| &named[number]);
-        Failure::malformed(diagnostics::in_words(file, &problems.0))
+        diagnostics::failure(file, &problems.0)
     })
 }
 
@@ -117,7 +117,7 @@ fn of_snapshot(folder: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subjec
             let text =
                 levels.iter().find(|(number, ..)| Some(*number) == level).map_or(&source, |level| &level.1);
             let named = Named { name: game.join(file).display().to_string(), text: text.clone() };
-            Failure::malformed(diagnostics::in_words(&named, &problems.0))
+            diagnostics::failure(&named, &problems.0)
         })?);
     }
     Ok((manifest.root, games))

@@ -135,7 +135,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn examples(input: &GameInput, game: &Game) -> Result<Vec<Level>, Failure> {
     let check = |named: Named| {
         let level = game.level(&named.text);
-        level.map_err(|problems| Failure::malformed(diagnostics::in_words(&named, &problems.0)))
+        level.map_err(|problems| diagnostics::failure(&named, &problems.0))
     };
     input.levels()?.into_iter().map(check).collect()
 }

@@ -33,8 +33,7 @@ pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String
 }
 
 fn unwritable(error: std::io::Error, file: &Path) -> Failure {
-    let next = "check that it may be accessed and that the disk has room";
-    Failure::environment(error, format_args!("cannot write `{}`: {next}", file.display()))
+    Failure::write(file, error)
 }
 
 /// Checks an item by its proof, against a root that comes from elsewhere.

@@ -1,0 +1,272 @@
+//! The pages of `docs/`, which the binary carries, as a terminal shows them.
+
+use crate::failure::Failure;
+use include_dir::{Dir, include_dir};
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use std::ops::Range;
+
+static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../docs");
+
+/// A page of the manual.
+pub(crate) struct Page {
+    /// The name that `arcade docs` takes: that of the file, or of the folder for its README.
+    pub(crate) name: String,
+    /// The path below `docs/`, without the ending.
+    path: String,
+    /// Markdown.
+    pub(crate) text: &'static str,
+}
+
+/// All pages, sorted by path; the page of a folder comes before those in it.
+pub(crate) fn pages() -> Vec<Page> {
+    let mut pages = Vec::new();
+    let mut folders: Vec<&'static Dir<'_>> = vec![&DOCS];
+    while let Some(folder) = folders.pop() {
+        folders.extend(folder.dirs());
+        pages.extend(folder.files().filter_map(Page::of));
+    }
+    pages.sort_by(|a, b| a.path.cmp(&b.path));
+    pages
+}
+
+/// The page of this name, or of this path.
+pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
+    let mut pages = pages();
+    if let Some(found) = find(&pages, wanted) {
+        return Ok(pages.swap_remove(found));
+    }
+    let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
+    let help = near.map_or_else(
+        || "`arcade docs` lists all pages".to_owned(),
+        |near| format!("did you mean `{near}`? `arcade docs` lists all pages"),
+    );
+    Err(Failure::malformed(format_args!("there is no page `{wanted}`; {help}")))
+}
+
+fn find(pages: &[Page], wanted: &str) -> Option<usize> {
+    let wanted = wanted.split('#').next().unwrap_or_default();
+    let wanted = wanted.strip_prefix("docs/").unwrap_or(wanted).trim_end_matches('/');
+    let wanted = wanted.strip_suffix(".md").unwrap_or(wanted);
+    let wanted = wanted.strip_suffix("/README").unwrap_or(wanted);
+    let is_it = |page: &Page| page.name == wanted || page.path == wanted;
+    let nearly =
+        |page: &Page| page.name.eq_ignore_ascii_case(wanted) || page.path.eq_ignore_ascii_case(wanted);
+    pages.iter().position(is_it).or_else(|| pages.iter().position(nearly))
+}
+
+impl Page {
+    fn of(file: &'static include_dir::File<'static>) -> Option<Page> {
+        let path = file.path().to_str()?.replace('\\', "/");
+        let path = path.strip_suffix(".md")?;
+        let path = path.strip_suffix("/README").unwrap_or(path).to_owned();
+        let name = path.rsplit('/').next()?.to_owned();
+        Some(Page { name, path, text: file.contents_utf8()? })
+    }
+
+    /// The folder of the page below `docs/`, empty for a page that lies there itself. A folder's own page lies in it.
+    pub(crate) fn folder(&self) -> &str {
+        match DOCS.get_dir(&self.path) {
+            Some(_) => &self.path,
+            None => self.path.rsplit_once('/').map_or("", |(folder, _)| folder),
+        }
+    }
+
+    /// The heading.
+    pub(crate) fn title(&self) -> &str {
+        self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
+    }
+
+    /// The page with its links as text: the names of other pages in brackets, addresses and files of the source in
+    /// parentheses.
+    pub(crate) fn plain(&self, pages: &[Page]) -> String {
+        let mut plain = String::with_capacity(self.text.len());
+        let mut done = 0;
+        for (range, inner, target) in links(self.text) {
+            plain.push_str(&self.text[done..range.start]);
+            plain.push_str(&self.link(pages, &self.text[inner], &target));
+            done = range.end;
+        }
+        plain.push_str(&self.text[done..]);
+        plain
+    }
+
+    fn link(&self, pages: &[Page], text: &str, target: &str) -> String {
+        let (file, _) = target.split_once('#').unwrap_or((target, ""));
+        if file.is_empty() || text == target {
+            return text.to_owned();
+        }
+        if target.contains("://") {
+            return format!("{text} ({target})");
+        }
+        let path = resolved(self.folder(), file);
+        let page = path.strip_prefix("docs/").and_then(|path| find(pages, path)).map(|found| &pages[found]);
+        match page {
+            Some(page) if page.name == self.name => text.to_owned(),
+            Some(page) if page.name == text.trim_matches('`') => format!("[{}]", page.name),
+            Some(page) => format!("{text} [{}]", page.name),
+            None => format!("{text} ({path} in the source)"),
+        }
+    }
+}
+
+/// The links and pictures of a page: where they stand, where their text stands, and their targets.
+fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
+    let mut links = Vec::new();
+    let mut open: Option<(Range<usize>, Option<Range<usize>>, String)> = None;
+    for (event, range) in Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter() {
+        match (event, &mut open) {
+            (Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }), None) => {
+                open = Some((range, None, dest_url.into_string()));
+            }
+            (Event::End(TagEnd::Link | TagEnd::Image), Some((whole, inner, target))) if *whole == range => {
+                let inner = inner.take().unwrap_or(range.start..range.start);
+                links.push((range, inner, std::mem::take(target)));
+                open = None;
+            }
+            (_, Some((_, Some(inner), _))) => *inner = inner.start.min(range.start)..inner.end.max(range.end),
+            (_, Some((_, inner, _))) => *inner = Some(range),
+            (_, None) => {}
+        }
+    }
+    links
+}
+
+/// The path of a link's target in the source, from the folder of its page.
+fn resolved(folder: &str, file: &str) -> String {
+    let mut parts = vec!["docs"];
+    for part in folder.split('/').chain(file.split('/')) {
+        match part {
+            "" | "." => {}
+            ".." => drop(parts.pop()),
+            part => parts.push(part),
+        }
+    }
+    parts.join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::{Path, PathBuf};
+
+    #[test]
+    fn every_page_has_a_name_and_a_title_of_its_own() {
+        let pages = pages();
+        assert!(pages.len() > 150, "{}", pages.len());
+        for (number, page) in pages.iter().enumerate() {
+            assert!(!page.title().is_empty(), "{}", page.path);
+            assert_eq!(pages.iter().position(|other| other.name == page.name), Some(number), "{}", page.name);
+        }
+        for name in
+            ["prompts", "docs/prompts.md", "no-avatar", "diagnostics/no-avatar", "ontology", "killall"]
+        {
+            assert!(page(name).is_ok(), "{name}");
+        }
+        let error = page("promts").err().expect("there is no such page").to_string();
+        assert!(error.contains("did you mean `prompts`?"), "{error}");
+    }
+
+    #[track_caller]
+    fn check(markdown: &'static str, expect: &str) {
+        let pages = pages();
+        let page = Page { name: "here".to_owned(), path: "ontology/effects/here".to_owned(), text: markdown };
+        assert_eq!(page.plain(&pages), expect);
+    }
+
+    #[test]
+    fn links_are_names_of_pages() {
+        check(
+            "see [killAll](killAll.md) and\n[the others](README.md#all)",
+            "see [killAll] and\nthe others [effects]",
+        );
+        check("[codes](../../diagnostics/README.md)", "codes [diagnostics]");
+        check("[above](#top), [a `b` c](../../prompts.md#x)", "above, a `b` c [prompts]");
+        check("[paper](https://example.org/x)", "paper (https://example.org/x)");
+        check("[file](../../../seeds/tiny.toml)", "file (seeds/tiny.toml in the source)");
+        check(
+            "`[code](x.md)`\n\n```text\n[code](x.md)\n```\n",
+            "`[code](x.md)`\n\n```text\n[code](x.md)\n```\n",
+        );
+    }
+
+    #[test]
+    fn no_page_leads_to_a_page_that_is_not_there() {
+        let pages = pages();
+        for page in &pages {
+            let plain = page.plain(&pages);
+            assert!(
+                !plain.contains(".md in the source")
+                    || page.path.starts_with("decisions/")
+                    || links_out(page),
+                "{}",
+                page.path
+            );
+            assert!(!plain.contains("docs/diagnostics/"), "{}", page.path);
+        }
+    }
+
+    /// Pages outside `docs/` exist in the source only.
+    fn links_out(page: &Page) -> bool {
+        links(page.text).iter().all(|(_, _, target)| {
+            let path = resolved(page.folder(), target.split('#').next().unwrap_or_default());
+            !path.ends_with(".md") || !path.starts_with("docs/") || find(&pages(), &path).is_some()
+        })
+    }
+
+    /// Sources of the workspace that may speak to users, without tests.
+    fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).expect("readable") {
+            let path = entry.expect("readable").path();
+            if path.is_dir() {
+                sources(&path, found);
+            } else if path
+                .extension()
+                .is_some_and(|ending| ["rs", "html", "j2", "md"].iter().any(|e| ending == *e))
+            {
+                found.push(path);
+            }
+        }
+    }
+
+    /// An installed binary has no folder `docs/`: whatever speaks to users names a page of `arcade docs`.
+    #[test]
+    fn messages_and_templates_name_pages_that_the_binary_has() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let mut files = Vec::new();
+        for folder in
+            ["cli", "evaluation", "snapshots", "engine", "agents", "validators", "generators", "render"]
+        {
+            sources(&root.join(folder).join("src"), &mut files);
+        }
+        let mut named = 0;
+        for file in files {
+            let text = std::fs::read_to_string(&file).expect("readable");
+            let place = file.strip_prefix(&root).expect("below").display();
+            let product = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+            for (number, line) in product.lines().enumerate() {
+                let spoken = line.trim_start();
+                let is_comment = spoken.starts_with("//!")
+                    || (spoken.starts_with("//") && !file.starts_with(root.join("cli/src/verbs")));
+                if is_comment || file.ends_with("manual.rs") {
+                    continue;
+                }
+                let is_path = line.contains("include_str!")
+                    || line.contains("include_dir!")
+                    || line.contains("reason = ");
+                assert!(
+                    is_path || !line.contains("docs/") || spoken.starts_with("/// The answer"),
+                    "{place}:{}: {line}",
+                    number + 1
+                );
+                for rest in line.split("arcade docs ").skip(1) {
+                    let name: String =
+                        rest.chars().take_while(|c| c.is_alphanumeric() || *c == '-').collect();
+                    // `arcade docs PAGE` stands for any.
+                    assert!(name == "PAGE" || page(&name).is_ok(), "{place}:{}: {line}", number + 1);
+                    named += 1;
+                }
+            }
+        }
+        assert!(named > 15, "{named}");
+    }
+}

@@ -1,0 +1,71 @@
+//! How many threads work. No byte of any output depends on it.
+
+use crate::failure::Failure;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::thread::available_parallelism;
+
+/// The most threads of a pool: more would only wait for each other, and thousands of them for minutes.
+const MOST: usize = 256;
+
+/// Starts the threads that verbs without `--jobs` work on. Left to itself, the library would start as many as
+/// `RAYON_NUM_THREADS` says, whatever that is.
+pub(crate) fn start() -> Result<(), Failure> {
+    ThreadPoolBuilder::new().num_threads(usual()).build_global().map_err(failure)
+}
+
+/// Runs on so many threads; as many as there are cores if none are named.
+pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    if jobs == Some(0) {
+        return Err(Failure::malformed("--jobs takes a number of threads, at least 1"));
+    }
+    let pool: Result<ThreadPool, _> =
+        ThreadPoolBuilder::new().num_threads(jobs.map_or_else(usual, |jobs| jobs.min(MOST))).build();
+    Ok(pool.map_err(failure)?.install(work))
+}
+
+/// The number of threads where the user names none.
+fn usual() -> usize {
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "only the number of threads depends on it, and no output on that"
+    )]
+    let wanted = std::env::var("RAYON_NUM_THREADS").ok();
+    let cores = available_parallelism().map_or(1, usize::from);
+    bounded(wanted.as_deref(), cores)
+}
+
+/// What is wanted where that is a sensible number; else a thread for each core.
+fn bounded(wanted: Option<&str>, cores: usize) -> usize {
+    let wanted = wanted.and_then(|text| text.parse().ok()).filter(|wanted| (1..=MOST).contains(wanted));
+    wanted.unwrap_or(cores).clamp(1, MOST)
+}
+
+fn failure(error: ThreadPoolBuildError) -> Failure {
+    Failure::environment(error, "threads cannot be started")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_sensible_numbers_of_threads_are_honoured() {
+        for (wanted, cores, expect) in [
+            (None, 2, 2),
+            (Some("5"), 2, 5),
+            (Some("0"), 2, 2),
+            (Some("many"), 2, 2),
+            (Some("999999999999"), 2, 2),
+            (Some("257"), 4, 4),
+            (None, 5000, MOST),
+        ] {
+            assert_eq!(bounded(wanted, cores), expect, "{wanted:?} on {cores} cores");
+        }
+    }
+
+    #[test]
+    fn thousands_of_jobs_are_not_thousands_of_threads() {
+        let threads = in_pool(Some(5000), rayon::current_num_threads).expect("started");
+        assert_eq!(threads, MOST);
+    }
+}

@@ -1,0 +1,176 @@
+//! The command line as it was typed: parsed, or refused in plain words.
+
+use crate::Cli;
+use crate::console::Console;
+use crate::failure::Failure;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Command, CommandFactory, FromArgMatches};
+use std::any::TypeId;
+use std::error::Error;
+use std::ffi::{OsStr, OsString};
+use std::io::Write;
+use std::num::{IntErrorKind, ParseIntError};
+
+/// The command line with all its verbs.
+pub(crate) fn command() -> Command {
+    numeric_flags_take_negative_numbers(Cli::command())
+}
+
+/// What these arguments ask for, or the exit status with which they are refused. Asking for help is no refusal.
+pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
+    let parsed = command()
+        .try_get_matches_from(arguments)
+        .and_then(|mut matches| Cli::from_arg_matches_mut(&mut matches));
+    parsed.map_err(|error| {
+        let json = is_json_wanted(arguments);
+        let console = Console::new(json, false);
+        if !error.use_stderr() {
+            console.printed(error.print());
+            return console.finish(Ok(true));
+        }
+        let message = in_words(&error);
+        // Colours are for terminals, and a program reads the first line of the document instead.
+        let told = message.as_ref().map_or_else(|| error.render().to_string(), Clone::clone);
+        match message {
+            Some(message) => drop(write!(std::io::stderr(), "{message}")),
+            None => drop(error.print()),
+        }
+        let failure = Failure::malformed(told.trim_start_matches("error: ").trim_end());
+        console.error_document(&failure);
+        failure.code()
+    })
+}
+
+/// Whether `--json` is among the flags. Where the line cannot be parsed, this is all there is to go by.
+fn is_json_wanted(arguments: &[OsString]) -> bool {
+    let flags = arguments.iter().take_while(|argument| *argument != OsStr::new("--"));
+    flags.into_iter().any(|argument| argument == OsStr::new("--json"))
+}
+
+/// Makes `--budget -5` a number that is wrong rather than a flag that nobody knows.
+fn numeric_flags_take_negative_numbers(command: Command) -> Command {
+    let numbers = [
+        TypeId::of::<u16>(),
+        TypeId::of::<u32>(),
+        TypeId::of::<u64>(),
+        TypeId::of::<usize>(),
+        TypeId::of::<f64>(),
+    ];
+    let command = command.mut_args(|argument| {
+        let is_number = numbers.iter().any(|number| argument.get_value_parser().type_id() == *number);
+        if is_number { argument.allow_negative_numbers(true) } else { argument }
+    });
+    command.mut_subcommands(numeric_flags_take_negative_numbers)
+}
+
+/// A plain message for a number that cannot be read, where the library would say "invalid digit found in string".
+fn in_words(error: &clap::Error) -> Option<String> {
+    if error.kind() != ErrorKind::ValueValidation {
+        return None;
+    }
+    let text = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text.as_str()),
+        _ => None,
+    };
+    let (flag, value) = (text(ContextKind::InvalidArg)?, text(ContextKind::InvalidValue)?);
+    let cause = error.source()?.downcast_ref::<ParseIntError>()?;
+    let is_negative =
+        value.strip_prefix('-').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+    let what = match cause.kind() {
+        _ if is_negative => "the number must not be negative",
+        IntErrorKind::PosOverflow => "the number is too large",
+        _ => "a whole number is wanted",
+    };
+    Some(format!(
+        "error: invalid value '{value}' for '{flag}': {what}\n\nFor more information, try '--help'.\n"
+    ))
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::manual;
+
+    /// Calls `look` with the path of every verb, such as `arcade recipes show`, and the verb itself.
+    pub(crate) fn for_each_verb(look: &mut dyn FnMut(&str, &Command)) {
+        fn walk(path: &str, command: &Command, look: &mut dyn FnMut(&str, &Command)) {
+            look(path, command);
+            for verb in command.get_subcommands().filter(|verb| verb.get_name() != "help") {
+                walk(&format!("{path} {}", verb.get_name()), verb, look);
+            }
+        }
+        let mut command = command();
+        command.build();
+        walk("arcade", &command, look);
+    }
+
+    #[test]
+    fn the_command_line_is_sound() {
+        command().debug_assert();
+    }
+
+    #[test]
+    fn the_help_of_every_verb_has_an_example() {
+        for_each_verb(&mut |path, verb| {
+            let help = verb.clone().render_long_help().to_string();
+            assert!(path == "arcade" || help.contains("Example"), "{path}\n{help}");
+            assert!(path == "arcade" || help.contains(path), "{path}\n{help}");
+        });
+    }
+
+    #[test]
+    fn help_names_pages_that_the_binary_has() {
+        let mut named = 0;
+        for_each_verb(&mut |path, verb| {
+            let help = verb.clone().render_long_help().to_string();
+            assert!(!help.contains("docs/"), "{path}\n{help}");
+            // Lines are wrapped anywhere.
+            let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+            for rest in help.split("`arcade docs ").skip(1) {
+                let name = rest.split('`').next().unwrap_or_default();
+                assert!(manual::page(name).is_ok(), "{path}: {name}");
+                named += 1;
+            }
+        });
+        assert!(named > 6, "{named}");
+    }
+
+    #[test]
+    fn numbers_that_cannot_be_read_are_refused_in_plain_words() {
+        let refused = |verb: &str, flag: &str, value: &str| {
+            let words = verb.split(' ').chain([flag, value]);
+            let error = command().try_get_matches_from(words).expect_err("refused");
+            in_words(&error).unwrap_or_else(|| error.render().to_string())
+        };
+        let mut flags = 0;
+        for_each_verb(&mut |path, verb| {
+            let unsigned =
+                [TypeId::of::<u16>(), TypeId::of::<u32>(), TypeId::of::<u64>(), TypeId::of::<usize>()];
+            for argument in verb
+                .get_arguments()
+                .filter(|argument| unsigned.iter().any(|kind| argument.get_value_parser().type_id() == *kind))
+            {
+                let Some(flag) = argument.get_long() else { continue };
+                let message = refused(path, &format!("--{flag}"), "-5");
+                assert!(
+                    message.contains("not be negative") || message.contains("-5 is not in"),
+                    "{path} --{flag}: {message}"
+                );
+                assert!(!message.contains("-- -5"), "{path} --{flag}: {message}");
+                flags += 1;
+            }
+        });
+        assert!(flags > 20, "{flags}");
+        assert!(refused("arcade run", "--budget", "many").contains("a whole number is wanted"));
+        assert!(refused("arcade run", "--budget", "99999999999999999999").contains("too large"));
+    }
+
+    #[test]
+    fn json_is_wanted_where_the_flag_stands_before_the_names() {
+        let wanted = |line: &str| is_json_wanted(&line.split(' ').map(OsString::from).collect::<Vec<_>>());
+        assert!(wanted("arcade --json run"));
+        assert!(wanted("arcade run --planer x --json"));
+        assert!(!wanted("arcade run -- --json"));
+        assert!(!wanted("arcade run json"));
+    }
+}

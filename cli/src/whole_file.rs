@@ -1,0 +1,161 @@
+//! Writing single files, each complete or as it was before.
+
+use crate::failure::Failure;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
+
+/// How the names of unfinished files begin and end. They lie beside their places, and `arcade clean` knows them.
+pub(crate) const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
+
+/// Writes the file at `path` beside its place, waits until it is on disk, and moves it there in one step.
+///
+/// If that fails, or if the process is killed, what was there before is untouched. Links are followed. Devices and pipes
+/// (`/dev/stdout`) are written in place.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    write_with(path, |file| file.write_all(bytes))
+}
+
+/// As [`write`], for content that is written piece by piece.
+pub(crate) fn write_with(
+    path: &Path,
+    content: impl FnOnce(&mut File) -> io::Result<()>,
+) -> Result<(), Failure> {
+    replace(path, content).map_err(|error| Failure::write(path, error))
+}
+
+fn replace(path: &Path, content: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+    let before = match fs::metadata(path) {
+        Ok(found) => Some(found),
+        Err(error) if error.kind() == ErrorKind::NotFound => None,
+        Err(error) => return Err(error),
+    };
+    if before.as_ref().is_some_and(|found| found.is_dir()) {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    if before.as_ref().is_some_and(|found| !found.is_file()) {
+        return content(&mut OpenOptions::new().write(true).open(path)?);
+    }
+    let place = destination(path)?;
+    let folder = match place.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let mut fresh = beside(folder)?;
+    content(fresh.as_file_mut())?;
+    if let Some(before) = before {
+        fresh.as_file().set_permissions(before.permissions())?;
+    }
+    fresh.as_file().sync_all()?;
+    // Dropping what could not be moved removes it.
+    fresh.persist(&place).map_err(|failed| failed.error)?;
+    sync(folder)
+}
+
+/// Where a file of this path is: links, even those to what is not there yet, lead to their targets.
+fn destination(path: &Path) -> io::Result<PathBuf> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if found.is_symlink() => match fs::canonicalize(path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                let target = fs::read_link(path)?;
+                Ok(path.parent().unwrap_or(Path::new(".")).join(target))
+            }
+            place => place,
+        },
+        _ => Ok(path.to_owned()),
+    }
+}
+
+/// A new file in this folder, with the permissions that any new file has.
+fn beside(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(UNFINISHED.0).suffix(UNFINISHED.1);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    // The name of the scratch file would only confuse: the cause alone goes on.
+    builder
+        .tempfile_in(folder)
+        .map_err(|error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error))
+}
+
+/// Waits until the names in a folder are on disk. Only Unix lets a folder be opened and waited for.
+fn sync(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let listed = fs::read_dir(folder).expect("readable");
+        listed.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect()
+    }
+
+    #[test]
+    fn what_cannot_be_written_leaves_the_old_file() {
+        let home = tempfile::tempdir().expect("temporary folder");
+        let path = home.path().join("win.json");
+        write(&path, b"old").expect("written");
+        // As on a disk that is full after some bytes.
+        let cut = write_with(&path, |file| {
+            file.write_all(b"ne")?;
+            Err(ErrorKind::StorageFull.into())
+        });
+        let error = cut.expect_err("cut");
+        assert_eq!(error.code(), crate::failure::ENVIRONMENT);
+        assert_eq!(fs::read(&path).expect("there"), b"old");
+        assert_eq!(names(home.path()), ["win.json"]);
+        let cut = write_with(&home.path().join("other"), |_| Err(ErrorKind::StorageFull.into()));
+        assert!(cut.is_err());
+        assert_eq!(names(home.path()), ["win.json"]);
+        write(&path, b"new").expect("written");
+        assert_eq!(fs::read(&path).expect("there"), b"new");
+    }
+
+    #[test]
+    fn impossible_places_are_told_apart() {
+        let home = tempfile::tempdir().expect("temporary folder");
+        let message = |path: &Path| write(path, b"").expect_err("impossible").to_string();
+        assert!(message(home.path()).contains("is a folder"));
+        assert!(message(&home.path().join("a/b")).contains("folder does not exist"));
+        assert!(message(&home.path().join("a".repeat(300))).contains("choose a shorter one"));
+        assert!(names(home.path()).is_empty());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_permissions_and_devices_are_kept() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let home = tempfile::tempdir().expect("temporary folder");
+        let (target, link) = (home.path().join("target"), home.path().join("link"));
+        fs::write(&target, "old").expect("written");
+        fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).expect("set");
+        symlink("target", &link).expect("linked");
+        write(&link, b"new").expect("written");
+        assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
+        assert_eq!(fs::read(&target).expect("there"), b"new");
+        assert_eq!(fs::metadata(&target).expect("there").permissions().mode() & 0o777, 0o640);
+        fs::remove_file(&target).expect("removed");
+        write(&link, b"again").expect("written");
+        assert_eq!(fs::read(&target).expect("there"), b"again");
+        // Readable by whom any new file is readable by.
+        fs::write(home.path().join("plain"), "").expect("written");
+        let mode = |name: &str| fs::metadata(home.path().join(name)).expect("there").permissions().mode();
+        assert_eq!(mode("target"), mode("plain"));
+        write(Path::new("/dev/null"), b"gone").expect("written");
+        assert!(!fs::metadata("/dev/null").expect("there").is_file());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_device_is_an_environment_failure() {
+        let error = write(Path::new("/dev/full"), b"x").expect_err("full");
+        assert_eq!(error.code(), crate::failure::ENVIRONMENT);
+        assert!(error.to_string().contains("No space left"), "{error}");
+    }
+}
