@@ -45,8 +45,7 @@ impl GameInput {
     /// Compiles the game; `as_reference`: with the reference's recovery from faults.
     pub(crate) fn compile(&self, as_reference: bool) -> Result<Game, Failure> {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
-        load(&self.source.text)
-            .map_err(|problems| Failure::malformed(crate::diagnostics::in_words(&self.source, &problems.0)))
+        load(&self.source.text).map_err(|problems| crate::diagnostics::failure(&self.source, &problems.0))
     }
 
     /// How many levels come with the game.

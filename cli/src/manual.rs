@@ -194,23 +194,10 @@ mod tests {
         let pages = pages();
         for page in &pages {
             let plain = page.plain(&pages);
-            assert!(
-                !plain.contains(".md in the source")
-                    || page.path.starts_with("decisions/")
-                    || links_out(page),
-                "{}",
-                page.path
-            );
-            assert!(!plain.contains("docs/diagnostics/"), "{}", page.path);
+            let lost =
+                plain.lines().find(|line| line.contains("(docs/") && line.contains(".md in the source"));
+            assert_eq!(lost, None, "{}", page.path);
         }
-    }
-
-    /// Pages outside `docs/` exist in the source only.
-    fn links_out(page: &Page) -> bool {
-        links(page.text).iter().all(|(_, _, target)| {
-            let path = resolved(page.folder(), target.split('#').next().unwrap_or_default());
-            !path.ends_with(".md") || !path.starts_with("docs/") || find(&pages(), &path).is_some()
-        })
     }
 
     /// Sources of the workspace that may speak to users, without tests.
@@ -242,22 +229,15 @@ mod tests {
         for file in files {
             let text = std::fs::read_to_string(&file).expect("readable");
             let place = file.strip_prefix(&root).expect("below").display();
-            let product = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+            let product = text.split("#[cfg(test)]").next().unwrap_or_default();
             for (number, line) in product.lines().enumerate() {
-                let spoken = line.trim_start();
-                let is_comment = spoken.starts_with("//!")
-                    || (spoken.starts_with("//") && !file.starts_with(root.join("cli/src/verbs")));
-                if is_comment || file.ends_with("manual.rs") {
+                // Comments speak to readers of the source; those that are help have a test of their own.
+                if line.trim_start().starts_with("//") || file.ends_with("manual.rs") {
                     continue;
                 }
-                let is_path = line.contains("include_str!")
-                    || line.contains("include_dir!")
-                    || line.contains("reason = ");
-                assert!(
-                    is_path || !line.contains("docs/") || spoken.starts_with("/// The answer"),
-                    "{place}:{}: {line}",
-                    number + 1
-                );
+                let is_path =
+                    ["include_str!", "include_dir!", "reason = "].iter().any(|word| line.contains(word));
+                assert!(is_path || !line.contains("docs/"), "{place}:{}: {line}", number + 1);
                 for rest in line.split("arcade docs ").skip(1) {
                     let name: String =
                         rest.chars().take_while(|c| c.is_alphanumeric() || *c == '-').collect();
@@ -267,6 +247,6 @@ mod tests {
                 }
             }
         }
-        assert!(named > 15, "{named}");
+        assert!(named > 5, "{named}");
     }
 }

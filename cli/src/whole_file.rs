@@ -43,6 +43,8 @@ fn replace(path: &Path, content: impl FnOnce(&mut File) -> io::Result<()>) -> io
         _ => Path::new("."),
     };
     let mut fresh = beside(folder)?;
+    // While it is written, `arcade clean` leaves it alone, where the file system has locks.
+    let _ = fresh.as_file().try_lock();
     content(fresh.as_file_mut())?;
     if let Some(before) = before {
         fresh.as_file().set_permissions(before.permissions())?;

@@ -78,6 +78,9 @@ fn what_does_not_fit_is_no_level_and_no_endless_work() {
     assert!(message.contains("no board holds what is asked: 100 of orchid are asked for"), "{message}");
     assert!(message.contains("--with"), "{message}");
     assert!(!home.path().join("new").exists());
+    let asked = generate(home.path(), "hailglass", "new", &["--with", "orchid=100"], 1);
+    assert_eq!(asked["levels"], serde_json::json!([]));
+    assert!(asked["reason"].as_str().unwrap().contains("100 of orchid"), "{asked}");
 }
 
 /// Expects exit status 2, a message with these words, and no folder.

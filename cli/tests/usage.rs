@@ -51,7 +51,8 @@ fn a_full_device_is_told() {
 #[test]
 fn a_reader_that_leaves_is_no_failure() {
     let home = tempfile::tempdir().unwrap();
-    fs::write(home.path().join("loose.vgdl"), "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n").unwrap();
+    let loose = include_str!("../../corpora/hailglass/game.vgdl").replace("    ", "  ");
+    fs::write(home.path().join("loose.vgdl"), loose).unwrap();
     let check = |args: &[&str], status: i32| {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
@@ -119,7 +120,7 @@ fn failures_are_json_where_json_is_wanted() {
     for verb in ["describe", "run", "render"] {
         let args = ["--json", verb, "lame.vgdl", "-o", "-"];
         let lame = failure(folder, &args[..if verb == "render" { 5 } else { 3 }], 2);
-        assert_eq!(lame["message"], "lame.vgdl has 3 problems");
+        assert_eq!(lame["message"], "lame.vgdl has 4 problems");
         let problems = lame["problems"].as_array().unwrap();
         let class = problems.iter().find(|problem| problem["code"] == "unknown-class").unwrap();
         assert_eq!(
@@ -239,6 +240,84 @@ fn the_manual_is_in_the_binary() {
         serde_json::from_slice(&run(home.path(), &["--json", "docs", "killSprite"], 0).stdout).unwrap();
     assert!(document["text"].as_str().unwrap().contains("](README.md#"));
     says(home.path(), &["docs", "promts"], 2, &["did you mean `prompts`?"]);
+}
+
+/// Puts a file where it belongs, with all folders above.
+fn put(path: &Path, content: &str) {
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(path, content).unwrap();
+}
+
+#[test]
+fn leftovers_are_removed_and_what_only_looks_like_them_is_not() {
+    let home = tempfile::tempdir().unwrap();
+    let (work, temporary) = (home.path().join("work"), home.path().join("tmp"));
+    fs::create_dir_all(&temporary).unwrap();
+    // As killed runs leave it.
+    let lock = "unfinished work of `arcade`, which replaces or removes it (infinite-arcade draft 1)\n";
+    for name in ["new", "releases/deep/month"] {
+        put(&work.join(format!("{name}.partial/.lock")), lock);
+        put(&work.join(format!("{name}.partial/tree/games/a/game.vgdl")), "half");
+    }
+    put(&work.join("mint.partial/.lock"), lock);
+    put(&work.join("mint.partial/lots/game-1.json"), "{}");
+    put(&work.join(".arcade-a1B2c3.partial"), "GIF8");
+    // Of others.
+    let foreign = [
+        "results.partial/data.csv",
+        "tree.partial/tree/a",
+        "mine.partial/.lock",
+        "notes.partial/.lock",
+        "notes.partial/tree/a",
+        "notes.partial/notes.txt",
+        "movie.mp4.partial",
+        ".arcade-notes.partial",
+        ".arcade-a1B2c3.partials",
+        "shard/SHARD.json",
+        "lots/game-1.json",
+    ];
+    foreign.iter().for_each(|path| put(&work.join(path), "precious"));
+    put(&home.path().join("elsewhere.partial/.lock"), lock);
+    put(&home.path().join("elsewhere.partial/tree/a"), "not in the folder that was named");
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("../elsewhere.partial", work.join("link.partial")).unwrap();
+    for name in ["arcade-player-a1B2c3", "arcade-player-fresh1", "arcade-player-notes", "other-player-a1B2c3"]
+    {
+        put(&temporary.join(name).join("log"), "said");
+        if !name.contains("fresh") {
+            let folder = fs::File::open(temporary.join(name)).unwrap();
+            folder.set_modified(std::time::UNIX_EPOCH).unwrap();
+        }
+    }
+    let clean = |flags: &[&str]| {
+        let mut command = arcade(home.path());
+        let output =
+            command.env("TMPDIR", &temporary).args(["--json", "clean", "work"]).args(flags).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let found = document["found"].as_array().unwrap().clone();
+        let of_kind = |kind: &str| found.iter().filter(|one| one["kind"] == kind).count();
+        let removed = found.iter().filter(|one| one["removed"] == true).count();
+        (["unfinished", "interrupted", "file", "scratch", "shard"].map(of_kind), removed)
+    };
+    let before = files(home.path());
+    let scratch = usize::from(cfg!(target_os = "linux"));
+    assert_eq!(clean(&["--dry-run"]), ([2, 1, 1, scratch, 0], 0));
+    assert!(files(home.path()) == before);
+    assert_eq!(clean(&[]), ([2, 1, 1, scratch, 0], 3 + scratch));
+    let after = files(home.path());
+    assert!(after.keys().any(|name| name.starts_with("work/mint.partial")));
+    assert_eq!(clean(&["--interrupted"]), ([0, 1, 0, 0, 0], 1));
+    let after = files(home.path());
+    for path in foreign {
+        assert_eq!(text(&after[&format!("work/{path}")]), "precious", "{path}");
+    }
+    assert!(after.contains_key("elsewhere.partial/tree/a"));
+    assert!(!after.keys().any(|name| name.contains("new.partial") || name.contains("month.partial")));
+    let left = ["arcade-player-fresh1", "arcade-player-notes", "other-player-a1B2c3"];
+    assert!(left.iter().all(|name| after.contains_key(&format!("tmp/{name}/log"))));
+    assert_eq!(clean(&[]), ([0, 0, 0, 0, 0], 0));
+    says(home.path(), &["clean", "nowhere"], 2, &["nowhere", "no such folder"]);
 }
 
 #[test]

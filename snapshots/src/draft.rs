@@ -12,6 +12,7 @@
 //! is free was left by a killed run and is replaced. The tree is one level below the lock because the lock must
 //! outlive the rename: were it inside the tree, it would be published, or let go too early.
 
+mod abandoned;
 mod lock;
 
 use std::ffi::OsString;
@@ -24,6 +25,8 @@ use crate::folder::{self, Limits};
 use crate::path::check_path;
 use crate::sealed::HELD;
 use lock::{LOCK, LOTS, TREE};
+
+pub use abandoned::Abandoned;
 
 /// A release folder in the making. Dropping it uncommitted removes what was written, as far as possible.
 ///

@@ -80,7 +80,7 @@ mod witness;
 pub use ancestry::{AncestryError, follow};
 pub use canary::canary;
 pub use corpus::{Corpus, CorpusCard, CorpusGame, Intent};
-pub use draft::{Draft, check_vacant};
+pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;
 pub use integrity::{Integrity, check_integrity};
 pub use manifest::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};

@@ -1,5 +1,6 @@
 //! One file per verb: its flags, what it does, what it prints.
 
+pub(crate) mod clean;
 pub(crate) mod completions;
 pub(crate) mod conformance;
 pub(crate) mod describe;

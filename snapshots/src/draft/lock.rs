@@ -54,7 +54,7 @@ pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
 
 /// Whether the folder holds nothing but what a draft makes. Somebody's own `results.partial` is not to be
 /// deleted because `--out results` was asked for.
-fn is_ours(partial: &Path) -> io::Result<bool> {
+pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
         return Ok(false);
     }

@@ -80,6 +80,21 @@ impl Shard {
         plan.lots().iter().copied().skip(self.number as usize - 1).step_by(self.of as usize).collect()
     }
 
+    /// The shard, of any generation, in a folder and the name of its recipe, if the folder holds the files that its `SHARD.json` lists and nothing
+    /// else. Their content is not read.
+    pub fn at(folder: &Path) -> Option<(Shard, String)> {
+        let bytes = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).ok()?;
+        // Of whatever generation: shards of an earlier one can no longer be joined here, but are shards.
+        let file: ShardFile = serde_json::from_slice(&bytes).ok()?;
+        let listing = folder::list(folder, &Limits::SNAPSHOT).ok()?;
+        let mut listed: Vec<&str> = file.lots.iter().map(|item| item.path.as_str()).collect();
+        listed.push(SHARD_FILE);
+        listed.sort_unstable();
+        let is_whole = listing.problems.is_empty()
+            && listing.entries.iter().map(|entry| entry.path.as_str()).eq(listed.iter().copied());
+        is_whole.then_some((file.shard, file.recipe.name))
+    }
+
     /// Writes the shard's folder from lots that are all on the shelf.
     ///
     /// # Errors

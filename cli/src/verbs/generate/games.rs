@@ -86,6 +86,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let set = match made {
         Ok(set) => set,
         Err(error @ GamesError::NoneAccepted { .. }) => {
+            console.document(&json!({ "games": [], "reason": error.to_string() }))?;
             console.remark(format_args!("{error}"));
             return Ok(false);
         }

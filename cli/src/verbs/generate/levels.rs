@@ -107,10 +107,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let set = match made {
         Ok(set) => set,
         Err(error @ LevelsError::NoneAccepted { .. }) => {
+            console.document(&none(&error))?;
             console.remark(format_args!("{}: {error}", args.game));
             return Ok(false);
         }
         Err(error @ LevelsError::NoBoard(_)) => {
+            console.document(&none(&error))?;
             let advice = "ask for fewer sprites (--with), or for larger boards (--size)";
             console.remark(format_args!("{}: {error}; {advice}", args.game));
             return Ok(false);
@@ -129,6 +131,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.document(&document(args, &game, &set))?;
     console.say(summary(args, &set, seconds).trim_end());
     Ok(set.levels.len() == args.count as usize)
+}
+
+/// The answer for programs where not one level was made.
+fn none(error: &LevelsError) -> serde_json::Value {
+    json!({ "levels": [], "reason": error.to_string() })
 }
 
 /// The levels that the game comes with.

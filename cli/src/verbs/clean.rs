@@ -1,0 +1,132 @@
+//! `arcade clean`: removes what interrupted runs have left behind.
+
+mod leftover;
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::input::sorted_entries;
+use crate::paths;
+use leftover::{Kind, Leftover};
+use serde_json::json;
+use snapshots::MANIFEST_FILE;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Removes what runs that were killed have left behind: unfinished `.partial` folders and files, and the scratch folders of
+/// players.
+///
+/// Looks through the folders and all folders in them, and through the system's temporary folder for scratch of players.
+/// Removed is only what arcade has certainly made and no running process uses; links are never followed. Interrupted mints
+/// with finished lots, which --resume goes on with, and shards, which `arcade merge` joins, are listed; a flag removes them.
+///
+/// Example: arcade clean releases --dry-run
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Folders to look through; this one if none are given
+    #[arg(value_name = "DIR")]
+    folders: Vec<PathBuf>,
+    /// Say what would be removed, and remove nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Also remove interrupted mints that --resume could go on with
+    #[arg(long)]
+    interrupted: bool,
+    /// Also remove shards
+    #[arg(long)]
+    shards: bool,
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    let here = [PathBuf::from(".")];
+    let folders = if args.folders.is_empty() { &here } else { args.folders.as_slice() };
+    let mut found = Vec::new();
+    for folder in folders {
+        if !paths::look(folder)?.is_some_and(|found| found.is_dir()) {
+            return Err(Failure::malformed(format_args!("{}: there is no such folder", folder.display())));
+        }
+        look_through(folder, console, &mut found)?;
+    }
+    found.extend(leftover::scratch());
+    let (mut entries, mut removed, mut freed) = (Vec::new(), 0_usize, 0);
+    for leftover in found {
+        let (path, bytes, kind) = (leftover.path.clone(), leftover.bytes(), leftover.kind.name());
+        let kept = kept(args, &leftover.kind);
+        let what = leftover.in_words();
+        if kept.is_none() {
+            if !args.dry_run {
+                leftover.remove()?;
+            }
+            removed += 1;
+            freed += bytes;
+        }
+        let verb = match (&kept, args.dry_run) {
+            (Some(_), _) => "kept",
+            (None, true) => "would remove",
+            (None, false) => "removed",
+        };
+        let why = kept.map_or(String::new(), |why| format!("; {why}"));
+        console.say(format_args!("{verb} {}: {what}, {}{why}", path.display(), size(bytes)));
+        entries.push(json!({
+            "path": paths::in_json(&path),
+            "kind": kind,
+            "bytes": bytes,
+            "removed": kept.is_none() && !args.dry_run,
+            "kept": kept,
+        }));
+    }
+    console.document(&json!({ "dry_run": args.dry_run, "found": entries, "bytes": freed }))?;
+    let verb = if args.dry_run { "would be removed" } else { "removed" };
+    match entries.len() {
+        0 => console.say("nothing was left behind"),
+        all => console.say(format_args!("{removed} of {all} {verb}, {}", size(freed))),
+    }
+    Ok(true)
+}
+
+/// Why a leftover is kept, with the next move; none if it is to be removed.
+fn kept(args: &Args, kind: &Kind) -> Option<&'static str> {
+    match kind {
+        Kind::Interrupted(_) if !args.interrupted => {
+            Some("the same command with --resume goes on with it, `arcade clean --interrupted` removes it")
+        }
+        Kind::Shard(_) if !args.shards => {
+            Some("`arcade merge` joins shards, `arcade clean --shards` removes them")
+        }
+        _ => None,
+    }
+}
+
+/// Adds what was left in the folder and in all folders below.
+fn look_through(folder: &Path, console: &Console, found: &mut Vec<Leftover>) -> Result<(), Failure> {
+    let mut waiting = vec![folder.to_path_buf()];
+    while let Some(folder) = waiting.pop() {
+        if fs::symlink_metadata(folder.join(MANIFEST_FILE)).is_ok() {
+            // A release is complete: nothing of ours is unfinished in it.
+            continue;
+        }
+        let entries = match sorted_entries(&folder) {
+            Ok(entries) => entries,
+            Err(failure) => {
+                console.remark(format_args!("passed over: {failure}"));
+                continue;
+            }
+        };
+        for path in entries.into_iter().rev() {
+            match Leftover::at(&path)? {
+                Some(leftover) => found.push(leftover),
+                None if fs::symlink_metadata(&path).is_ok_and(|found| found.is_dir()) => waiting.push(path),
+                None => {}
+            }
+        }
+    }
+    Ok(())
+}
+
+fn size(bytes: u64) -> String {
+    match bytes {
+        0..1_000 => format!("{bytes} bytes"),
+        1_000..1_000_000 => format!("{:.1} kB", bytes as f64 / 1e3),
+        1_000_000..1_000_000_000 => format!("{:.1} MB", bytes as f64 / 1e6),
+        _ => format!("{:.1} GB", bytes as f64 / 1e9),
+    }
+}

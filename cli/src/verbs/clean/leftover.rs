@@ -1,0 +1,193 @@
+//! Files and folders that interrupted runs have left behind, each recognised by what only arcade makes.
+
+use crate::failure::Failure;
+use crate::verbs::verify::failure;
+use crate::whole_file::UNFINISHED;
+use snapshots::Abandoned;
+use snapshots::mint::Shard;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// A file or folder that was left behind.
+pub(super) struct Leftover {
+    pub(super) path: PathBuf,
+    pub(super) kind: Kind,
+}
+
+/// What a leftover is.
+pub(super) enum Kind {
+    /// The folder of a release, report or export that was not finished.
+    Unfinished(Abandoned),
+    /// An interrupted mint with finished lots.
+    Interrupted(Abandoned),
+    /// A shard of a release, in words.
+    Shard(String),
+    /// A file that was not finished; as long as it is open, nobody takes it for abandoned.
+    File(#[expect(dead_code, reason = "it holds the lock")] File),
+    /// The scratch folder of a player.
+    Scratch,
+}
+
+impl Kind {
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Kind::Unfinished(_) => "unfinished",
+            Kind::Interrupted(_) => "interrupted",
+            Kind::Shard(_) => "shard",
+            Kind::File(_) => "file",
+            Kind::Scratch => "scratch",
+        }
+    }
+}
+
+impl Leftover {
+    /// The leftover at this path; none if it is anything else, or in use.
+    pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
+        let Ok(found) = fs::symlink_metadata(path) else { return Ok(None) };
+        let kind = if found.is_file() {
+            unfinished_file(path).map(Kind::File)
+        } else if !found.is_dir() {
+            None
+        } else if let Some(draft) = Abandoned::at(path).map_err(failure)? {
+            Some(if draft.finished_lots() == 0 { Kind::Unfinished(draft) } else { Kind::Interrupted(draft) })
+        } else {
+            Shard::at(path).map(|(shard, recipe)| Kind::Shard(format!("shard {shard} of `{recipe}`")))
+        };
+        Ok(kind.map(|kind| Leftover { path: path.to_path_buf(), kind }))
+    }
+
+    pub(super) fn in_words(&self) -> String {
+        match &self.kind {
+            Kind::Unfinished(_) => "unfinished work".to_owned(),
+            Kind::Interrupted(draft) => {
+                format!("an interrupted mint with {} finished lots", draft.finished_lots())
+            }
+            Kind::Shard(shard) => shard.clone(),
+            Kind::File(_) => "an unfinished file".to_owned(),
+            Kind::Scratch => "scratch of a player".to_owned(),
+        }
+    }
+
+    /// How much disk its files take.
+    pub(super) fn bytes(&self) -> u64 {
+        let (mut bytes, mut waiting) = (0, vec![self.path.clone()]);
+        while let Some(path) = waiting.pop() {
+            match fs::symlink_metadata(&path) {
+                Ok(found) if found.is_dir() => {
+                    let entries = fs::read_dir(&path).into_iter().flatten().flatten();
+                    waiting.extend(entries.map(|entry| entry.path()));
+                }
+                Ok(found) => bytes += found.len(),
+                Err(_) => {}
+            }
+        }
+        bytes
+    }
+
+    pub(super) fn remove(self) -> Result<(), Failure> {
+        let removed = match self.kind {
+            Kind::Unfinished(draft) | Kind::Interrupted(draft) => return draft.remove().map_err(failure),
+            Kind::Shard(_) | Kind::Scratch => fs::remove_dir_all(&self.path),
+            Kind::File(_) => fs::remove_file(&self.path),
+        };
+        removed.map_err(|error| {
+            Failure::environment(error, format_args!("cannot remove `{}`", self.path.display()))
+        })
+    }
+}
+
+/// Opens and locks an unfinished file of [`whole_file`](crate::whole_file) that nobody writes.
+fn unfinished_file(path: &Path) -> Option<File> {
+    let drawn = path.file_name()?.to_str()?.strip_prefix(UNFINISHED.0)?.strip_suffix(UNFINISHED.1)?;
+    if !is_drawn(drawn) {
+        return None;
+    }
+    let file = File::options().write(true).open(path).ok()?;
+    file.try_lock().ok().map(|()| file)
+}
+
+/// Whether the text may be the part of a scratch name that was drawn at random.
+fn is_drawn(text: &str) -> bool {
+    text.len() == 6 && text.chars().all(|character| character.is_ascii_alphanumeric())
+}
+
+/// How the names of players' scratch folders begin.
+const SCRATCH: &str = "arcade-player-";
+/// A folder that was touched since may be of a player that is just starting.
+const SETTLED: Duration = Duration::from_secs(3600);
+
+/// The scratch folders of players that are gone, in the system's temporary folder. Where processes cannot be asked for
+/// their folders, none are found.
+pub(super) fn scratch() -> Vec<Leftover> {
+    let Some(used) = working_folders() else { return Vec::new() };
+    let Ok(place) = fs::canonicalize(std::env::temp_dir()) else { return Vec::new() };
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(&place).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    paths.retain(|path| is_scratch(path) && !used.iter().any(|used| used.starts_with(path)));
+    paths.into_iter().map(|path| Leftover { path, kind: Kind::Scratch }).collect()
+}
+
+/// Whether this is a scratch folder of this user's players, untouched for an hour.
+fn is_scratch(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str());
+    let Ok(found) = fs::symlink_metadata(path) else { return false };
+    name.and_then(|name| name.strip_prefix(SCRATCH)).is_some_and(is_drawn)
+        && found.is_dir()
+        && is_own(&found)
+        && found.modified().is_ok_and(is_settled)
+}
+
+fn is_settled(touched: SystemTime) -> bool {
+    #[expect(clippy::disallowed_methods, reason = "no output that is recorded depends on it")]
+    let now = SystemTime::now();
+    now.duration_since(touched).is_ok_and(|age| age > SETTLED)
+}
+
+/// Whether it belongs to the user who runs this.
+#[cfg(unix)]
+fn is_own(found: &fs::Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    // What a process makes in /proc belongs to its user.
+    fs::metadata("/proc/self").is_ok_and(|own| own.uid() == found.uid())
+}
+
+#[cfg(not(unix))]
+fn is_own(_found: &fs::Metadata) -> bool {
+    false
+}
+
+/// The folders that running processes work in; none where the system does not say.
+fn working_folders() -> Option<Vec<PathBuf>> {
+    let processes = fs::read_dir("/proc").ok()?;
+    let folders: Vec<PathBuf> =
+        processes.flatten().filter_map(|process| fs::read_link(process.path().join("cwd")).ok()).collect();
+    // At least this process has one.
+    (!folders.is_empty()).then_some(folders)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_drawn_names_are_ours() {
+        for (name, expect) in
+            [("a1B2c3", true), ("a1B2c", false), ("a1B2c34", false), ("notes!", false), ("", false)]
+        {
+            assert_eq!(is_drawn(name), expect, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_being_written_is_not_abandoned() {
+        let home = tempfile::tempdir().expect("temporary folder");
+        let path = home.path().join(".arcade-a1B2c3.partial");
+        let file = File::create(&path).expect("created");
+        file.lock().expect("locked");
+        assert!(Leftover::at(&path).expect("examined").is_none());
+        drop(file);
+        assert!(matches!(Leftover::at(&path).expect("examined"), Some(Leftover { kind: Kind::File(_), .. })));
+    }
+}

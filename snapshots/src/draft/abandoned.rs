@@ -1,0 +1,161 @@
+//! Drafts that a killed run has left behind.
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use super::lock::{self, LOCK, LOTS, TREE};
+use super::remove_tree;
+use crate::error::SnapshotError;
+
+/// A draft that no process works on any more. As long as this value lives, none can take it up.
+#[derive(Debug)]
+pub struct Abandoned {
+    partial: PathBuf,
+    lots: usize,
+    /// Closing it frees the lock.
+    _lock: File,
+}
+
+impl Abandoned {
+    /// The abandoned draft whose `.partial` folder this is; none if the folder is somebody's own, and none if a process works
+    /// on it. A folder counts as a draft's only if it holds a lock, work, and nothing else. Links are not followed.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn at(partial: &Path) -> Result<Option<Abandoned>, SnapshotError> {
+        if partial.extension().is_none_or(|ending| ending != "partial") {
+            return Ok(None);
+        }
+        match holds_work(partial) {
+            Ok(true) => {}
+            Ok(false) => return Ok(None),
+            Err(source) if source.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(source) => return Err(SnapshotError::io("examine", partial)(source)),
+        }
+        let lock = match lock::acquire(partial) {
+            Ok(lock) => lock,
+            Err(SnapshotError::Busy { .. } | SnapshotError::Foreign { .. }) => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let lots = finished(&partial.join(LOTS)).map_err(SnapshotError::io("list", partial))?;
+        Ok(Some(Abandoned { partial: partial.to_path_buf(), lots, _lock: lock }))
+    }
+
+    /// How many lots an interrupted mint has finished: what `--resume` would go on with.
+    pub fn finished_lots(&self) -> usize {
+        self.lots
+    }
+
+    /// Removes the draft with all that it holds.
+    ///
+    /// # Errors
+    /// The file system refuses; then the lock is left, and the rest can be removed later.
+    pub fn remove(self) -> Result<(), SnapshotError> {
+        let remove = || {
+            remove_tree(&self.partial.join(TREE))?;
+            remove_tree(&self.partial.join(LOTS))?;
+            fs::remove_file(self.partial.join(LOCK))?;
+            fs::remove_dir(&self.partial)
+        };
+        remove().map_err(SnapshotError::io("remove", &self.partial))
+    }
+}
+
+/// Whether the folder, itself no link, holds what a draft holds: its lock, and work.
+fn holds_work(partial: &Path) -> io::Result<bool> {
+    if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {
+        return Ok(false);
+    }
+    let is_folder = |name| fs::symlink_metadata(partial.join(name)).is_ok_and(|found| found.is_dir());
+    Ok((is_folder(TREE) || is_folder(LOTS)) && lock::is_ours(partial)?)
+}
+
+/// Files of finished lots in a folder.
+fn finished(lots: &Path) -> io::Result<usize> {
+    let listed = match fs::read_dir(lots) {
+        Err(source) if source.kind() == ErrorKind::NotFound => return Ok(0),
+        listed => listed?,
+    };
+    let mut count = 0;
+    for entry in listed {
+        count += usize::from(entry?.path().extension().is_some_and(|ending| ending == "json"));
+    }
+    Ok(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Draft;
+    use super::super::tests::{home, names};
+    use super::*;
+
+    /// A draft as a killed run leaves it.
+    fn killed(out: &Path) -> PathBuf {
+        let draft = Draft::create(out).expect("vacant");
+        draft.write("games/a", b"one").expect("written");
+        let (partial, aside) = (draft.partial.clone(), out.with_extension("aside"));
+        fs::rename(&partial, &aside).expect("moved");
+        drop(draft);
+        fs::rename(&aside, &partial).expect("moved back");
+        partial
+    }
+
+    #[test]
+    fn what_a_killed_run_has_left_is_found_and_removed() {
+        let (home, out) = home();
+        let partial = killed(&out);
+        let abandoned = Abandoned::at(&partial).expect("examined").expect("abandoned");
+        assert_eq!(abandoned.finished_lots(), 0);
+        // Nobody takes it up in between.
+        assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy { .. })));
+        abandoned.remove().expect("removed");
+        assert!(names(home.path()).is_empty());
+    }
+
+    #[test]
+    fn finished_lots_are_counted() {
+        let (_home, out) = home();
+        let partial = killed(&out);
+        fs::create_dir(partial.join(LOTS)).expect("created");
+        for name in ["a.json", "b.json", "b.new", "plan.txt"] {
+            fs::write(partial.join(LOTS).join(name), "").expect("written");
+        }
+        assert_eq!(Abandoned::at(&partial).expect("examined").expect("abandoned").finished_lots(), 2);
+    }
+
+    #[test]
+    fn work_in_progress_and_folders_of_others_are_not_abandoned() {
+        let (home, out) = home();
+        let draft = Draft::create(&out).expect("vacant");
+        assert!(Abandoned::at(&draft.partial).expect("examined").is_none());
+        for (name, mine) in
+            [("a.partial", "tree/x"), ("b.partial", "x"), ("c", ".lock"), ("d.partial", ".lock")]
+        {
+            let folder = home.path().join(name);
+            let mine = folder.join(mine);
+            fs::create_dir_all(mine.parent().expect("below")).expect("created");
+            fs::write(&mine, "precious").expect("written");
+            assert!(Abandoned::at(&folder).expect("examined").is_none(), "{name}");
+            assert!(mine.exists());
+        }
+        let partial = killed(&home.path().join("other"));
+        fs::write(partial.join("notes.txt"), "precious").expect("written");
+        assert!(Abandoned::at(&partial).expect("examined").is_none());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed() {
+        let (home, out) = home();
+        let partial = killed(&out);
+        let link = home.path().join("link.partial");
+        std::os::unix::fs::symlink(&partial, &link).expect("linked");
+        assert!(Abandoned::at(&link).expect("examined").is_none());
+        let precious = home.path().join("precious");
+        fs::write(&precious, "precious").expect("written");
+        std::os::unix::fs::symlink(&precious, partial.join(TREE).join("link")).expect("linked");
+        Abandoned::at(&partial).expect("examined").expect("abandoned").remove().expect("removed");
+        assert_eq!(fs::read(&precious).expect("still there"), b"precious");
+    }
+}
