@@ -4,7 +4,7 @@ mod arcade;
 
 use arcade::{arcade, copy_tree, files, run, text};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::sync::LazyLock;
 use tempfile::TempDir;
@@ -94,6 +94,12 @@ fn what_a_release_before_has_is_not_minted_again() {
     assert!(said.contains("can be taken") && said.contains("in a release before"), "{said}");
     let output = run(folder, &["release", "tiny", "--parent", "tiny", "--out", "next"], 2);
     assert!(text(&output.stderr).contains("a release needs a name of its own"), "{}", text(&output.stderr));
+    // Another seed gives others; what it knows is what the parent holds.
+    let recipe = fs::read_to_string(folder.join("next.toml")).unwrap().replacen("a coin", "another coin", 1);
+    fs::write(folder.join("next.toml"), recipe).unwrap();
+    run(folder, &["release", "next.toml", "--parent", "tiny", "--out", "next"], 0);
+    let said = text(&run(folder, &["verify", "next", "--chain", "tiny"], 0).stdout);
+    assert!(said.contains("chain: sound; `next` and 1 before it"), "{said}");
 }
 
 #[test]
@@ -203,4 +209,113 @@ fn bad_recipes_are_named() {
     let output = run(folder.path(), &["release", "mine.toml", "--dry-run"], 0);
     assert!(text(&output.stdout).contains("would mint 1 new games"), "{}", text(&output.stdout));
     assert!(!folder.path().join("releases").exists());
+}
+
+/// A release as it is kept in the repository.
+fn kept(name: &str) -> String {
+    format!("{}/../tests/suite/snapshots/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Nothing shows that its levels can be won: that is a no, unless somebody says that it is enough.
+#[test]
+fn what_was_not_replayed_is_not_verified() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = kept("other-semantics");
+    let said = text(&run(folder.path(), &["verify", &place], 1).stdout);
+    assert!(said.contains("witnesses: not replayed (needs an arcade of semantics 1"), "{said}");
+    assert!(said.contains("other-semantics: NOT verified") && said.contains("--accept-unreplayed"), "{said}");
+    run(folder.path(), &["--json", "verify", &place], 1);
+    let said = text(&run(folder.path(), &["verify", &place, "--accept-unreplayed"], 0).stdout);
+    assert!(said.contains("accepted without the replay of its witnesses"), "{said}");
+    assert!(!said.contains("verified"), "{said}");
+    // What never was is no other semantics.
+    let forged = folder.path().join("forged");
+    copy_tree(Path::new(&place), &forged);
+    let path = forged.join("MANIFEST.json");
+    let manifest = fs::read(&path).unwrap();
+    let mut manifest = snapshots::Manifest::parse(&manifest).unwrap();
+    manifest.semantics = 0;
+    manifest.seal_root().unwrap();
+    fs::write(&path, manifest.to_bytes().unwrap()).unwrap();
+    let said = text(&run(folder.path(), &["verify", "forged", "--accept-unreplayed"], 1).stdout);
+    assert!(said.contains("semantics 0 and generation 1 never existed"), "{said}");
+}
+
+/// Without a root from elsewhere nothing shows which release it is, and the answer says so.
+#[test]
+fn only_the_published_root_shows_which_release_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = kept("other-semantics");
+    let verify = ["--json", "verify", &place, "--accept-unreplayed"];
+    let told = |arguments: &[&str]| -> serde_json::Value {
+        serde_json::from_slice(&run(folder.path(), arguments, 0).stdout).unwrap()
+    };
+    let answer = told(&verify);
+    assert_eq!(answer["root_compared"], false);
+    let root = answer["root"].as_str().unwrap();
+    assert_eq!(told(&[&verify[..], &["--root", root]].concat())["root_compared"], true);
+    let said = text(&run(folder.path(), &verify[1..], 0).stdout);
+    assert!(said.contains("consistent in itself") && said.contains("give it with --root"), "{said}");
+    let said = text(&run(folder.path(), &[&verify[1..], &["--root", root]].concat(), 0).stdout);
+    assert!(said.contains("as given") && !said.contains("consistent in itself"), "{said}");
+    let other = "0".repeat(64);
+    let said = text(&run(folder.path(), &[&verify[1..], &["--root", &other]].concat(), 1).stdout);
+    assert!(said.contains(&format!("not {other}")), "{said}");
+}
+
+#[test]
+fn what_is_no_snapshot_is_named() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("passwd"), "root:x:0:0\n").unwrap();
+    fs::write(folder.join("game.vgdl"), "BasicGame\n").unwrap();
+    fs::write(folder.join("recipe.toml"), "name = 'x'\n").unwrap();
+    fs::create_dir_all(folder.join("game")).unwrap();
+    fs::write(folder.join("game/game.vgdl"), "BasicGame\n").unwrap();
+    fs::create_dir_all(folder.join("empty")).unwrap();
+    fs::create_dir_all(folder.join("sealed/public")).unwrap();
+    fs::write(folder.join("sealed/public/MANIFEST.json"), "{}").unwrap();
+    let takes = "a snapshot is a folder with MANIFEST.json, or its .tar.zst";
+    for (place, what) in [
+        ("passwd", "`passwd` is a file, and not the archive of a snapshot"),
+        ("game.vgdl", "is a text: check a game with `arcade validate`"),
+        ("recipe.toml", "mint it with `arcade release`"),
+        ("game", "is the folder of a game"),
+        ("sealed", "name its folder `public`"),
+        ("sealed/public/MANIFEST.json", "is a manifest: name the folder that it is in"),
+        ("empty", "is a folder that has no MANIFEST.json"),
+    ] {
+        let said = text(&run(folder, &["verify", place], 2).stderr);
+        assert!(said.contains(what) && said.contains(takes), "{place}: {said}");
+    }
+    let said = text(&run(folder, &["verify", "nowhere"], 2).stderr);
+    assert!(said.contains("`nowhere` does not exist"), "{said}");
+}
+
+/// The replay of witnesses is bounded, and the bound is the user's to set.
+#[test]
+fn replays_take_no_more_than_is_allowed() {
+    let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100"], 1).stdout);
+    assert!(said.contains("its witnesses take more than 100 units of work to replay"), "{said}");
+    run(TINY.path(), &["verify", "tiny", "--max-work", "100000000"], 0);
+}
+
+/// A name that is no Unicode is a name like any.
+#[cfg(target_os = "linux")]
+#[test]
+fn exports_to_any_name() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let place = kept("other-semantics");
+    for (format, out) in [("games", &b"games\xff"[..]), ("archive", &b"archive\xff"[..])] {
+        for json in [&["--json"][..], &[]] {
+            let out = folder.path().join(std::ffi::OsStr::from_bytes(out));
+            let mut export = arcade(folder.path());
+            export.args(json).args(["export", &place, "--format", format, "--out"]).arg(&out);
+            let output = export.output().unwrap();
+            assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+            assert!(text(&output.stdout).contains('\u{fffd}'), "{}", text(&output.stdout));
+            fs::remove_dir_all(&out).or_else(|_| fs::remove_file(&out)).unwrap();
+        }
+    }
 }

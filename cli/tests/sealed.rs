@@ -58,6 +58,9 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "revealed"], 0);
     let archived = run(folder, &["export", "out/public", "--format", "archive", "--out", "x.tar.zst"], 2);
     assert!(text(&archived.stderr).contains("pack it when it is revealed"), "{}", text(&archived.stderr));
+    let solved = ["export", "out/public", "--format", "jsonl", "--solutions", "--out", "none"];
+    let said = text(&run(folder, &solved, 2).stderr);
+    assert!(said.contains("its solutions are held back") && !folder.join("none").exists(), "{said}");
     run(folder, &["export", "revealed", "--format", "jsonl", "--solutions", "--out", "rows"], 0);
     let rows = files(&folder.join("rows"));
     let (_, rows) = rows.iter().find(|(name, _)| name.ends_with(".jsonl")).unwrap();

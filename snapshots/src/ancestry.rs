@@ -1,13 +1,14 @@
 //! The releases before: what a new one must not hold again.
 
 use crate::card::{Card, Origin};
-use crate::folder::{self, Limits};
-use crate::integrity::check_integrity;
+use crate::contents::Contents;
+use crate::manifest::Manifest;
 use crate::recipe::{Known, Recipe};
 use crate::{Digest, SnapshotError};
 use engine::{Analysis, Game, Seed, syntax};
 use generators::games::Masked;
 use generators::levels::Likeness;
+use std::collections::BTreeMap;
 use std::path::Path;
 use validators::novelty::GameForm;
 
@@ -46,14 +47,76 @@ pub(crate) fn item(form: &GameForm, likeness: &Likeness, level: &engine::Level) 
     Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }
 
-/// Lets a recipe follow the release in `parent`: the recipe names its root, and holds what it and all before it hold.
+/// What a release holds that none after it may hold again.
+#[derive(Debug, Default)]
+pub(crate) struct Holdings {
+    /// The rules of its generated games, without names, in the order of its items.
+    games: Vec<String>,
+    /// The forms of these games, with the folder of each.
+    pub(crate) forms: BTreeMap<Digest, String>,
+    /// Canonical items of its corpus games, with the path of each level.
+    pub(crate) items: BTreeMap<Digest, String>,
+}
+
+impl Holdings {
+    /// Of a sound release. Cost: one pass over its games, and some milliseconds each.
+    ///
+    /// # Errors
+    /// A card, a game or a level is none, or cannot be read.
+    pub(crate) fn read(contents: &Contents, manifest: &Manifest) -> Result<Holdings, AncestryError> {
+        let damaged = |path: &str| AncestryError::Damaged(format!("{path}: not what a release has there"));
+        let read = |path: &str| -> Result<String, AncestryError> {
+            String::from_utf8(contents.read(path)?).map_err(|_| damaged(path))
+        };
+        let mut found = Holdings::default();
+        let cards = manifest.items.iter().map(|item| &item.path).filter(|path| path.ends_with("/card.json"));
+        for path in cards {
+            let card: Card = serde_json::from_str(&read(path)?).map_err(|_| damaged(path))?;
+            let source = format!("games/{}/game.vgdl", card.id);
+            let game = Game::from_source(&read(&source)?).map_err(|_| damaged(&source))?;
+            let form = GameForm::of(&game);
+            if matches!(card.origin, Origin::Generated { .. }) {
+                let bare = Masked::of(game.description(), Seed::from_text(&card.id));
+                found.games.push(syntax::print(bare.description()));
+                found.forms.insert(form.digest(), card.id);
+                continue;
+            }
+            let likeness = Likeness::of(&Analysis::of(&game));
+            for level in &card.levels {
+                let path = format!("games/{}/{}", card.id, level.file);
+                let level = game.level(&read(&path)?).map_err(|_| damaged(&path))?;
+                found.items.insert(item(&form, &likeness, &level), path);
+            }
+        }
+        Ok(found)
+    }
+
+    /// What a release knows that follows the one with this manifest, which holds this.
+    ///
+    /// # Errors
+    /// What that one knows itself is of another version.
+    pub(crate) fn known_after(&self, manifest: &Manifest) -> Result<Known, AncestryError> {
+        // Of the recipe this part alone, so that recipes with keys of other versions can be followed.
+        let mut known: Known = match manifest.recipe.get("known") {
+            None => Known::default(),
+            Some(known) => serde_json::from_value(known.clone()).map_err(AncestryError::Unreadable)?,
+        };
+        known.releases.push(manifest.name.clone());
+        known.games.extend(self.games.iter().cloned());
+        known.items.extend(self.items.keys());
+        Ok(known)
+    }
+}
+
+/// Lets a recipe follow the release in `parent`, a folder or an archive: the recipe names its root, and holds what it and
+/// all before it hold.
 ///
 /// Cost: one pass over the files, and some milliseconds a game.
 ///
 /// # Errors
 /// The parent is not the one that the recipe names, or not sound.
 pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
-    let integrity = check_integrity(parent)?;
+    let (integrity, contents) = Contents::open(parent)?;
     let manifest = &integrity.manifest;
     if let Some(problem) = integrity.problems.first() {
         return Err(AncestryError::Damaged(problem.to_string()));
@@ -61,36 +124,9 @@ pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
     if let Some(asked) = recipe.parent.filter(|asked| *asked != manifest.root) {
         return Err(AncestryError::OtherParent { asked, found: manifest.root, name: manifest.name.clone() });
     }
-    // Of the recipe this part alone, so that recipes with keys of other versions can be followed.
-    let mut known: Known = match manifest.recipe.get("known") {
-        None => Known::default(),
-        Some(known) => serde_json::from_value(known.clone()).map_err(AncestryError::Unreadable)?,
-    };
-    known.releases.push(manifest.name.clone());
+    let known = Holdings::read(&contents, manifest)?.known_after(manifest)?;
     if known.releases.contains(&recipe.name) {
         return Err(AncestryError::SameName(recipe.name.clone()));
-    }
-    let damaged = |path: &str| AncestryError::Damaged(format!("{path}: not what a release has there"));
-    let read = |path: &str| -> Result<String, AncestryError> {
-        let bytes = folder::read(parent, path, Limits::SNAPSHOT.file_bytes)?;
-        String::from_utf8(bytes).map_err(|_| damaged(path))
-    };
-    for path in manifest.items.iter().map(|item| &item.path).filter(|path| path.ends_with("/card.json")) {
-        let card: Card = serde_json::from_str(&read(path)?).map_err(|_| damaged(path))?;
-        let source = format!("games/{}/game.vgdl", card.id);
-        let game = Game::from_source(&read(&source)?).map_err(|_| damaged(&source))?;
-        let form = GameForm::of(&game);
-        if matches!(card.origin, Origin::Generated { .. }) {
-            let bare = Masked::of(game.description(), Seed::from_text(&card.id));
-            known.games.push(syntax::print(bare.description()));
-            continue;
-        }
-        let likeness = Likeness::of(&Analysis::of(&game));
-        for level in &card.levels {
-            let path = format!("games/{}/{}", card.id, level.file);
-            let level = game.level(&read(&path)?).map_err(|_| damaged(&path))?;
-            known.items.insert(item(&form, &likeness, &level));
-        }
     }
     recipe.parent = Some(manifest.root);
     recipe.known = known;

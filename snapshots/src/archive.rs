@@ -18,8 +18,7 @@ mod entry;
 mod frame;
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, TryLockError};
-use std::io::{ErrorKind, Read, Seek};
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use crate::draft::Draft;
@@ -31,7 +30,7 @@ use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
 use engine::Digest;
 use entry::{BLOCK, END, padding};
-use frame::{Inside, MAGIC, Outside, Unreadable};
+use frame::{Inside, Outside, Unreadable};
 
 pub use frame::is_archive;
 
@@ -62,7 +61,8 @@ pub struct Packed {
 /// Packs the release folder `root` into the file `out`, which must not exist. The same release gives the same
 /// uncompressed bytes on every machine.
 ///
-/// `out` is complete or absent: until then the work lies in `<out>.partial`, and a stale one is replaced.
+/// `out` is complete or absent: until then the work lies in the folder `<out>.partial` of a [`Draft`], and a stale one is
+/// replaced.
 ///
 /// Cost: two passes over the files; memory for one of them.
 ///
@@ -82,60 +82,12 @@ pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     if fs::symlink_metadata(out).is_ok() {
         return Err(SnapshotError::Taken { path: out.to_path_buf() });
     }
-    let name = out.file_name().ok_or_else(|| SnapshotError::Nameless { path: out.to_path_buf() })?;
-    let mut partial_name = name.to_os_string();
-    partial_name.push(".partial");
-    let partial = out.with_file_name(partial_name);
-    let parent = partial.parent().filter(|parent| !parent.as_os_str().is_empty());
-    if let Some(parent) = parent {
-        fs::create_dir_all(parent).map_err(SnapshotError::io("create", parent))?;
-    }
-    let mut file = claim(&partial)?;
-    let publish = |packed| {
-        // A file that somebody has put there in the meantime is not to be replaced.
-        if fs::symlink_metadata(out).is_ok() {
-            return Err(SnapshotError::Taken { path: out.to_path_buf() });
-        }
-        fs::rename(&partial, out).map_err(SnapshotError::io("create", out))?;
-        Ok(packed)
-    };
-    let result = pack_into(root, &manifest, &mut file, &partial).and_then(publish);
-    if result.is_err() {
-        // Nothing can be done here about a failure, and the next attempt replaces what stays.
-        drop(fs::remove_file(&partial));
-    }
-    result
-}
-
-/// The empty file `partial`, locked: a stale one of a killed run is taken over, that of a running one is not.
-fn claim(partial: &Path) -> Result<File, SnapshotError> {
-    let io = |source| SnapshotError::io("create", partial)(source);
-    let busy = || SnapshotError::Busy { path: partial.to_path_buf() };
-    if fs::symlink_metadata(partial).is_ok_and(|found| !found.is_file()) {
-        return Err(SnapshotError::Foreign { path: partial.to_path_buf() });
-    }
-    let mut file =
-        File::options().read(true).write(true).create(true).truncate(false).open(partial).map_err(io)?;
-    match file.try_lock() {
-        Ok(()) => {}
-        Err(TryLockError::WouldBlock) => return Err(busy()),
-        // A file system without locks is taken at its word.
-        Err(TryLockError::Error(source)) if source.kind() == ErrorKind::Unsupported => {}
-        Err(TryLockError::Error(source)) => return Err(io(source)),
-    }
-    // Whoever held the lock before may have published it in the meantime: then it is no longer at its path.
-    let held = file.metadata().map_err(io)?;
-    if !fs::symlink_metadata(partial).is_ok_and(|found| folder::same_file(&held, &found)) {
-        return Err(busy());
-    }
-    // Somebody's own file of that name is not to be overwritten: one of ours is empty, or begins as archives do.
-    let mut magic = Vec::new();
-    Read::by_ref(&mut file).take(4).read_to_end(&mut magic).map_err(io)?;
-    if !(magic.is_empty() || magic == MAGIC) {
-        return Err(SnapshotError::Foreign { path: partial.to_path_buf() });
-    }
-    file.rewind().and_then(|()| file.set_len(0)).map_err(io)?;
-    Ok(file)
+    let draft = Draft::create(out)?;
+    let (mut file, partial) = draft.single()?;
+    let packed = pack_into(root, &manifest, &mut file, &partial)?;
+    drop(file);
+    draft.commit_single()?;
+    Ok(packed)
 }
 
 fn pack_into(
@@ -220,6 +172,21 @@ impl Archive {
     /// It is no zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot); with the name of an archive it is a damaged one),
     /// is damaged before the end of the manifest ([`Archive`](SnapshotError::Archive)), has a manifest that is not sound in itself, or cannot be read.
     pub fn open(path: &Path) -> Result<Archive, SnapshotError> {
+        Archive::read(path, true)
+    }
+
+    /// What is wrong with an archive, as [`Archive::open`] says it, without its files.
+    ///
+    /// Cost: one pass; memory for the manifest and one file.
+    ///
+    /// # Errors
+    /// As for [`Archive::open`].
+    pub fn check(path: &Path) -> Result<Integrity, SnapshotError> {
+        Archive::read(path, false).map(|archive| archive.integrity)
+    }
+
+    /// `keep`: with the content of its files.
+    fn read(path: &Path, keep: bool) -> Result<Archive, SnapshotError> {
         let io = |source| SnapshotError::io("read", path)(source);
         let broken = |message: String| SnapshotError::Archive { path: path.to_path_buf(), message };
         // Looked at before it is opened: opening a pipe would wait for its other end.
@@ -253,7 +220,12 @@ impl Archive {
             problems.push(Problem { path: MANIFEST_FILE.into(), flaw: Flaw::NotAsPacked(what) });
         }
         let mut files = BTreeMap::new();
-        match read_items(&mut inside, &manifest, &mut files, &mut problems) {
+        let take = |path: &str, content| {
+            if keep {
+                files.insert(path.to_owned(), content);
+            }
+        };
+        match read_items(&mut inside, &manifest, take, &mut problems) {
             Ok(()) => {}
             Err(Stop::Problem(problem)) if problem.path == WHOLE => {
                 let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -348,7 +320,7 @@ enum Stop {
 fn read_items(
     inside: &mut Inside,
     manifest: &Manifest,
-    files: &mut BTreeMap<String, Vec<u8>>,
+    mut take: impl FnMut(&str, Vec<u8>),
     problems: &mut Vec<Problem>,
 ) -> Result<(), Stop> {
     let at = |path: &str, flaw| Stop::Problem(Problem { path: path.to_owned(), flaw });
@@ -380,7 +352,7 @@ fn read_items(
             let flaw = Flaw::Altered { found, stated: item.digest };
             problems.push(Problem { path: path.to_owned(), flaw });
         }
-        files.insert(path.to_owned(), content);
+        take(path, content);
     }
     for _ in 0..END / BLOCK {
         match inside.block().map_err(stop(WHOLE))? {

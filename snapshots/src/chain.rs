@@ -9,11 +9,16 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::ancestry::{AncestryError, Holdings};
 use crate::archive::{is_called_archive, is_foreign};
-use crate::contents::Contents;
+use crate::contents::{Contents, integrity_of, is_file};
 use crate::error::SnapshotError;
+use crate::integrity::Integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
-use engine::Digest;
+use crate::recipe::Known;
+use crate::verify::COMPLETE;
+use engine::{Digest, SEMANTICS};
+use generators::GENERATION;
 
 /// How many releases a folder may hold that is searched for them; also how many other things.
 pub const MAX_RELEASES: usize = 10_000;
@@ -27,8 +32,13 @@ pub struct Link {
     pub root: Digest,
     /// The root of the release before, as it names it.
     pub parent: Option<Digest>,
-    /// The folder or archive where it was found.
+    /// The folder or archive where it was found; as nearly as Unicode can where it is written as data.
+    #[serde(serialize_with = "shown")]
     pub place: PathBuf,
+}
+
+fn shown<S: serde::Serializer>(place: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&place.display())
 }
 
 impl Link {
@@ -56,9 +66,13 @@ pub struct Chain {
 /// releases. The integrity of every one that is given is checked; `start` is taken to be checked.
 ///
 /// A chain is sound if every root that is named is found, up to a release that names none; if no two releases that were
-/// given have one name; and if no two follow the same release of the chain, which would be two histories.
+/// given have one name; if no two follow the same release of the chain, which would be two histories, and none follows a
+/// release that was not given, which may be one of two; and if each release of the chain knows what those before it
+/// hold, and holds none of it again.
 ///
-/// Cost: one pass over the files of all releases, on all threads of the current rayon pool.
+/// Cost: one pass over the files of all releases and another over those of the chain, and some milliseconds for each game
+/// of the chain. Folders are read on all threads of the current rayon pool, archives one after the other: memory for the
+/// manifests, one file of an archive at a time, and one archive of the chain.
 ///
 /// # Errors
 /// One of the folders holds no release, or the file system refuses.
@@ -67,23 +81,31 @@ pub fn follow(start: Link, folders: &[PathBuf]) -> Result<Chain, SnapshotError> 
     for folder in folders {
         places.extend(releases_in(folder)?);
     }
-    let checked: Vec<Result<Link, String>> =
-        places.into_par_iter().map(|place| check(&place)).collect::<Result<_, _>>()?;
+    let (archives, folders): (Vec<PathBuf>, Vec<PathBuf>) =
+        places.into_iter().partition(|place| is_file(place));
+    let judge = |place: PathBuf| check(&place).map(|checked| (place, checked));
+    let mut checked: Vec<_> = folders.into_par_iter().map(judge).collect::<Result<_, _>>()?;
+    for place in archives {
+        checked.push(judge(place)?);
+    }
+    checked.sort_by(|(one, _), (two, _)| one.cmp(two));
     let (mut links, mut problems) = (Vec::new(), Vec::new());
-    for link in checked {
+    for (_, link) in checked {
         match link {
             Ok(link) => links.push(link),
             Err(problem) => problems.push(problem),
         }
     }
-    Ok(join(start, links, problems))
+    let mut chain = join(start, links, problems);
+    chain.problems.extend(history_problems(&chain.releases)?);
+    Ok(chain)
 }
 
 /// The release at `place`; what is wrong if it is not sound.
 fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     let wrong = |what: &dyn std::fmt::Display| Ok(Err(format!("{}: {what}", place.display())));
-    match Contents::open(place) {
-        Ok((integrity, _)) => match integrity.problems.as_slice() {
+    match integrity_of(place) {
+        Ok(integrity) => match integrity.problems.as_slice() {
             [] => Ok(Ok(Link::of(&integrity.manifest, place))),
             [only] => wrong(only),
             [first, rest @ ..] => wrong(&format_args!("{first}; and {} more", rest.len())),
@@ -94,6 +116,66 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
             None => wrong(&error),
         },
     }
+}
+
+/// Whether each release of a chain, the newest first, knows what those before it hold, and holds none of that again.
+///
+/// What is known is compared as a whole where this arcade would state it in the same way; of a release of another
+/// generation only the names of those before.
+fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
+    let mut problems = Vec::new();
+    let (mut forms, mut items) = (BTreeMap::new(), BTreeMap::new());
+    let mut before: Option<(Manifest, Holdings)> = None;
+    for link in releases.iter().rev() {
+        let name = &link.name;
+        let (Integrity { manifest, .. }, contents) = Contents::open(&link.place)?;
+        let is_ours = (manifest.generation, manifest.semantics) == (GENERATION, SEMANTICS);
+        let holdings = match Holdings::read(&contents, &manifest) {
+            Ok(holdings) => holdings,
+            Err(AncestryError::Snapshot(error)) => return Err(error),
+            // Cards of other generations may be of another shape; then nothing can be said.
+            Err(_) if !is_ours => {
+                before = None;
+                continue;
+            }
+            Err(error) => {
+                problems.push(format!("`{name}` in {}: {error}", link.place.display()));
+                before = None;
+                continue;
+            }
+        };
+        if manifest.generation >= COMPLETE {
+            let stated = manifest.recipe.get("known").cloned().unwrap_or_else(|| serde_json::json!({}));
+            let stated: Option<Known> = serde_json::from_value(stated).ok();
+            let due = before.as_ref().and_then(|(parent, holds)| holds.known_after(parent).ok());
+            if let (Some(due), Some(parent)) = (due, link.parent) {
+                let fits = match &stated {
+                    Some(stated) if is_ours => *stated == due,
+                    Some(stated) => stated.releases == due.releases,
+                    None => !is_ours,
+                };
+                if !fits {
+                    problems.push(format!(
+                        "`{name}` in {} does not know what the releases before it hold: its recipe's `known` is not what \
+                         follows from the release with root {parent}",
+                        link.place.display()
+                    ));
+                }
+            }
+            let again = |mine: &BTreeMap<Digest, String>, theirs: &BTreeMap<Digest, String>| {
+                mine.iter().find_map(|(what, here)| Some(format!("{here} is {}", theirs.get(what)?)))
+            };
+            let found = [again(&holdings.forms, &forms), again(&holdings.items, &items)];
+            problems.extend(found.into_iter().flatten().map(|found| {
+                format!("`{name}` in {} holds what came before it: {found}", link.place.display())
+            }));
+        }
+        let of = |what: &String| format!("{what} of `{name}` again");
+        forms.extend(holdings.forms.iter().map(|(form, id)| (*form, of(id))));
+        items.extend(holdings.items.iter().map(|(item, path)| (*item, of(path))));
+        before = Some((manifest, holdings));
+    }
+    Ok(problems)
 }
 
 /// The releases that are `folder` or lie in it, by name. What else lies there, other archives too, is left alone, and no
@@ -181,6 +263,15 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
     }
     for link in &others {
         let Some(parent) = link.parent else { continue };
+        if !by_root.contains_key(&parent) {
+            problems.push(format!(
+                "`{}` in {} follows the release with root {parent}, which is not among those given, so it may be of another \
+                 history: add that release to --chain, or leave `{}` out",
+                link.name,
+                link.place.display(),
+                link.name
+            ));
+        }
         let Some(follower) = followers.get(&parent) else { continue };
         problems.push(format!(
             "`{}` in {} and `{}` in {} follow the same release, root {parent}: these are two histories, of which one \
@@ -227,6 +318,14 @@ mod tests {
         assert_eq!(join(three.clone(), given, Vec::new()).others, 1);
         let missing = format!("`2` follows the release with root {}", one.root);
         check(three.clone(), vec![two.clone()], &["3", "2"], false, &[&missing]);
+    }
+
+    /// One that follows an absent rival of `2` is not passed over.
+    #[test]
+    fn what_follows_something_absent_is_told() {
+        let (one, two) = (link("1", "a", None), link("2", "b", Some("a")));
+        let rival = link("3x", "d", Some("the rival of 2"));
+        check(two, vec![one, rival], &["2", "1"], true, &["`3x` in 3x follows the release with root"]);
     }
 
     #[test]

@@ -16,13 +16,29 @@ pub(crate) enum Contents {
     Archive(Box<Archive>),
 }
 
+/// The integrity of the release at `place`, a folder or an archive, of which no file is kept.
+///
+/// # Errors
+/// As for [`check_integrity`] and [`Archive::check`].
+pub(crate) fn integrity_of(place: &Path) -> Result<Integrity, SnapshotError> {
+    match is_file(place) {
+        true => Archive::check(place),
+        false => check_integrity(place),
+    }
+}
+
+/// Whether a release at `place` is one file.
+pub(crate) fn is_file(place: &Path) -> bool {
+    fs::metadata(place).is_ok_and(|found| found.is_file())
+}
+
 impl Contents {
     /// Checks the integrity of the release at `place`, a folder or an archive, and gives its files.
     ///
     /// # Errors
     /// As for [`check_integrity`] and [`Archive::open`].
     pub(crate) fn open(place: &Path) -> Result<(Integrity, Contents), SnapshotError> {
-        if fs::metadata(place).is_ok_and(|found| found.is_file()) {
+        if is_file(place) {
             let archive = Archive::open(place)?;
             return Ok((archive.integrity.clone(), Contents::Archive(Box::new(archive))));
         }

@@ -3,7 +3,7 @@
 //! The work lies beside its destination, so that one `rename` within one file system publishes it:
 //!
 //! ```text
-//! releases/2026-12.partial/.lock    held from creation until after the rename
+//! releases/2026-12.partial/.lock    held from creation until after the rename; its content says whose it is
 //! releases/2026-12.partial/tree/    becomes releases/2026-12
 //! releases/2026-12.partial/lots/    what is kept if the work is interrupted, for `Draft::resume`
 //! ```
@@ -14,6 +14,7 @@
 
 mod abandoned;
 mod lock;
+pub(crate) mod sync;
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -25,6 +26,10 @@ use crate::folder::{self, Limits};
 use crate::path::check_path;
 use crate::sealed::HELD;
 use lock::{LOCK, LOTS, TREE};
+use sync::{create_folder, sync_folder, sync_folders};
+
+/// Name of the file, in the tree, of a draft that is published as a file.
+const SINGLE: &str = "file";
 
 pub use abandoned::Abandoned;
 
@@ -69,7 +74,7 @@ impl Draft {
         check_vacant(out)?;
         let partial = out.with_file_name(partial_name);
         let parent = parent_of(out);
-        fs::create_dir_all(parent).map_err(SnapshotError::io("create", parent))?;
+        create_folder(parent)?;
 
         let lock = lock::acquire(&partial)?;
         let draft = Draft { out: out.to_path_buf(), partial, _lock: lock };
@@ -135,6 +140,34 @@ impl Draft {
         // What cannot be removed is in nobody's way but that of the next draft, which says so.
         drop(remove_tree(&self.lots()));
         Ok(())
+    }
+
+    /// The one file of a draft that is published as a file, created for writing; and its path, for messages.
+    ///
+    /// # Errors
+    /// It was created before, or the file system refuses.
+    pub(crate) fn single(&self) -> Result<(File, PathBuf), SnapshotError> {
+        let path = self.tree().join(SINGLE);
+        let file = File::options().read(true).write(true).create_new(true).open(&path);
+        Ok((file.map_err(SnapshotError::io("create", &path))?, path))
+    }
+
+    /// Publishes the file of [`single`](Draft::single), whose content has been waited for, as `out` in one step, and
+    /// waits until its name is on disk. Nothing that has come there in the meantime is replaced.
+    ///
+    /// # Errors
+    /// `out` is there ([`Taken`](SnapshotError::Taken)), or the file system refuses; then the draft is dropped.
+    pub(crate) fn commit_single(self) -> Result<(), SnapshotError> {
+        let taken = || SnapshotError::Taken { path: self.out.clone() };
+        let path = self.tree().join(SINGLE);
+        match fs::hard_link(&path, &self.out) {
+            Ok(()) => {}
+            Err(source) if source.kind() == ErrorKind::AlreadyExists => return Err(taken()),
+            // Not every file system has links; a rename replaces what comes between this look and itself.
+            Err(_) if fs::symlink_metadata(&self.out).is_ok() => return Err(taken()),
+            Err(_) => fs::rename(&path, &self.out).map_err(SnapshotError::io("create", &self.out))?,
+        }
+        sync_folder(parent_of(&self.out))
     }
 
     /// Keeps what is in the making to its owner: for sealed releases. What is held back stays so when it is published.
@@ -219,26 +252,6 @@ fn parent_of(path: &Path) -> &Path {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     }
-}
-
-/// Waits until the names in `folder` and all folders below are on disk, the deepest first.
-fn sync_folders(folder: &Path) -> Result<(), SnapshotError> {
-    for entry in fs::read_dir(folder).map_err(SnapshotError::io("list", folder))? {
-        let entry = entry.map_err(SnapshotError::io("list", folder))?;
-        if entry.file_type().map_err(SnapshotError::io("examine", &entry.path()))?.is_dir() {
-            sync_folders(&entry.path())?;
-        }
-    }
-    sync_folder(folder)
-}
-
-/// Only Unix lets a folder be opened and waited for; elsewhere the file system's journal has to do.
-fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
-    if cfg!(unix) {
-        let sync = || File::open(folder)?.sync_all();
-        sync().map_err(SnapshotError::io("write", folder))?;
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -342,7 +355,7 @@ pub(crate) mod tests {
         let partial = home.path().join("new.partial");
         fs::create_dir_all(partial.join("tree/games")).expect("created");
         fs::write(partial.join("tree/games/old"), "stale").expect("written");
-        fs::write(partial.join(LOCK), "").expect("written");
+        fs::write(partial.join(LOCK), lock::MARK).expect("written");
         let draft = Draft::create(&out).expect("the lock is free");
         draft.write("fresh", b"").expect("written");
         draft.commit().expect("published");

@@ -84,12 +84,12 @@ pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;
 pub use integrity::{Integrity, check_integrity};
 pub use manifest::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
-pub use path::{MAX_PATH, PathProblem, check_path};
+pub use path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
 pub use recipe::{Board, CorpusPart, GeneratedPart, Known, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
 pub use regenerate::{RegenerateError, Regenerated, Regeneration};
 pub use sealed::{HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
-pub use verify::{Verification, Witnesses, verify};
+pub use verify::{Bounds, Verification, Witnesses, verify, verify_within};
 pub use witness::Witness;
 
 use engine::Digest;

@@ -3,6 +3,8 @@
 
 /// The longest path, in bytes.
 pub const MAX_PATH: usize = 255;
+/// The most components that a path may have: the folders that it passes through, and its file. Releases have four.
+pub const MAX_COMPONENTS: usize = 16;
 
 /// Why a path may not be in a release.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
@@ -14,6 +16,9 @@ pub enum PathProblem {
     /// The path has more than [`MAX_PATH`] bytes.
     #[error("it is longer than {MAX_PATH} bytes")]
     TooLong,
+    /// The path has more than [`MAX_COMPONENTS`] components.
+    #[error("it has more than {MAX_COMPONENTS} components")]
+    TooDeep,
     /// The path starts with `/`.
     #[error("it is absolute")]
     Absolute,
@@ -34,8 +39,8 @@ pub enum PathProblem {
     NotUnicode,
 }
 
-/// Whether `path` may be in a release: relative, `/`-separated, at most [`MAX_PATH`] bytes, of the characters
-/// `A-Z a-z 0-9 . _ -`, without components that are empty, `.`, `..` or end with a dot.
+/// Whether `path` may be in a release: relative, `/`-separated, at most [`MAX_PATH`] bytes and [`MAX_COMPONENTS`]
+/// components, of the characters `A-Z a-z 0-9 . _ -`, without components that are empty, `.`, `..` or end with a dot.
 ///
 /// # Errors
 /// The first reason why not.
@@ -58,7 +63,8 @@ pub fn check_path(path: &str) -> Result<(), PathProblem> {
         "." | ".." => Err(PathProblem::DotComponent),
         _ if component.ends_with('.') => Err(PathProblem::TrailingDot),
         _ => Ok(()),
-    })
+    })?;
+    if path.split('/').count() > MAX_COMPONENTS { Err(PathProblem::TooDeep) } else { Ok(()) }
 }
 
 #[cfg(test)]
@@ -68,8 +74,16 @@ mod tests {
     #[test]
     fn safe_paths() {
         let longest = "a".repeat(MAX_PATH);
-        for path in ["a", "README.md", "games/maze-0a1b2c3d/lvl0.txt", ".gitattributes", "a/..b/c", &longest]
-        {
+        let deepest = ["a"; MAX_COMPONENTS].join("/");
+        for path in [
+            "a",
+            "README.md",
+            "games/maze-0a1b2c3d/lvl0.txt",
+            ".gitattributes",
+            "a/..b/c",
+            &longest,
+            &deepest,
+        ] {
             assert_eq!(check_path(path), Ok(()), "{path}");
         }
     }
@@ -77,9 +91,11 @@ mod tests {
     #[test]
     fn unsafe_paths() {
         let too_long = "a".repeat(MAX_PATH + 1);
+        let too_deep = ["a"; MAX_COMPONENTS + 1].join("/");
         for (path, problem) in [
             ("", PathProblem::Empty),
             (too_long.as_str(), PathProblem::TooLong),
+            (too_deep.as_str(), PathProblem::TooDeep),
             ("/etc/passwd", PathProblem::Absolute),
             ("/", PathProblem::Absolute),
             ("a//b", PathProblem::EmptyComponent),

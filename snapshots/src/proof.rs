@@ -8,7 +8,8 @@ use std::collections::BTreeSet;
 
 use crate::canonical::to_canonical_json;
 use crate::error::SnapshotError;
-use crate::manifest::Manifest;
+use crate::folder::Limits;
+use crate::manifest::{HEADER_LEAF, MANIFEST_FILE, Manifest};
 use crate::merkle::{self, Leaf, Proof};
 use crate::path::check_path;
 use engine::Digest;
@@ -114,8 +115,9 @@ impl ItemProof {
     /// Reads a proof from someone else, and checks all of it that can be checked without root and files.
     ///
     /// # Errors
-    /// It is too large, not canonical JSON of this shape, of another format, empty, or has files that are unsorted,
-    /// with unsafe paths, not of its item, or with a way to the root that no tree has.
+    /// It is too large, not canonical JSON of this shape, of another format, empty, has a label that names no release, or
+    /// files that are unsorted, with unsafe or reserved paths, not of its item, with a way to the root that no tree has,
+    /// or with places that they cannot have in one tree.
     pub fn parse(bytes: &[u8]) -> Result<ItemProof, ProofError> {
         if bytes.len() as u64 > MAX_PROOF {
             return Err(ProofError::TooLarge);
@@ -133,6 +135,14 @@ impl ItemProof {
             if let Err(problem) = check_path(&file.path) {
                 return unsound(format!("`{path}` cannot be in a snapshot: {problem}"));
             }
+            if [HEADER_LEAF, MANIFEST_FILE].iter().any(|reserved| file.path.eq_ignore_ascii_case(reserved)) {
+                return unsound(format!("`{path}` is no file of a release, but stands for its manifest"));
+            }
+            // The manifest's header is a leaf as well, so there are as many as a release can have files with it.
+            let (index, size) = (file.proof.index, file.proof.size);
+            if index >= size || size > Limits::SNAPSHOT.files {
+                return unsound(format!("`{path}` is leaf {index} of {size}, which no release has"));
+            }
             let of_the_game = game_of(&file.path) == Some(proof.item.as_str());
             if file.path != proof.item && !of_the_game {
                 return unsound(format!("`{path}` is no file of `{}`", proof.item.escape_debug()));
@@ -143,6 +153,18 @@ impl ItemProof {
         }
         if let Some(pair) = proof.files.windows(2).find(|pair| pair[0].path >= pair[1].path) {
             return unsound(format!("`{}` is listed twice or out of order", pair[1].path));
+        }
+        let apart = |pair: &[FileProof]| {
+            pair[0].proof.size != pair[1].proof.size || pair[0].proof.index >= pair[1].proof.index
+        };
+        if let Some(pair) = proof.files.windows(2).find(|pair| apart(pair)) {
+            return unsound(format!(
+                "`{}` and `{}` do not have their places in one release",
+                pair[0].path, pair[1].path
+            ));
+        }
+        if check_path(&proof.release).is_err() || proof.release.contains('/') {
+            return unsound(format!("`{}` is no name of a release", proof.release.escape_debug()));
         }
         if to_canonical_json(&proof).map_err(SnapshotError::from)?.as_bytes() != bytes {
             return unsound("its text is not in canonical form".into());

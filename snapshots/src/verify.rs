@@ -1,17 +1,30 @@
 //! Verifying a release folder: nothing in it is trusted.
 
+mod game;
+mod numbers;
+mod papers;
+mod replay;
+mod version;
+
+use crate::canonical::to_canonical_json;
 use crate::card::Card;
 use crate::contents::Contents;
 use crate::manifest::{Kind, Manifest};
 use crate::mint::RELEASE_CARD_FILE;
-use crate::sealed::{HELD, SECRET_FILE, Secret, held_witness};
-use crate::witness::Witness;
+use crate::recipe::Known;
+use crate::sealed::{HELD, SECRET_FILE, Secret};
 use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
-use engine::{Game, Outcome};
+use game::{Checker, Files, GameCheck};
 use rayon::prelude::*;
+use replay::Meter;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+
+pub(crate) use numbers::problems as number_problems;
+pub use replay::Bounds;
+pub(crate) use replay::problem as replay_problem;
+pub(crate) use version::COMPLETE;
 
 /// What was found out about the witnesses.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -43,6 +56,8 @@ pub struct Verification {
     pub levels: usize,
     /// What was found out about the witnesses.
     pub witnesses: Witnesses,
+    /// Units of work that the replays took, see [`Bounds`]; at most the bound.
+    pub work: u64,
     /// All that is wrong, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,
     /// The manifest as stated.
@@ -51,14 +66,22 @@ pub struct Verification {
 }
 
 /// Checks paths, links, sizes, digests and the root; if these hold, that games, levels and cards are well-formed and
-/// fit together; and, under the same semantics, replays every witness to its win. `root` is the release's folder or its
-/// [archive](crate::archive).
+/// fit together; and, under the same semantics, replays every witness to its win, within the bounds that any release
+/// keeps ([`Bounds::RELEASE`]). `root` is the release's folder or its [archive](crate::archive).
 ///
 /// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
 ///
 /// # Errors
 /// There is no manifest, it is of a newer format or broken, or the file system refuses.
 pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
+    verify_within(root, &Bounds::RELEASE)
+}
+
+/// As [`verify`], with other bounds. A release whose replays take more is not sound, and the replays end there.
+///
+/// # Errors
+/// As for [`verify`].
+pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, SnapshotError> {
     refuse_unfinished(root)?;
     let (integrity, contents) = Contents::open(root)?;
     let manifest = integrity.manifest;
@@ -67,7 +90,6 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     let is_sealed = manifest.kind == Kind::Sealed;
     let secret = if is_sealed && problems.is_empty() { contents.find(SECRET_FILE)? } else { None };
     let held = is_sealed && secret.is_none();
-    let mut games = Vec::new();
     let committed = |secret: Vec<u8>| {
         serde_json::from_slice(&secret)
             .is_ok_and(|secret: Secret| Some(secret.commitment()) == manifest.commitment)
@@ -75,21 +97,32 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     if secret.is_some_and(|secret| !committed(secret)) {
         problems.push(format!("{SECRET_FILE}: its seed and nonce are not those of the commitment"));
     }
+    let mut games = Vec::new();
+    let mut work = 0;
     if problems.is_empty() {
-        let folders = game_folders(&manifest, &mut problems);
-        let checked: Vec<GameCheck> = folders
-            .into_par_iter()
-            .map(|(folder, files)| check_game(&contents, &manifest, &folder, &files, same_semantics))
-            .collect::<Result<_, _>>()?;
-        games = checked;
-        problems.extend(games.iter_mut().flat_map(|game| std::mem::take(&mut game.problems)));
+        let folders = namesakes(game_folders(&manifest, &mut problems));
+        let meter = Meter::new(bounds.of(declared_levels(&manifest)));
+        let checker =
+            Checker { contents: &contents, manifest: &manifest, meter: same_semantics.then_some(&meter) };
+        let checked: Vec<Vec<GameCheck>> =
+            folders.par_iter().map(|folders| checker.namesakes(folders)).collect::<Result<_, _>>()?;
+        games = checked.into_iter().flatten().collect();
+        work = meter.exceeded().unwrap_or(meter.spent());
+        match meter.exceeded() {
+            // Which replays came to an end depends on the threads, so nothing is said of any.
+            Some(limit) => problems.push(format!(
+                "games: its witnesses take more than {limit} units of work to replay, the bound for {} levels",
+                declared_levels(&manifest)
+            )),
+            None => problems.extend(games.iter_mut().flat_map(|game| std::mem::take(&mut game.problems))),
+        }
         check_header(&manifest, &mut problems);
+        check_known(&manifest, &mut problems);
         check_held(&manifest, &games, &mut problems);
-        for path in ["README.md", RELEASE_CARD_FILE] {
-            let listed = manifest.items.iter().any(|item| item.path == path);
-            if listed && !carries(&contents.read(path)?, &manifest.canary) {
-                problems.push(format!("{path}: without the release's canary"));
-            }
+        let cards: Option<Vec<&Card>> = games.iter().map(|game| game.card.as_ref()).collect();
+        // Counted only if nothing is left out: what is missing has been named.
+        if let Some(cards) = cards {
+            problems.extend(papers::problems(&contents, &manifest, &cards)?);
         }
     }
     let levels = games.iter().map(|game| game.levels).sum();
@@ -103,10 +136,31 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
             true => Witnesses::Replayed(games.iter().map(|game| game.replayed).sum()),
             false => Witnesses::NotReplayed { semantics: manifest.semantics },
         },
+        work,
         name: manifest.name.clone(),
         problems,
         manifest,
     })
+}
+
+/// Levels that the manifest lists.
+fn declared_levels(manifest: &Manifest) -> usize {
+    let is_level = |path: &str| {
+        path.starts_with("games/") && path.rsplit('/').next().is_some_and(|file| file.starts_with("lvl"))
+    };
+    manifest.items.iter().filter(|item| is_level(&item.path) && item.path.ends_with(".txt")).count()
+}
+
+/// Folders whose names end alike, which those of the same game do, together.
+fn namesakes(folders: BTreeMap<String, Files>) -> Vec<Vec<(String, Files)>> {
+    let mut by_end: BTreeMap<String, Vec<(String, Files)>> = BTreeMap::new();
+    for (folder, files) in folders {
+        let end = folder.char_indices().rev().nth(7).map_or(0, |(at, _)| at);
+        by_end.entry(folder[end..].to_owned()).or_default().push((folder, files));
+    }
+    let mut together: Vec<_> = by_end.into_values().collect();
+    together.sort_by(|one, two| one[0].0.cmp(&two[0].0));
+    together
 }
 
 /// Whether what the manifest states of itself is what its recipe says.
@@ -122,8 +176,44 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
             problems.push(format!("{MANIFEST_FILE}: its `{key}` is not that of its recipe"));
         }
     }
-    if manifest.commitment.is_some_and(|commitment| manifest.canary != canary(&commitment)) {
-        problems.push(format!("{MANIFEST_FILE}: its `canary` is not that of its commitment"));
+    let (of, source) = match manifest.commitment {
+        Some(commitment) => (Some(commitment), "commitment"),
+        // The manifest has been read, so its recipe has a canonical text.
+        None if manifest.generation >= COMPLETE => {
+            (to_canonical_json(&manifest.recipe).ok().map(|text| Digest::of(text.as_bytes())), "recipe")
+        }
+        None => (None, ""),
+    };
+    if of.is_some_and(|of| manifest.canary != canary(&of)) {
+        problems.push(format!("{MANIFEST_FILE}: its `canary` is not that of its {source}"));
+    }
+    if let Some(what) = version::impossible(&manifest.minted_by()) {
+        problems.push(format!("{MANIFEST_FILE}: {what}"));
+    }
+}
+
+/// Whether what the recipe knows of the releases before is what one with this parent, or with none, can know. Whether it
+/// is what the parent has, only the parent tells: see [`chain`](crate::chain).
+fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
+    if manifest.generation < COMPLETE {
+        return;
+    }
+    let mut wrong = |what: &str| problems.push(format!("{MANIFEST_FILE}: the recipe's `known` {what}"));
+    let known = match manifest.recipe.get("known").map(|known| serde_json::from_value(known.clone())) {
+        None => Known::default(),
+        Some(Ok(known)) => known,
+        // Another generation may know more.
+        Some(Err(_)) if manifest.generation != generators::GENERATION => return,
+        Some(Err(error)) => return wrong(&format!("is not what one is ({error})")),
+    };
+    let names: BTreeSet<&String> = known.releases.iter().collect();
+    if names.len() < known.releases.len() || names.contains(&manifest.name) {
+        wrong("names a release twice, or itself");
+    }
+    match manifest.parent {
+        Some(_) if known.releases.is_empty() => wrong("names no release, but there is a parent"),
+        None if known != Known::default() => wrong("is of releases before it, but there is no parent"),
+        _ => {}
     }
 }
 
@@ -162,12 +252,14 @@ fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
 }
 
 /// The files of each game folder, by path below it.
-fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Vec<String>> {
-    let mut folders: BTreeMap<String, Vec<String>> = BTreeMap::new();
+fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Files> {
+    let mut folders: BTreeMap<String, Files> = BTreeMap::new();
     for item in &manifest.items {
         match item.path.strip_prefix("games/").and_then(|rest| rest.split_once('/')) {
-            Some((folder, file)) => folders.entry(folder.to_owned()).or_default().push(file.to_owned()),
-            None if ["README.md", RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
+            Some((folder, file)) => {
+                folders.entry(folder.to_owned()).or_default().insert(file.to_owned());
+            }
+            None if [papers::README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
             None if manifest.kind == Kind::Sealed && item.path.starts_with(HELD) => {}
             None => problems.push(format!("{}: a release has no such file", item.path)),
         }
@@ -176,133 +268,4 @@ fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<Str
         problems.push("games: the release holds no game".to_owned());
     }
     folders
-}
-
-struct GameCheck {
-    levels: usize,
-    replayed: usize,
-    /// Where a sealed release has its witnesses.
-    held: Vec<String>,
-    problems: Vec<String>,
-}
-
-fn check_game(
-    contents: &Contents,
-    manifest: &Manifest,
-    folder: &str,
-    files: &[String],
-    replay: bool,
-) -> Result<GameCheck, SnapshotError> {
-    let mut check = GameCheck { levels: 0, replayed: 0, held: Vec::new(), problems: Vec::new() };
-    let path = |file: &str| format!("games/{folder}/{file}");
-    // The digests hold, so every listed file can be read as a text of its size; what is in it is another matter.
-    let read = |file: &str| -> Result<Option<String>, SnapshotError> {
-        if !files.iter().any(|known| known == file) {
-            return Ok(None);
-        }
-        let bytes = contents.read(&path(file))?;
-        Ok(String::from_utf8(bytes).ok())
-    };
-    let mut wrong = |file: &str, what: String| check.problems.push(format!("{}: {what}", path(file)));
-
-    let Some(source) = read("game.vgdl")? else {
-        wrong("game.vgdl", "missing or not a text".to_owned());
-        return Ok(check);
-    };
-    if !carries(source.as_bytes(), &manifest.canary) {
-        wrong("game.vgdl", "without the release's canary".to_owned());
-    }
-    let game = match Game::from_source(&source) {
-        Ok(game) => game,
-        Err(problems) => {
-            wrong("game.vgdl", format!("not a game: {problems}"));
-            return Ok(check);
-        }
-    };
-    let card: Card = match read("card.json")?.map(|text| serde_json::from_str(&text)) {
-        Some(Ok(card)) => card,
-        Some(Err(error)) => {
-            wrong("card.json", format!("not a card: {error}"));
-            return Ok(check);
-        }
-        None => {
-            wrong("card.json", "missing or not a text".to_owned());
-            return Ok(check);
-        }
-    };
-    if card.id != folder || card.digest != game.digest() || !folder.ends_with(&game.digest().short()) {
-        wrong("card.json", "card, folder name and game do not belong together".to_owned());
-    }
-    if card.canary != manifest.canary {
-        wrong("card.json", "its canary is not the release's".to_owned());
-    }
-    if card.levels.is_empty() {
-        wrong("card.json", "the game has no levels".to_owned());
-    }
-    let mut known = vec!["game.vgdl".to_owned(), "card.json".to_owned()];
-    let (mut levels, mut replayed) = (0, 0);
-    let mut held = Vec::new();
-    for (number, level_card) in card.levels.iter().enumerate() {
-        let (file, witness_file) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
-        let is_sealed = manifest.kind == Kind::Sealed;
-        if is_sealed {
-            held.push(held_witness(folder, number));
-        }
-        let level = match read(&file)?.map(|text| game.level(&text)) {
-            Some(Ok(level)) => level,
-            Some(Err(problems)) => {
-                wrong(&file, format!("not a level of this game: {problems}"));
-                continue;
-            }
-            None => {
-                wrong(&file, "missing or not a text".to_owned());
-                continue;
-            }
-        };
-        levels += 1;
-        if level_card.file != file || level_card.digest != level.digest() {
-            wrong(&file, "card and level do not belong together".to_owned());
-        }
-        let witness = match is_sealed {
-            true => {
-                let bytes = contents.find(&held_witness(folder, number))?;
-                bytes.and_then(|bytes| String::from_utf8(bytes).ok())
-            }
-            false => read(&witness_file)?,
-        };
-        match witness.map(|text| serde_json::from_str::<Witness>(&text)) {
-            Some(Ok(witness)) if witness.canary != manifest.canary => {
-                wrong(&witness_file, "its canary is not the release's".to_owned());
-            }
-            Some(Ok(witness)) if replay => match witness.episode.replay(&game, &level) {
-                Ok(end) if end.outcome() == Outcome::Won => {
-                    replayed += 1;
-                    if witness.episode.actions.len() != level_card.witness_ticks
-                        || end.score() != level_card.witness_score
-                    {
-                        wrong(
-                            "card.json",
-                            format!("not the ticks and score of the episode that wins {file}"),
-                        );
-                    }
-                }
-                Ok(_) => wrong(&witness_file, "the episode does not win".to_owned()),
-                Err(divergence) => wrong(&witness_file, divergence.to_string()),
-            },
-            Some(Ok(_)) => {}
-            Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
-            // Whether all that is held back is there has been looked at.
-            None if is_sealed => {}
-            None => wrong(&witness_file, "missing or not a text".to_owned()),
-        }
-        known.push(file);
-        if !is_sealed {
-            known.push(witness_file);
-        }
-    }
-    for file in files.iter().filter(|file| !known.contains(file)) {
-        wrong(file, "a game has no such file".to_owned());
-    }
-    (check.levels, check.replayed, check.held) = (levels, replayed, held);
-    Ok(check)
 }

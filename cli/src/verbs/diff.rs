@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::failure::Answer;
 use crate::verbs::export::unsound;
 use crate::verbs::release::in_pool;
+use crate::verbs::verify::remark_unreplayed;
 use snapshots::diff::{Change, Changes, Diff, Neighbours, NumberShift, Shift, Side, Status};
 use snapshots::levels::report::Quantiles;
 use snapshots::released::Released;
@@ -43,7 +44,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut sides = Vec::new();
     for path in [&args.before, &args.after] {
         match in_pool(args.jobs, || Released::read(path))? {
-            Ok(released) => sides.push(released),
+            Ok(released) => {
+                remark_unreplayed(&released.manifest, console);
+                sides.push(released);
+            }
             Err(error) => return unsound(error, console),
         }
     }
@@ -135,7 +139,9 @@ fn shift(shift: &Shift, console: &Console) {
 
 fn number(shift: &NumberShift, console: &Console) {
     let told = |quantiles: &Option<Quantiles>| match quantiles {
-        Some(Quantiles { lower, median, upper, .. }) => format!("{median:.4} ({lower:.4} to {upper:.4})"),
+        Some(Quantiles { lower, median, upper, .. }) => {
+            format!("{} ({} to {})", rounded(*median), rounded(*lower), rounded(*upper))
+        }
         None => "–".to_owned(),
     };
     console.say(format_args!(
@@ -145,6 +151,18 @@ fn number(shift: &NumberShift, console: &Console) {
         told(&shift.after),
         verdict(shift.distance, shift.p)
     ));
+}
+
+/// A figure in three digits, or as many as stand before its point, without zeros that say nothing.
+fn rounded(figure: f64) -> String {
+    let decimals = match figure.abs() {
+        size if size >= 100.0 => 1,
+        size if size >= 10.0 => 2,
+        _ => 3,
+    };
+    let text = format!("{figure:.decimals$}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 fn ladder(rungs: &[RungDifference], console: &Console) {
@@ -190,5 +208,27 @@ fn near(neighbours: &Neighbours, console: &Console) {
     ));
     for pair in &neighbours.closest {
         console.say(format_args!("  {:.2}  {}  {}", pair.distance, pair.after, pair.before));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded;
+
+    #[test]
+    fn figures_have_no_more_digits_than_they_say() {
+        for (figure, expect) in [
+            (113.5, "113.5"),
+            (1234.0, "1234"),
+            (100.0, "100"),
+            (12.25, "12.25"),
+            (1.0 / 3.0, "0.333"),
+            (0.25, "0.25"),
+            (0.0, "0"),
+            (-0.0001, "0"),
+            (-2.5, "-2.5"),
+        ] {
+            assert_eq!(rounded(figure), expect);
+        }
     }
 }

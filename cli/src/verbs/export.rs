@@ -85,6 +85,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Ok(released) => released,
         Err(error) => return unsound(error, console),
     };
+    verify::remark_unreplayed(&released.manifest, console);
     let wanted = Export { format, solutions: args.solutions, twin: args.twin };
     let exported = in_pool(args.jobs, || export(&released, &wanted))?.map_err(failure)?;
     let Exported { files, games, levels, left_out } = &exported;
@@ -97,7 +98,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let left_out: Vec<_> =
         left_out.iter().map(|(id, why)| json!({ "game": id, "why": why.to_string() })).collect();
     console.document(&json!({
-        "out": args.out,
+        "out": args.out.display().to_string(),
         "release": manifest.name,
         "root": manifest.root,
         "twin": args.twin,
@@ -143,7 +144,7 @@ fn archive(args: &Args, console: &Console) -> Answer {
         Err(error) => return Err(verify::failure(error)),
     };
     console.document(&json!({
-        "out": args.out, "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
+        "out": args.out.display().to_string(), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
     }))?;
     console
         .say(format_args!("{}: {size} bytes, {unpacked} unpacked, of digest {digest}", args.out.display()));
@@ -169,6 +170,6 @@ fn failure(error: ExportError) -> Failure {
     match error {
         #[cfg(feature = "parquet")]
         error @ ExportError::Parquet(_) => Failure::Environment(error.into()),
-        error @ ExportError::NoTwin(_) => Failure::malformed(error.to_string()),
+        error @ (ExportError::NoTwin(_) | ExportError::Held(_)) => Failure::malformed(error.to_string()),
     }
 }

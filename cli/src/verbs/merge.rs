@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
-use crate::verbs::release::{Finished, mint_failure, read_secret_file};
+use crate::verbs::release::{Finished, in_pool, mint_failure, read_secret_file};
 use crate::verbs::verify::failure;
 use snapshots::Draft;
 use snapshots::mint::{MergeError, Plan, Shards};
@@ -41,6 +41,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             "the shards were not made from the recipe that they name: mint them again",
         ));
     }
+    in_pool(args.jobs, || shards.check(&plan))?.map_err(|error| match error {
+        MergeError::Snapshot(error) => failure(error),
+        other => Failure::Malformed(other.into()),
+    })?;
     let draft = Draft::create(&args.out).map_err(failure)?;
     if plan.is_sealed() {
         draft.keep_private().map_err(failure)?;

@@ -8,17 +8,24 @@ use engine::Digest;
 use serde::Serialize;
 use serde_json::json;
 use snapshots::chain::{Chain, Link, follow};
-use snapshots::{MANIFEST_FILE, SnapshotError, Verification, Witnesses, verify};
+use snapshots::mint::SHARD_FILE;
+use snapshots::{Bounds, MANIFEST_FILE, Manifest, SnapshotError, Verification, Witnesses, verify_within};
+use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
 ///
+/// Without --root, this shows that the snapshot is consistent in itself; that it is the one that was published, only the
+/// published root shows. Witnesses of another arcade's semantics cannot be replayed here: the answer is no, unless
+/// --accept-unreplayed is given. Replays may take 4294967296 units of work and 4194304 for each level, half a minute of one
+/// core; --max-work sets another bound (docs/limits.md).
+///
 /// With --chain, follows the roots back through the releases before it. With --item and --write-proof, writes a small
 /// file that proves one file or one game; with --item, --proof and --root, checks such a proof against the file or the
 /// game's folder alone.
 ///
-/// Exit status 0: sound. 1: not, with every problem named. 2: not a snapshot.
+/// Exit status 0: sound. 1: not, with every problem named, or not replayed. 2: not a snapshot.
 ///
 /// Example: arcade verify releases/starter
 #[derive(clap::Args)]
@@ -41,6 +48,12 @@ pub(crate) struct Args {
     /// The root that was published, to compare with
     #[arg(long, value_name = "DIGEST")]
     root: Option<Digest>,
+    /// Takes a snapshot of other semantics for sound although its witnesses were not replayed
+    #[arg(long)]
+    accept_unreplayed: bool,
+    /// Units of work that all replays together may take, instead of the bound above
+    #[arg(long, value_name = "UNITS", value_parser = clap::value_parser!(u64).range(1..))]
+    max_work: Option<u64>,
 }
 
 /// The answer for programs.
@@ -48,6 +61,8 @@ pub(crate) struct Args {
 struct Document<'a> {
     #[serde(flatten)]
     verification: &'a Verification,
+    /// Whether the root was compared with one from elsewhere.
+    root_compared: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     chain: Option<&'a Chain>,
 }
@@ -61,7 +76,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             "--item needs --write-proof FILE, to write its proof, or --proof FILE and --root DIGEST, to check one",
         ));
     }
-    let mut verification = match verify(&args.snapshot) {
+    let bounds = args.max_work.map_or(Bounds::RELEASE, |work| Bounds { work, work_per_level: 0 });
+    let mut verification = match verify_within(&args.snapshot, &bounds) {
         Ok(verification) => verification,
         Err(error) => match damage(&error) {
             true => return damaged(error, &args.snapshot, console),
@@ -77,13 +93,15 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         folders => Some(follow(Link::of(&verification.manifest, &args.snapshot), folders).map_err(failure)?),
     };
     let broken = chain.as_ref().map_or(0, |chain| chain.problems.len());
-    let sound = verification.problems.is_empty() && broken == 0;
+    let unreplayed = matches!(verification.witnesses, Witnesses::NotReplayed { .. });
+    let sound = verification.problems.is_empty() && broken == 0 && (args.accept_unreplayed || !unreplayed);
     let written = match (&args.write_proof, &args.item) {
         (Some(file), Some(id)) if sound => Some(item::write(&verification.manifest, id, file)?),
         _ => None,
     };
-    console.document(&Document { verification: &verification, chain: chain.as_ref() })?;
-    say(&verification, console);
+    let root_compared = args.root.is_some();
+    console.document(&Document { verification: &verification, root_compared, chain: chain.as_ref() })?;
+    say(&verification, args, console);
     if let Some(chain) = &chain {
         say_chain(chain, console);
     }
@@ -95,7 +113,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(sound)
 }
 
-fn say(verification: &Verification, console: &Console) {
+fn say(verification: &Verification, args: &Args, console: &Console) {
     let Verification { name, root, files, games, levels, witnesses, problems, .. } = verification;
     for problem in problems {
         console.say(one_line(problem));
@@ -113,14 +131,28 @@ fn say(verification: &Verification, console: &Console) {
              the release is revealed"
         )),
         Witnesses::NotReplayed { semantics } => {
+            let newer = if *semantics > engine::SEMANTICS { "a newer arcade, " } else { "an arcade " };
             console.say(format_args!("{name}: the manifest and {files} files, {games} games, {levels} levels"));
             console.say(format_args!(
-                "integrity: ok, witnesses: not replayed (needs an arcade of semantics {semantics}; this one has {})",
+                "integrity: ok, witnesses: not replayed (needs {newer}of semantics {semantics}; this one has {})",
                 engine::SEMANTICS
             ));
+            console.say(match args.accept_unreplayed {
+                true => format!("{name}: accepted without the replay of its witnesses"),
+                false => format!(
+                    "{name}: NOT verified: nothing shows that its levels can be won; use the arcade that minted it, or \
+                     accept that with --accept-unreplayed"
+                ),
+            });
         }
     }
-    console.say(format_args!("root {root}"));
+    console.say(match args.root {
+        Some(_) => format!("root {root}, as given"),
+        None => format!(
+            "root {root}\nconsistent in itself; that it is the published release, only its published root shows: compare \
+             it, or give it with --root"
+        ),
+    });
 }
 
 fn say_chain(chain: &Chain, console: &Console) {
@@ -169,6 +201,18 @@ fn one_line(problem: &str) -> String {
     problem.replace('\n', "\\n")
 }
 
+/// Says of a snapshot that is used without a question that its witnesses were not replayed, if they were not.
+pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
+    if manifest.semantics != engine::SEMANTICS {
+        console.remark(format_args!(
+            "note: the witnesses of {} were not replayed: they need an arcade of semantics {}, and this one has {}",
+            manifest.name,
+            manifest.semantics,
+            engine::SEMANTICS
+        ));
+    }
+}
+
 /// A folder that is no snapshot, or is not there, is a malformed question; a disk that fails is not.
 pub(crate) fn failure(error: SnapshotError) -> Failure {
     match error {
@@ -178,6 +222,7 @@ pub(crate) fn failure(error: SnapshotError) -> Failure {
             absent(path)
         }
         SnapshotError::Io { .. } => Failure::Environment(error.into()),
+        SnapshotError::NotASnapshot { path } | SnapshotError::NotAFolder { path } => no_snapshot(&path),
         _ => Failure::Malformed(error.into()),
     }
 }
@@ -188,4 +233,34 @@ fn absent(path: &Path) -> Failure {
         true => format!("`{shown}` is not a folder: name one; an archive is unpacked first, as with tar -xf"),
         false => format!("`{shown}` does not exist: check the path"),
     })
+}
+
+/// What is there instead of a snapshot, and what a snapshot is.
+fn no_snapshot(path: &Path) -> Failure {
+    let shown = path.display();
+    let ends = |end: &str| path.extension().is_some_and(|found| found == end);
+    let what = match fs::metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => "does not exist: check the path",
+        Err(_) => "cannot be entered: check its permissions",
+        Ok(found) if found.is_dir() && path.join("game.vgdl").exists() => {
+            "is the folder of a game: check that with `arcade validate`"
+        }
+        Ok(found) if found.is_dir() && path.join(SHARD_FILE).exists() => {
+            "is a shard of a snapshot: join the shards with `arcade merge`"
+        }
+        Ok(found) if found.is_dir() && path.join("public").join(MANIFEST_FILE).exists() => {
+            "holds the two parts of a sealed snapshot: name its folder `public`"
+        }
+        Ok(found) if found.is_dir() => "is a folder that has no MANIFEST.json, so it is no snapshot",
+        Ok(found) if !found.is_file() => "is neither a file nor a folder",
+        Ok(_) if path.file_name().is_some_and(|name| name == MANIFEST_FILE) => {
+            "is a manifest: name the folder that it is in"
+        }
+        Ok(_) if ends("vgdl") || ends("txt") => "is a text: check a game with `arcade validate`",
+        Ok(_) if ends("toml") => "is a recipe, perhaps: mint it with `arcade release`",
+        Ok(_) => "is a file, and not the archive of a snapshot",
+    };
+    Failure::malformed(format_args!(
+        "`{shown}` {what}; a snapshot is a folder with MANIFEST.json, or its .tar.zst from `arcade export`"
+    ))
 }

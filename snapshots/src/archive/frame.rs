@@ -13,7 +13,7 @@ use crate::error::SnapshotError;
 use engine::Digest;
 
 /// How a zstd file begins (RFC 8878 §3.1.1).
-pub(super) const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// The logarithm of how far back the compressor looks, in bytes: 8 MiB, which every reader grants.
 const WINDOW_LOG: u8 = 23;
 /// Compression is done once, reading often.

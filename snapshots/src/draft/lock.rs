@@ -1,14 +1,17 @@
 //! Whose `.partial` folder it is: the one process that holds the lock in it.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 
 use crate::error::SnapshotError;
 use crate::folder;
 
-/// The file that is locked. It exists as long as [`TREE`] does, and marks the folder as one of ours.
+/// The file that is locked. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder is ours.
 pub(super) const LOCK: &str = ".lock";
+/// What [`LOCK`] holds. A file of that name that holds anything else is somebody's own.
+pub(super) const MARK: &str =
+    "unfinished work of `arcade`, which replaces or removes it (infinite-arcade draft 1)\n";
 /// The folder with the work.
 pub(super) const TREE: &str = "tree";
 /// The folder with what is kept when the work is interrupted.
@@ -32,7 +35,8 @@ pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
             Err(source) if source.kind() == ErrorKind::NotFound => continue,
             Err(source) => return Err(SnapshotError::io("examine", partial)(source)),
         }
-        let lock = match File::options().write(true).create(true).truncate(false).open(&lock_path) {
+        let options = || File::options().read(true).write(true).create(true).truncate(false).open(&lock_path);
+        let mut lock = match options() {
             Ok(lock) => lock,
             Err(source) if source.kind() == ErrorKind::NotFound => continue,
             Err(source) => return Err(SnapshotError::io("lock", &lock_path)(source)),
@@ -46,31 +50,61 @@ pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
         // The lock counts only if the file is still the one at that path.
         let held = lock.metadata().map_err(SnapshotError::io("lock", &lock_path))?;
         if fs::symlink_metadata(&lock_path).is_ok_and(|found| folder::same_file(&held, &found)) {
+            mark(&mut lock).map_err(SnapshotError::io("lock", &lock_path))?;
             return Ok(lock);
         }
     }
     Err(busy())
 }
 
-/// Whether the folder holds nothing but what a draft makes. Somebody's own `results.partial` is not to be
-/// deleted because `--out results` was asked for.
+/// Writes [`MARK`], and waits until it is on disk: what comes after is known as ours by it.
+fn mark(lock: &mut File) -> io::Result<()> {
+    let mut content = Vec::new();
+    Read::by_ref(lock).take(MARK.len() as u64 + 1).read_to_end(&mut content)?;
+    if content == MARK.as_bytes() {
+        return Ok(());
+    }
+    lock.rewind()?;
+    lock.set_len(0)?;
+    lock.write_all(MARK.as_bytes())?;
+    lock.sync_all()
+}
+
+/// Whether the folder is a draft's: it holds nothing but what a draft makes, and a lock with [`MARK`] unless it holds
+/// nothing at all that could be lost. Somebody's own `results.partial` is not to be deleted because `--out results` was
+/// asked for.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
         return Ok(false);
     }
-    let (mut lock, mut tree) = (false, false);
+    let (mut lock, mut work) = (None, false);
     for entry in fs::read_dir(partial)? {
         let entry = entry?;
         let kind = entry.file_type()?;
         if entry.file_name() == LOCK && kind.is_file() {
-            lock = true;
+            lock = Some(content(&entry.path())?);
         } else if (entry.file_name() == TREE || entry.file_name() == LOTS) && kind.is_dir() {
-            tree = true;
+            work = true;
         } else {
             return Ok(false);
         }
     }
-    Ok(lock || !tree)
+    Ok(match lock {
+        Some(lock) if lock == MARK.as_bytes() => true,
+        // One that was killed, or is about to write it, has made nothing else yet.
+        Some(lock) => MARK.as_bytes().starts_with(&lock) && !work,
+        None => !work,
+    })
+}
+
+/// The first bytes of a lock's file, one more than [`MARK`] has; of one that may not be read while another holds it, as
+/// on Windows, the mark, because the attempt to lock it comes next.
+fn content(lock: &Path) -> io::Result<Vec<u8>> {
+    let mut content = Vec::new();
+    match File::open(lock)?.take(MARK.len() as u64 + 1).read_to_end(&mut content) {
+        Err(_) if cfg!(windows) => Ok(MARK.as_bytes().to_vec()),
+        read => read.map(|_| content),
+    }
 }
 
 #[cfg(test)]
@@ -90,6 +124,43 @@ mod tests {
             fs::write(&mine, "precious").expect("written");
             assert!(matches!(Draft::create(&out), Err(SnapshotError::Foreign { .. })));
             assert_eq!(fs::read(&mine).expect("still there"), b"precious");
+        }
+    }
+
+    /// A lock alone says nothing: only what is in it does.
+    #[test]
+    fn a_lock_of_somebody_else_is_left_alone() {
+        for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "lots/a.json"), ("precious", "")] {
+            let (home, out) = home();
+            let partial = home.path().join("new.partial");
+            fs::create_dir(&partial).expect("created");
+            fs::write(partial.join(LOCK), lock).expect("written");
+            if !other.is_empty() {
+                fs::create_dir_all(partial.join(other).parent().expect("below")).expect("created");
+                fs::write(partial.join(other), "precious").expect("written");
+            }
+            for open in [Draft::create, Draft::resume] {
+                assert!(matches!(open(&out), Err(SnapshotError::Foreign { .. })), "{lock:?} {other}");
+            }
+            assert_eq!(fs::read_to_string(partial.join(LOCK)).expect("still there"), lock);
+            if !other.is_empty() {
+                assert_eq!(fs::read(partial.join(other)).expect("still there"), b"precious");
+            }
+        }
+    }
+
+    /// Killed before the mark was written, or amid it: nothing else is there, and the next run goes on.
+    #[test]
+    fn a_lock_without_its_mark_is_taken_over() {
+        for written in [0, 7, MARK.len()] {
+            let (home, out) = home();
+            let partial = home.path().join("new.partial");
+            fs::create_dir(&partial).expect("created");
+            fs::write(partial.join(LOCK), &MARK[..written]).expect("written");
+            let draft = Draft::create(&out).expect("nothing is lost");
+            assert_eq!(fs::read_to_string(partial.join(LOCK)).expect("there"), MARK);
+            draft.commit().expect("published");
+            assert_eq!(names(home.path()), ["new"]);
         }
     }
 

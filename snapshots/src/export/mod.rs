@@ -82,6 +82,12 @@ pub enum ExportError {
     /// No game has such a twin.
     #[error("no game of the release has such a twin: {}", .0.first().map_or_else(String::new, |(_, why)| why.to_string()))]
     NoTwin(Vec<(String, TwinError)>),
+    /// Solutions are asked for, and the release has none to give.
+    #[error(
+        "`{0}` is sealed, and its solutions are held back: leave --solutions away, or reveal it first, as with `arcade release \
+         PUBLIC --reveal HELD --out DIR`"
+    )]
+    Held(String),
 }
 
 /// Makes an export: rows with a dataset card, or folders of games. Cost: an analysis of each game; of a twin that of making it
@@ -90,6 +96,10 @@ pub enum ExportError {
 /// # Errors
 /// See [`ExportError`].
 pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportError> {
+    let mut levels = released.games.iter().flat_map(|game| &game.levels);
+    if export.solutions && levels.any(|level| level.witness.is_none()) {
+        return Err(ExportError::Held(released.manifest.name.clone()));
+    }
     let dressed = |game| match export.twin {
         None => Ok(Dress::own(game)),
         Some(twin) => twin::of_released(twin, game).and_then(Dress::of_twin),

@@ -1,7 +1,5 @@
 //! Whether a manifest is sound in itself: everything but the syntax, the root and the files.
 
-use std::collections::BTreeMap;
-
 use super::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, OLDEST_FORMAT};
 use crate::canary::is_canary;
 use crate::error::SnapshotError;
@@ -90,30 +88,53 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
 
 /// Whether the items are the files of one folder tree on any file system: no file is also a folder, and no two
 /// names differ in capitals only.
+///
+/// Each item is compared with the one before it in the order of a folder tree, so that nothing is kept of the paths:
+/// memory is two words an item, and the walk ends with the first folder beyond the limit.
 fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
-    let mut names: BTreeMap<String, (&str, bool)> = BTreeMap::new();
+    let mut paths: Vec<&str> = items.iter().map(|item| item.path.as_str()).collect();
+    paths.sort_unstable_by(|a, b| tree_order(a).cmp(tree_order(b)));
     let mut folders = 0;
-    for item in items {
-        let path = item.path.as_str();
-        let ends = path.match_indices('/').map(|(end, _)| (end, true)).chain([(path.len(), false)]);
-        for (end, folder) in ends {
-            let name = &path[..end];
-            match names.insert(name.to_ascii_lowercase(), (name, folder)) {
-                Some((other, _)) if other != name => {
-                    return Err(unsound(format!("`{other}` and `{name}` differ in capitals only")));
-                }
-                Some((_, was_folder)) if was_folder != folder => {
-                    return Err(unsound(format!("`{name}` is both a file and a folder")));
-                }
-                Some(_) => {}
-                None => folders += u64::from(folder),
-            }
+    let mut before = "";
+    for path in paths {
+        let depth = path.matches('/').count();
+        let shared = shared_components(before, path)?;
+        folders += (depth - shared.min(depth)) as u64;
+        if folders > limits.files {
+            return Err(unsound(format!("more than {} folders are too many", limits.files)));
         }
-    }
-    if folders > limits.files {
-        return Err(unsound(format!("{folders} folders are too many (the limit is {})", limits.files)));
+        before = path;
     }
     Ok(())
+}
+
+/// The bytes by which a path is sorted so that everything in a folder stands together, whatever its capitals: no
+/// character of a path comes before the separator.
+fn tree_order(path: &str) -> impl Iterator<Item = u8> {
+    path.bytes().map(|byte| if byte == b'/' { 0 } else { byte.to_ascii_lowercase() })
+}
+
+/// The number of leading components that two paths, neighbours in the order of the tree, have in common.
+fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
+    let (mut shared, mut ends) = (0, (0, 0));
+    for (one, two) in before.split('/').zip(path.split('/')).take_while(|(a, b)| a.eq_ignore_ascii_case(b)) {
+        if one.is_empty() {
+            break;
+        }
+        ends = (ends.0 + one.len(), ends.1 + two.len());
+        if one != two {
+            let (first, second) = (&before[..ends.0], &path[..ends.1]);
+            let (first, second) = (first.min(second), first.max(second));
+            return Err(unsound(format!("`{first}` and `{second}` differ in capitals only")));
+        }
+        ends = (ends.0 + 1, ends.1 + 1);
+        shared += 1;
+    }
+    // The file before is a folder here: the other way about, it would come after what is in the folder.
+    if shared > 0 && before.split('/').count() == shared {
+        return Err(unsound(format!("`{before}` is both a file and a folder")));
+    }
+    Ok(shared)
 }
 
 #[cfg(test)]
@@ -181,5 +202,75 @@ mod tests {
         let deep = [Item::of("a/b/c/d", b"")];
         assert!(check_items(&deep, &Limits { files: 3, ..*limits }).is_ok());
         assert!(check_items(&deep, &Limits { files: 2, ..*limits }).is_err());
+    }
+
+    fn items_at(paths: impl IntoIterator<Item = String>) -> Vec<Item> {
+        let mut items: Vec<Item> = paths.into_iter().map(|path| Item::of(path, b"")).collect();
+        items.sort_by(|a, b| a.path.cmp(&b.path));
+        items
+    }
+
+    /// Half a megabyte in an archive that took three gigabytes: 99,999 items in as many folders, each 124 deep.
+    #[test]
+    fn deep_paths_are_refused_before_anything_is_kept_of_them() {
+        let deep = items_at((0..99_999).map(|n| format!("g{n:05}{}", "/a".repeat(124))));
+        let mut found = None;
+        let memory = allocation_counter::measure(|| found = check_items(&deep, &Limits::SNAPSHOT).err());
+        let error = found.expect("too deep").to_string();
+        assert!(error.contains("more than 16 components"), "{error}");
+        assert!(memory.bytes_max < 65_536, "{memory:?}");
+    }
+
+    /// As deep as may be: the folders are counted, not kept, and not further than the limit.
+    #[test]
+    fn folders_are_counted_in_small_memory() {
+        let wide = items_at((0..99_999).map(|n| format!("g{n:05}{}", "/a".repeat(15))));
+        let mut found = None;
+        let memory = allocation_counter::measure(|| found = check_items(&wide, &Limits::SNAPSHOT).err());
+        let error = found.expect("too many").to_string();
+        assert!(error.contains("more than 100000 folders"), "{error}");
+        assert!(memory.bytes_max < 4 << 20, "{memory:?}");
+        let shared = items_at((0..99_999).map(|n| format!("games/g{}/f{n:05}", n / 2)));
+        assert!(check_items(&shared, &Limits::SNAPSHOT).is_ok());
+    }
+
+    /// What a tree of names, kept whole, says of the same paths.
+    fn by_names(items: &[Item], limit: usize) -> bool {
+        let mut names = std::collections::BTreeMap::new();
+        let mut folders = std::collections::BTreeSet::new();
+        items.iter().all(|item| {
+            let path = item.path.as_str();
+            path.match_indices('/').map(|(end, _)| (end, true)).chain([(path.len(), false)]).all(
+                |(end, folder)| {
+                    let name = &path[..end];
+                    if folder {
+                        folders.insert(name);
+                    }
+                    let known = names.entry(name.to_ascii_lowercase()).or_insert((name, folder));
+                    *known == (name, folder)
+                },
+            )
+        }) && folders.len() <= limit
+    }
+
+    #[test]
+    fn the_walk_says_what_a_tree_of_names_says() {
+        let mut sampler = engine::Seed::from_text("trees").sampler();
+        let names = ["a", "A", "b", "a-b", "a.b", "B", "c"];
+        let mut counts = [0; 2];
+        for _ in 0..4000 {
+            let paths: std::collections::BTreeSet<String> = (0..1 + sampler.below(5))
+                .map(|_| {
+                    let depth = 1 + sampler.below(3);
+                    (0..depth).map(|_| *sampler.choose(&names)).collect::<Vec<_>>().join("/")
+                })
+                .collect();
+            let items = items_at(paths);
+            let expect = by_names(&items, 3);
+            let found = check_tree(&items, &Limits { files: 3, ..Limits::SNAPSHOT });
+            assert_eq!(found.is_ok(), expect, "{items:?} {found:?}");
+            counts[usize::from(expect)] += 1;
+        }
+        assert!(counts.iter().all(|count| *count > 500), "{counts:?}");
     }
 }

@@ -194,7 +194,7 @@ mod tests {
     use crate::recipe::Recipe;
 
     /// Fetch the gem and leave, before time is up.
-    const FETCH: &str = "BasicGame
+    pub(super) const FETCH: &str = "BasicGame
     SpriteSet
         floor > Immovable
         wall > Immovable
@@ -216,7 +216,7 @@ mod tests {
         Timeout limit=50 win=False
 ";
 
-    fn corpus(sources: &[(&str, &str)]) -> Corpus {
+    pub(super) fn corpus(sources: &[(&str, &str)]) -> Corpus {
         let game = |&(name, source): &(&str, &str)| {
             let words = || name.to_owned();
             let card = CorpusCard {
@@ -234,7 +234,7 @@ mod tests {
     }
 
     /// One corpus game with one level.
-    fn recipe(seed: &str) -> Recipe {
+    pub(super) fn recipe(seed: &str) -> Recipe {
         let text = format!(
             "name = 'one'\ndescription = 'one'\nseed = '{seed}'\n[corpus]\ngames = 1\nlevels = 1\n\
              [criteria]\nask = ['not-idle', 'not-random', 'winnable']\nbudget = 20000\n"

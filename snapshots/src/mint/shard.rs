@@ -8,17 +8,21 @@
 //! ```
 
 use super::MintError;
-use super::lot::LotResult;
+use super::lot::{FrozenGame, LotResult};
 use super::plan::{Lot, Plan};
 use super::shelf::{LotFolder, Shelf};
 use crate::canonical::to_canonical_json;
+use crate::card::LevelCard;
 use crate::folder::{self, Limits};
 use crate::manifest::{Item, MANIFEST_LIMIT};
 use crate::recipe::Recipe;
+use crate::verify::{number_problems, replay_problem};
 use crate::version::{CURRENT, MintedBy};
 use crate::{Digest, Draft, SnapshotError};
+use engine::{Episode, Game};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -166,6 +170,8 @@ pub enum MergeError {
 pub struct Shards {
     recipe: Recipe,
     plan: Digest,
+    /// Each with its folder and the paths of its lots.
+    shards: Vec<(PathBuf, Shard, BTreeSet<String>)>,
     /// By the lot's path: its folder, and what is to be there.
     lots: BTreeMap<String, (PathBuf, Item)>,
 }
@@ -212,7 +218,41 @@ impl Shards {
             return Err(MergeError::Missing(missing.join(", ")));
         }
         head.recipe.check().map_err(|error| unsound(first, format!("its recipe: {error}")))?;
-        Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, lots })
+        let paths = |file: &ShardFile| file.lots.iter().map(|item| item.path.clone()).collect();
+        let shards = read.iter().map(|(folder, file)| ((*folder).clone(), file.shard, paths(file))).collect();
+        Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, lots })
+    }
+
+    /// Checks what costs little beside minting: that each shard has the lots that the plan deals out to it and no other,
+    /// and that every game in them is what its card says, with levels of its own whose witnesses replay to wins.
+    ///
+    /// That the games are those that the seed gives, and the numbers those that their judges found, only minting them
+    /// again shows. Cost: a replay of every witness, on all threads of the current rayon pool.
+    ///
+    /// # Errors
+    /// A shard or a lot is not as it is minted, or the file system refuses.
+    pub fn check(&self, plan: &Plan<'_>) -> Result<(), MergeError> {
+        for (folder, shard, listed) in &self.shards {
+            let dealt: BTreeSet<String> =
+                shard.lots(plan).into_iter().map(|lot| path(&plan.name(lot))).collect();
+            if let Some(other) = listed.symmetric_difference(&dealt).next() {
+                let what = if dealt.contains(other) { "lacks" } else { "lists" };
+                let why = format!("{what} `{}`, unlike shard {shard} of this plan", other.escape_debug());
+                return Err(unsound(folder, why));
+            }
+        }
+        let names: Vec<String> = plan.lots().iter().map(|lot| plan.name(*lot)).collect();
+        names.par_iter().try_for_each(|name| {
+            let place = |what: String| {
+                let place = self.lots.get(&path(name)).map(|(folder, item)| folder.join(&item.path));
+                MergeError::Unsound { path: place.unwrap_or_default(), what }
+            };
+            let lot = self.get(name)?.ok_or_else(|| place("not a lot of this plan: mint it again".into()))?;
+            let wrong = lot.games.iter().find_map(problem);
+            wrong.map_or(Ok(()), |what| {
+                Err(place(format!("{what}; minting makes no such lot: mint it again")))
+            })
+        })
     }
 
     /// What all of them are shards of.
@@ -224,6 +264,31 @@ impl Shards {
     pub fn are_of(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         Ok(plan.digest()? == self.plan)
     }
+}
+
+/// The first thing that is wrong with a game of a lot.
+fn problem(frozen: &FrozenGame) -> Option<String> {
+    let FrozenGame { text, card, levels, witnesses } = frozen;
+    let id = card.id.escape_debug();
+    let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
+    if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
+        return Some(format!("`{id}` is not the game that its card tells of"));
+    }
+    if levels.is_empty() || levels.len() != witnesses.len() || levels.len() != card.levels.len() {
+        return Some(format!("`{id}` does not have a witness and a place in its card for each level"));
+    }
+    let of_level = |((number, text), (episode, told)): ((usize, &String), (&Episode, &LevelCard))| {
+        let Ok(level) = game.level(text) else { return Some("no level of the game".to_owned()) };
+        if told.file != format!("lvl{number}.txt") || told.digest != level.digest() {
+            return Some("not the level that the card tells of".to_owned());
+        }
+        if (episode.actions.len(), episode.score) != (told.witness_ticks, told.witness_score) {
+            return Some("not the ticks and score of its witness in the card".to_owned());
+        }
+        number_problems(told, &level).into_iter().next().or_else(|| replay_problem(episode, &game, &level))
+    };
+    let each = levels.iter().enumerate().zip(witnesses.iter().zip(&card.levels));
+    each.enumerate().find_map(|(number, level)| Some(format!("`{id}`, level {number}: {}", of_level(level)?)))
 }
 
 fn unsound(folder: &Path, what: String) -> MergeError {
@@ -280,7 +345,9 @@ impl Shelf for Shards {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Memory, make_lots, tests};
     use super::*;
+    use std::fs;
 
     #[test]
     fn shards_are_numbered_from_one() {
@@ -290,5 +357,65 @@ mod tests {
         for bad in ["", "1", "0/4", "5/4", "1/0", "a/b", "1/20000", "-1/3"] {
             assert!(bad.parse::<Shard>().is_err(), "{bad}");
         }
+    }
+
+    /// A shard of one lot, changed by a forger who states the digests of what is there.
+    #[track_caller]
+    fn check(alter: impl Fn(&mut FrozenGame), list: impl Fn(&mut ShardFile), expect: Option<&str>) {
+        let (corpus, recipe) = (tests::corpus(&[("fetch", tests::FETCH)]), tests::recipe("a"));
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let shelf = Memory::default();
+        make_lots(&plan, plan.lots(), &shelf, &()).unwrap();
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("shard");
+        let draft = Draft::create(&folder).unwrap();
+        "1/1".parse::<Shard>().unwrap().write(&plan, &shelf, &draft).unwrap();
+        draft.commit().unwrap();
+
+        let mut file = shard_file(&folder).unwrap();
+        let place = folder.join(&file.lots[0].path);
+        let digest = plan.digest().unwrap();
+        let mut lot = LotFolder::parse(digest, &fs::read(&place).unwrap()).unwrap().unwrap();
+        alter(&mut lot.games[0]);
+        let text = LotFolder::text(digest, &lot).unwrap();
+        fs::write(&place, &text).unwrap();
+        file.lots[0] = Item::of(file.lots[0].path.clone(), text.as_bytes());
+        list(&mut file);
+        fs::write(folder.join(SHARD_FILE), to_canonical_json(&file).unwrap()).unwrap();
+
+        let shards = Shards::open(&[folder]).unwrap();
+        assert!(shards.are_of(&plan).unwrap());
+        match (shards.check(&plan), expect) {
+            (Ok(()), None) => {}
+            (Err(error), Some(words)) => assert!(error.to_string().contains(words), "{error}"),
+            (found, expect) => panic!("{found:?}, not {expect:?}"),
+        }
+    }
+
+    #[test]
+    fn forged_lots_are_not_merged() {
+        let same = |_: &mut ShardFile| ();
+        check(|_| (), same, None);
+        check(|game| game.text = "BasicGame".into(), same, Some("is no game"));
+        check(|game| game.text = tests::FETCH.into(), same, Some("is not the game that its card tells of"));
+        check(|game| game.levels[0] = "x".into(), same, Some("level 0: no level of the game"));
+        check(
+            |game| drop(game.witnesses.pop()),
+            same,
+            Some("a witness and a place in its card for each level"),
+        );
+        check(|game| game.card.levels[0].difficulty = 1e300, same, Some("level 0: a difficulty of 1"));
+        check(|game| game.card.levels[0].random.wins = 99, same, Some("`random` has 99 wins"));
+        check(|game| game.card.levels[0].witness_ticks += 1, same, Some("not the ticks and score"));
+        check(
+            |game| game.witnesses[0].seed = engine::Seed::from_text("x"),
+            same,
+            Some("level 0: the state after"),
+        );
+        let action = |game: &mut FrozenGame| game.witnesses[0].hashes.swap(0, 1);
+        check(action, same, Some("level 0: the state after tick 0"));
+        check(|_| (), |file| drop(file.lots.pop()), Some("lacks `lots/corpus-fetch.json`"));
+        let other = |file: &mut ShardFile| file.lots.push(Item::of("lots/search-0.json", b""));
+        check(|_| (), other, Some("lists `lots/search-0.json`"));
     }
 }

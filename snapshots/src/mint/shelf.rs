@@ -2,6 +2,7 @@
 
 use super::lot::LotResult;
 use crate::canonical::to_canonical_json;
+use crate::draft::sync::{create_folder, sync_folder};
 use crate::folder;
 use crate::{Digest, SnapshotError};
 use serde::{Deserialize, Serialize};
@@ -75,7 +76,7 @@ impl LotFolder {
     /// # Errors
     /// The folder has lots of another plan, or the file system refuses.
     pub fn open(folder: &Path, plan: Digest) -> Result<LotFolder, SnapshotError> {
-        fs::create_dir_all(folder).map_err(SnapshotError::io("create", folder))?;
+        create_folder(folder)?;
         let whose = folder.join(WHOSE);
         let is_marked = match fs::read_to_string(&whose) {
             Ok(text) if text == plan.to_string() => true,
@@ -105,7 +106,8 @@ impl LotFolder {
             file.sync_all()?;
             fs::rename(&fresh, path)
         };
-        write().map_err(SnapshotError::io("write", path))
+        write().map_err(SnapshotError::io("write", path))?;
+        sync_folder(&self.folder)
     }
 
     /// The text of a lot's file.
@@ -148,6 +150,18 @@ impl Shelf for LotFolder {
 mod tests {
     use super::*;
     use crate::mint::Tally;
+
+    /// The names of the folder, of the note whose lots these are, and of the lot are waited for.
+    #[test]
+    fn a_lot_that_is_put_away_stays() {
+        let home = tempfile::tempdir().unwrap();
+        let lots = home.path().join("lots");
+        crate::draft::sync::record::synced();
+        let shelf = LotFolder::open(&lots, Digest::of(b"plan")).unwrap();
+        shelf.put("a", &LotResult { games: Vec::new(), tally: Tally::default() }).unwrap();
+        let synced = crate::draft::sync::record::synced();
+        assert_eq!(synced, [home.path().to_path_buf(), lots.clone(), lots]);
+    }
 
     #[test]
     fn a_lot_that_is_cut_changed_or_of_another_plan_does_not_count() {

@@ -2,7 +2,7 @@
 
 use crate::small::{Small, home, small};
 use snapshots::archive::{Archive, pack};
-use snapshots::{MANIFEST_FILE, SnapshotError, check_integrity, verify};
+use snapshots::{Draft, MANIFEST_FILE, SnapshotError, check_integrity, verify};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -124,12 +124,15 @@ fn packing_is_careful() {
     assert!(matches!(pack(&folder, &file), Err(SnapshotError::Taken { .. })));
     assert_eq!(fs::read(&file).expect("there"), b"mine");
     fs::remove_file(&file).expect("removed");
-    // What a killed run left is replaced, and nothing else.
+    // What a killed run left is replaced, and nothing else: not what is empty, nor what begins as an archive does.
     let partial = home.path().join("mole.tar.zst.partial");
-    fs::write(&partial, "mine").expect("written");
-    assert!(matches!(pack(&folder, &file), Err(SnapshotError::Foreign { .. })));
-    assert_eq!(fs::read(&partial).expect("there"), b"mine");
-    fs::write(&partial, [&b"\x28\xb5\x2f\xfd"[..], &[7; 100_000]].concat()).expect("written");
+    for mine in [&b"mine"[..], b"", &[&b"\x28\xb5\x2f\xfd"[..], &[7; 100_000]].concat()] {
+        fs::write(&partial, mine).expect("written");
+        assert!(matches!(pack(&folder, &file), Err(SnapshotError::Foreign { .. })));
+        assert_eq!(fs::read(&partial).expect("there"), mine);
+    }
+    fs::remove_file(&partial).expect("removed");
+    drop(Draft::create(&file).expect("vacant"));
     pack(&folder, &file).expect("packed");
     assert!(Archive::open(&file).expect("sound").integrity.is_sound());
     assert!(!partial.exists());
@@ -163,23 +166,23 @@ fn check_bytes(file: &Path, bytes: &[u8], names: &str, what: &str) {
 #[test]
 fn entries_that_no_release_has() {
     let level = "games/mole-";
-    // The entries: manifest, README, card, game, level, witness.
-    check(&|e| drop(e.list.remove(4)), "witness/lvl0.json", "out of order");
-    check(&|e| drop(e.list.remove(5)), level, "witness/lvl0.json: missing");
-    check(&|e| e.list.truncate(1), "README.md", "missing");
+    // The entries: manifest, the release's card, README, card, game, level, witness.
+    check(&|e| drop(e.list.remove(5)), "witness/lvl0.json", "out of order");
+    check(&|e| drop(e.list.remove(6)), level, "witness/lvl0.json: missing");
+    check(&|e| e.list.truncate(1), "CARD.json", "missing");
     check(&|e| e.list.clear(), "MANIFEST.json", "");
-    check(&|e| e.list.swap(0, 1), "MANIFEST.json", "it has to come first, and `mole/README.md` does");
-    check(&|e| e.list.swap(2, 3), "game.vgdl", "out of order");
-    check(&|e| e.add(2, "README.md", b"other"), "README.md", "a second time");
-    check(&|e| e.add(6, "README.md", b"other"), "README.md", "a second time");
-    check(&|e| e.add(6, MANIFEST_FILE, b"other"), MANIFEST_FILE, "a second time");
-    check(&|e| e.add(6, "games/x", b"other"), "games/x", "extra");
+    check(&|e| e.list.swap(0, 1), "MANIFEST.json", "it has to come first, and `mole/CARD.json` does");
+    check(&|e| e.list.swap(3, 4), "game.vgdl", "out of order");
+    check(&|e| e.add(3, "README.md", b"other"), "README.md", "a second time");
+    check(&|e| e.add(7, "README.md", b"other"), "README.md", "a second time");
+    check(&|e| e.add(7, MANIFEST_FILE, b"other"), MANIFEST_FILE, "a second time");
+    check(&|e| e.add(7, "games/x", b"other"), "games/x", "extra");
     check(&|e| e.add(1, "A", b"other"), "A", "extra");
-    check(&|e| e.list[1].1.push(b'x'), "README.md", "");
-    check(&|e| e.list[1].1[3] ^= 1, "README.md", "altered");
+    check(&|e| e.list[2].1.push(b'x'), "README.md", "");
+    check(&|e| e.list[2].1[3] ^= 1, "README.md", "altered");
     check(
         &|e| {
-            let (header, content) = &mut e.list[1];
+            let (header, content) = &mut e.list[2];
             content.push(b'x');
             header.set_size(content.len() as u64);
         },
@@ -190,14 +193,14 @@ fn entries_that_no_release_has() {
 
 #[test]
 fn headers_that_no_release_has() {
-    check(&|e| e.list[1].0.set_mode(0o755), "README.md", "another owner, mode");
-    check(&|e| e.list[1].0.set_uid(1000), "README.md", "another owner");
-    check(&|e| e.list[1].0.set_gid(1000), "README.md", "another owner");
-    check(&|e| e.list[1].0.set_mtime(1), "README.md", "another owner");
-    check(&|e| e.list[1].0.set_username("me").expect("short"), "README.md", "another owner");
-    check(&|e| e.list[1].0.set_device_major(1).expect("ustar"), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_mode(0o755), "README.md", "another owner, mode");
+    check(&|e| e.list[2].0.set_uid(1000), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_gid(1000), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_mtime(1), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_username("me").expect("short"), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_device_major(1).expect("ustar"), "README.md", "another owner");
     check(&|e| e.list[0].0.set_mode(0o600), "MANIFEST.json", "another owner");
-    let kind = |kind: EntryType| move |e: &mut Entries| e.list[1].0.set_entry_type(kind);
+    let kind = |kind: EntryType| move |e: &mut Entries| e.list[2].0.set_entry_type(kind);
     check(&kind(EntryType::Symlink), "README.md", "symbolic link");
     check(&kind(EntryType::Link), "README.md", "hard link");
     check(&kind(EntryType::Char), "README.md", "neither a file nor a folder");
@@ -212,8 +215,8 @@ fn headers_that_no_release_has() {
     check(&kind(EntryType::new(b'Z')), "README.md", "unknown kind 0x5a");
     check(
         &|e| {
-            e.list[1].0.set_entry_type(EntryType::Symlink);
-            e.list[1].0.set_link_name("../../etc/passwd").expect("short");
+            e.list[2].0.set_entry_type(EntryType::Symlink);
+            e.list[2].0.set_link_name("../../etc/passwd").expect("short");
         },
         "README.md",
         "symbolic link",
@@ -228,7 +231,7 @@ fn headers_that_no_release_has() {
 fn names_that_lead_elsewhere() {
     let name = |path: &'static str| {
         move |e: &mut Entries| {
-            let field = &mut e.list[1].0.as_ustar_mut().expect("ustar").name;
+            let field = &mut e.list[2].0.as_ustar_mut().expect("ustar").name;
             *field = [0; 100];
             field[..path.len()].copy_from_slice(path.as_bytes());
         }
@@ -352,7 +355,39 @@ fn bombs() {
     // An entry that says it is large.
     check(&|e| e.list[0].0.set_size(1 << 40), "MANIFEST.json", "larger than 67108864 bytes");
     check(&|e| e.list[0].0.set_size(1 << 20), "MANIFEST.json", "too short");
-    check(&|e| e.list[1].0.set_size(1 << 40), "README.md", "wrong size (1099511627776 bytes");
+    check(&|e| e.list[2].0.set_size(1 << 40), "README.md", "wrong size (1099511627776 bytes");
+}
+
+/// Half a megabyte that took three gigabytes: a manifest of 99,999 items, each in 124 folders of its own.
+#[test]
+fn manifests_of_deep_paths() {
+    let honest = small("mole", None);
+    let text = String::from_utf8(honest.manifest.to_bytes().expect("sound")).expect("JSON");
+    let (start, end) =
+        (text.find("\"items\": [").expect("items"), text.find("\n  ],\n  \"kind\"").expect("kind"));
+    let digest = engine::Digest::of(b"");
+    let folders = "/a".repeat(124);
+    let item = |n| {
+        format!(
+            "\n    {{\n      \"digest\": \"{digest}\",\n      \"path\": \"g{n:05}{folders}\",\n      \"size\": 0\n    }}"
+        )
+    };
+    let items: Vec<String> = (0..99_999).map(item).collect();
+    let bomb = format!("{}\"items\": [{}{}", &text[..start], items.join(","), &text[end..]).into_bytes();
+    drop(items);
+    let size = bomb.len() as u64;
+    let mut entries = Entries::of(&honest);
+    entries.list = vec![(header("mole/MANIFEST.json", size), bomb)];
+    let home = home();
+    let file = home.path().join("mole.tar.zst");
+    fs::write(&file, compress(&entries.tar())).expect("written");
+    drop(entries);
+    let mut error = None;
+    let memory = allocation_counter::measure(|| error = verify(&file).err());
+    let error = error.expect("too deep").to_string();
+    assert!(error.contains("more than 16 components"), "{error}");
+    // The manifest's bytes while they come, and its items once.
+    assert!(memory.bytes_max < 4 * size, "{memory:?}, for {size} bytes");
 }
 
 /// A recipe may be any JSON. One that nests deeply would be indented to hundreds of times its size, and is not read that

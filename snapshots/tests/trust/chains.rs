@@ -1,17 +1,20 @@
 //! Chains of releases in folders.
 
 use crate::small::{Small, home, small};
+use engine::{Digest, Seed};
+use serde_json::json;
 use snapshots::archive::pack;
+use snapshots::canonical::to_canonical_json;
 use snapshots::chain::{Chain, Link, follow};
-use snapshots::{SnapshotError, verify};
+use snapshots::{SnapshotError, canary, verify};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::slice::from_ref;
 
 fn three() -> [Small; 3] {
     let first = small("2026-12", None);
-    let second = small("2027-01", Some(first.manifest.root));
-    let third = small("2027-02", Some(second.manifest.root));
+    let second = small("2027-01", Some(&first));
+    let third = small("2027-02", Some(&second));
     [first, second, third]
 }
 
@@ -56,7 +59,7 @@ fn a_folder_of_releases() {
 fn a_sealed_release_lies_one_folder_deeper() {
     let home = home();
     let [first, _, _] = three();
-    let second = small("2027-01", Some(first.manifest.root)).write_in(&home);
+    let second = small("2027-01", Some(&first)).write_in(&home);
     let place = first.write_in(&home);
     fs::create_dir(home.path().join("sealed")).expect("created");
     fs::rename(place, home.path().join("sealed/public")).expect("moved");
@@ -80,7 +83,7 @@ fn archives_are_links_too() {
 fn other_archives_are_left_alone() {
     let home = home();
     let [first, _, _] = three();
-    let second = small("2027-01", Some(first.manifest.root)).write_in(&home);
+    let second = small("2027-01", Some(&first)).write_in(&home);
     let place = first.write_in(&home);
     let all = [home.path().to_path_buf()];
     let mut tar = tar::Builder::new(Vec::new());
@@ -125,8 +128,8 @@ fn a_spoiled_link_is_named_and_not_followed() {
 fn two_histories_are_told() {
     let home = home();
     let [first, _, third] = three();
-    let second = small("2027-01", Some(first.manifest.root));
-    let fork = small("2027-01-b", Some(first.manifest.root));
+    let second = small("2027-01", Some(&first));
+    let fork = small("2027-01-b", Some(&first));
     let places: Vec<PathBuf> =
         [&first, &second, &third, &fork].iter().map(|release| release.write_in(&home)).collect();
     let all = [home.path().to_path_buf()];
@@ -136,4 +139,89 @@ fn two_histories_are_told() {
     assert!(chain.complete && chain.others == 1);
     // From the fork, the others are the other history.
     check(&places[3], &all, &["2027-01-b", "2026-12"], &["two histories"]);
+}
+
+/// A rival that follows a release which is not there stays no secret.
+#[test]
+fn the_follower_of_an_absent_rival_is_told() {
+    let home = home();
+    let [first, second, third] = three();
+    let rival = small("2027-01-b", Some(&first));
+    let after = small("2027-02-b", Some(&rival)).write_in(&home);
+    let places = [&first, &second, &third].map(|release| release.write_in(&home));
+    let all = [home.path().to_path_buf()];
+    let expect = format!("`2027-02-b` in {} follows the release with root", after.display());
+    check(&places[2], &all, &["2027-02", "2027-01", "2026-12"], &[&expect]);
+    check(&places[2], &places, &["2027-02", "2027-01", "2026-12"], &[]);
+}
+
+/// The recipe of a release and its canary, changed by a forger.
+fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
+    alter(&mut release.manifest.recipe);
+    let text = to_canonical_json(&release.manifest.recipe).expect("plain data");
+    let mark = canary(&Digest::of(text.as_bytes()));
+    let old = std::mem::replace(&mut release.manifest.canary, mark.clone());
+    for (_, content) in &mut release.files {
+        *content = String::from_utf8(content.clone()).expect("a text").replace(&old, &mark).into_bytes();
+    }
+    release.seal();
+}
+
+/// What a release states to know is what the parent has, and what it holds is new.
+#[test]
+fn what_is_known_is_what_the_parent_holds() {
+    let first = small("2026-12", None);
+    let honest = small("2027-01", Some(&first));
+    let known = |alter: &dyn Fn(&mut serde_json::Value), words: &str| {
+        let home = home();
+        let mut second = honest.clone();
+        restate(&mut second, |recipe| alter(&mut recipe["known"]));
+        first.write_in(&home);
+        let second = second.write_in(&home);
+        check(&second, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[words]);
+    };
+    let not_known = "does not know what the releases before it hold";
+    known(&|known| known["items"] = json!([]), not_known);
+    known(&|known| known["items"] = json!([Digest::of(b"x")]), not_known);
+    known(&|known| known["games"] = json!(["BasicGame"]), not_known);
+    known(&|known| known["releases"] = json!(["2026-11"]), not_known);
+
+    // A copy of the parent that states honestly what it knows.
+    let home = home();
+    let mut copy = first.clone();
+    let recipe = honest.manifest.recipe.clone();
+    (copy.manifest.name, copy.manifest.parent) = (honest.manifest.name.clone(), honest.manifest.parent);
+    restate(&mut copy, |stated| *stated = recipe);
+    first.write_in(&home);
+    let copy = copy.write_in(&home);
+    let words = "holds what came before it: games/mole-";
+    check(&copy, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[words]);
+}
+
+/// Archives are read one after the other, and not kept: memory for one file of one.
+#[test]
+fn archives_of_a_chain_are_not_kept() {
+    let home = home();
+    let mut sampler = Seed::from_text("noise").sampler();
+    let noise: Vec<u8> = (0..1 << 20).map(|_| sampler.below(256) as u8).collect();
+    let [mut first, _, _] = three();
+    for number in 0..8 {
+        first.files.push((format!("games/noise{number}"), noise.clone()));
+    }
+    first.seal();
+    let second = small("2027-01", Some(&three()[0])).write_in(&home);
+    fs::create_dir(home.path().join("others")).expect("created");
+    for number in 0..3 {
+        let place = first.write_in(&home);
+        pack(&place, &home.path().join(format!("others/{number}.tar.zst"))).expect("packed");
+        fs::remove_dir_all(place).expect("removed");
+    }
+    let start = Link::of(&verify(&second).expect("readable").manifest, &second);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let memory = pool.install(|| {
+        allocation_counter::measure(|| {
+            follow(start, &[home.path().join("others")]).expect("readable");
+        })
+    });
+    assert!(memory.bytes_max < 4 << 20, "{memory:?}");
 }

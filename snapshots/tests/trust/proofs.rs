@@ -2,7 +2,8 @@
 
 use crate::small::small;
 use engine::{Digest, Seed};
-use snapshots::proof::{ItemProof, MAX_PROOF, ProofError};
+use snapshots::merkle;
+use snapshots::proof::{FileProof, ItemProof, MAX_PROOF, ProofError};
 use std::convert::Infallible;
 
 fn digest_of(release: &crate::small::Small, path: &str) -> Option<Digest> {
@@ -29,9 +30,9 @@ fn every_file_and_the_game_are_proved() {
         assert_eq!(against(&read, path, &Digest::of(b"")).len(), 1);
         assert_eq!(against(&read, "games/x", &root).len(), 1);
     }
-    let game = release.files[1].0.split('/').nth(1).expect("a game");
+    let game = release.files[2].0.split('/').nth(1).expect("a game");
     let proof = ItemProof::of(&release.manifest, game).expect("a game");
-    assert_eq!(proof.files.len(), release.files.len() - 1);
+    assert_eq!(proof.files.len(), release.files.len() - 2);
     assert!(
         against(&ItemProof::parse(&proof.to_bytes().expect("small")).expect("sound"), game, &root).is_empty()
     );
@@ -76,7 +77,7 @@ fn hostile_proofs_are_refused_in_words() {
     refuse(&text.replacen('{', "{\"format\": 1,", 1), "duplicate field `format`");
     refuse(&text.replace("\"format\": 1", "\"format\": 2"), "its format is 2");
     refuse(&text.replace("\"format\": 1", "\"format\": 1e99"), "invalid type");
-    refuse(&text.replace("\"index\": 1", "\"index\": 99999999999999999999"), "invalid type");
+    refuse(&text.replace("\"index\": 2", "\"index\": 99999999999999999999"), "invalid type");
     refuse(&text.replace(&honest.root.to_string(), "12ab"), "`12ab` is not 64 hexadecimal digits");
     refuse(&text.replace("  ", " "), "not in canonical form");
     refuse(
@@ -91,12 +92,16 @@ fn hostile_proofs_are_refused_in_words() {
     let mut none = honest.clone();
     none.files.clear();
     refuse(&written(&none), "it names no file");
+    refuse(&text.replace("\"size\": 7", "\"size\": 100001"), "leaf 2 of 100001, which no release has");
+    refuse(&text.replace("\"index\": 2", "\"index\": 7"), "leaf 7 of 7, which no release has");
+    refuse(&text.replace("\"release\": \"mole\"", "\"release\": \"a/b\""), "`a/b` is no name of a release");
     let mut twice = honest.clone();
     twice.files.push(honest.files[0].clone());
     refuse(&written(&twice), "`README.md` is listed twice");
 }
 
-/// No changed character of a proof goes unnoticed, except in the release's name, which is a label.
+/// No changed character of a proof goes unnoticed, except in the release's name, which is a label, and in the number of
+/// leaves, which a path to the root does not bind (RFC 6962).
 #[test]
 fn every_character_counts() {
     let release = small("mole", None);
@@ -108,7 +113,44 @@ fn every_character_counts() {
         altered[place] ^= 1 << sampler.below(7);
         if let Ok(read) = ItemProof::parse(&altered) {
             let label = ItemProof { release: proof.release.clone(), ..read.clone() } == proof;
+            let mut sized = read.clone();
+            sized.files[0].proof.size = proof.files[0].proof.size;
+            let label = label || sized == proof;
             assert!(label || !against(&read, "README.md", &release.manifest.root).is_empty(), "byte {place}");
         }
+    }
+}
+
+/// The leaf that stands for the manifest's header is under every root, but it is no file.
+#[test]
+fn the_header_is_no_file_of_a_release() {
+    let release = small("mole", None);
+    let leaves = release.manifest.leaves().expect("plain recipe");
+    let header = leaves.iter().find(|leaf| leaf.path == "MANIFEST").expect("a leaf");
+    let path = merkle::prove(&leaves, "MANIFEST").expect("present");
+    for name in ["MANIFEST", "Manifest", "MANIFEST.json"] {
+        let crafted = ItemProof {
+            format: 1,
+            release: "mole".into(),
+            root: release.manifest.root,
+            item: name.into(),
+            files: vec![FileProof { path: name.into(), digest: header.digest, proof: path.clone() }],
+        };
+        let error = ItemProof::parse(&crafted.to_bytes().expect("small")).expect_err("no file").to_string();
+        assert!(error.contains(&format!("`{name}` is no file of a release")), "{error}");
+    }
+}
+
+/// The files of a game have their places in one release.
+#[test]
+fn files_of_a_game_are_of_one_tree() {
+    let release = small("mole", None);
+    let game = release.files[2].0.split('/').nth(1).expect("a game");
+    let honest = ItemProof::of(&release.manifest, game).expect("a game");
+    for (index, size) in [(honest.files[0].proof.index, 9), (honest.files[1].proof.index, 7)] {
+        let mut crafted = honest.clone();
+        (crafted.files[0].proof.index, crafted.files[0].proof.size) = (index, size);
+        let error = ItemProof::parse(&crafted.to_bytes().expect("small")).expect_err("apart").to_string();
+        assert!(error.contains("do not have their places in one release"), "{error}");
     }
 }

@@ -4,7 +4,11 @@ use engine::{Action, Digest, Episode, Game, Outcome, Seed};
 use serde::Serialize;
 use snapshots::canonical::to_canonical_json;
 use snapshots::card::{Card, LevelCard, Origin};
-use snapshots::{Draft, FORMAT, Item, Kind, MANIFEST_FILE, Manifest, Witness, canary};
+use snapshots::levels::report::Quantiles;
+use snapshots::mint::{Novelty, RELEASE_CARD_FILE, ReleaseCard, Tally};
+use snapshots::{Draft, FORMAT, Item, Kind, MANIFEST_FILE, Manifest, Recipe, Witness, canary, follow};
+use statistics::{Z95, wilson};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use validators::Rate;
@@ -27,7 +31,19 @@ BasicGame
     TerminationSet
         SpriteCounter stype=door limit=0 win=True
 ";
-const LEVEL: &str = "wwwwww\nwm..dw\nwwwwww\n";
+
+/// A tunnel from the mole to the door. Releases of a chain have one each, because none may hold what came before.
+fn tunnel(name: &str) -> String {
+    let length = match name {
+        "2027-01" => 3,
+        "2027-02" => 4,
+        "2027-01-b" => 5,
+        "2027-02-b" => 6,
+        _ => 2,
+    };
+    let wall = "w".repeat(length + 4);
+    format!("{wall}\nwm{}dw\n{wall}\n", ".".repeat(length))
+}
 
 /// A release in memory.
 #[derive(Clone)]
@@ -37,16 +53,27 @@ pub(crate) struct Small {
     pub(crate) files: Vec<(String, Vec<u8>)>,
 }
 
-/// The release of this name, after the one with this root.
-pub(crate) fn small(name: &str, parent: Option<Digest>) -> Small {
-    let recipe = serde_json::json!({ "name": name, "seed": "a mole in the dark", "parent": parent });
-    let mark = canary(&Digest::of(recipe.to_string().as_bytes()));
+/// The release of this name, after that one.
+pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
+    let mut recipe = Recipe::from_toml(&format!(
+        "name = '{name}'\ndescription = 'A mole.'\nseed = 'a mole in the dark'\n[corpus]\ngames = 1\nlevels = 1\n"
+    ))
+    .expect("a recipe");
+    if let Some(parent) = parent {
+        follow(&mut recipe, &parent.write_in(&home())).expect("a release");
+    }
+    let parent = recipe.parent;
+    let (ancestors, known_items) = (recipe.known.releases.clone(), recipe.known.items.len() as u64);
+    let recipe = serde_json::to_value(recipe).expect("plain data");
+    let mark = canary(&Digest::of(&json(&recipe)));
     let game = Game::from_source(GAME).expect("a game");
-    let level = game.level(LEVEL).expect("a level");
+    let level = game.level(&tunnel(name)).expect("a level");
     let (mut episode, mut state) = Episode::begin(&game, &level, Seed::from_text("small"));
     while episode.play(&game, &mut state, Action::Right) == Outcome::Ongoing {}
     assert_eq!(episode.outcome, Outcome::Won);
-    let never = Rate { wins: 0, plays: 8, interval: [0.0, 0.3], calls: 0, mean_score: 0.0 };
+    let interval = wilson(0, 8, Z95);
+    let never =
+        Rate { wins: 0, plays: 8, interval: [interval.low, interval.high], calls: 0, mean_score: 0.0 };
     let id = format!("mole-{}", game.digest().short());
     let card = Card {
         canary: mark.clone(),
@@ -63,8 +90,8 @@ pub(crate) fn small(name: &str, parent: Option<Digest>) -> Small {
         levels: vec![LevelCard {
             file: "lvl0.txt".into(),
             digest: level.digest(),
-            columns: 6,
-            rows: 3,
+            columns: level.columns(),
+            rows: level.rows(),
             generator: "constructive".into(),
             difficulty: 0.0,
             candidate: 0,
@@ -78,11 +105,45 @@ pub(crate) fn small(name: &str, parent: Option<Digest>) -> Small {
             ladder: None,
         }],
     };
+    let one = |what: &str| BTreeMap::from([(what.to_owned(), 1)]);
+    let ticks = episode.actions.len() as f64;
+    let release_card = ReleaseCard {
+        canary: mark.clone(),
+        games: 1,
+        levels: 1,
+        new_games: 0,
+        planned: Vec::new(),
+        difficulty: BTreeMap::new(),
+        goals: one("reach"),
+        avatars: one("walks"),
+        generators: one("corpus"),
+        ladder: Vec::new(),
+        novelty: Novelty {
+            ancestors,
+            known_games: 0,
+            known_items,
+            nearest: None,
+            nearest_corpus: None,
+            nearest_known: None,
+        },
+        patterns: BTreeMap::new(),
+        rules: None,
+        witness_ticks: Some(Quantiles {
+            count: 1,
+            min: ticks,
+            lower: ticks,
+            median: ticks,
+            upper: ticks,
+            max: ticks,
+        }),
+        tally: Tally::default(),
+    };
     let files = vec![
+        (RELEASE_CARD_FILE.to_owned(), json(&release_card)),
         ("README.md".to_owned(), format!("# {name}\n\nCanary: `{mark}`\n").into_bytes()),
         (format!("games/{id}/card.json"), json(&card)),
         (format!("games/{id}/game.vgdl"), format!("# {mark}\n{GAME}").into_bytes()),
-        (format!("games/{id}/lvl0.txt"), LEVEL.as_bytes().to_vec()),
+        (format!("games/{id}/lvl0.txt"), tunnel(name).into_bytes()),
         (format!("games/{id}/witness/lvl0.json"), json(&Witness { canary: mark.clone(), episode })),
     ];
     let mut manifest = Manifest {

@@ -101,7 +101,7 @@ fn folders() {
         assert!(named, "mutation {number}, {kind} of {names:?}, was not named: {said}");
     }
     assert!(counts.values().all(|count| *count >= 20), "{counts:?}");
-    assert!(release.manifest.items.len() == 5);
+    assert!(release.manifest.items.len() == 6);
 }
 
 /// What is done to a folder; each some forty times, with other draws.

@@ -1,0 +1,79 @@
+//! Waiting until names are on disk: a rename, or a new folder, is safe only when the folder that holds the name is.
+
+use std::fs::{self, File};
+use std::path::Path;
+
+use super::parent_of;
+use crate::error::SnapshotError;
+
+/// Waits until the names in `folder` and all folders below are on disk, the deepest first.
+pub(super) fn sync_folders(folder: &Path) -> Result<(), SnapshotError> {
+    for entry in fs::read_dir(folder).map_err(SnapshotError::io("list", folder))? {
+        let entry = entry.map_err(SnapshotError::io("list", folder))?;
+        if entry.file_type().map_err(SnapshotError::io("examine", &entry.path()))?.is_dir() {
+            sync_folders(&entry.path())?;
+        }
+    }
+    sync_folder(folder)
+}
+
+/// Waits until the names in `folder` are on disk. Only Unix lets a folder be opened and waited for; elsewhere the file
+/// system's journal has to do.
+pub(crate) fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
+    if cfg!(unix) {
+        let sync = || File::open(folder)?.sync_all();
+        sync().map_err(SnapshotError::io("write", folder))?;
+    }
+    #[cfg(test)]
+    record::SYNCED.with_borrow_mut(|synced| synced.push(folder.to_path_buf()));
+    Ok(())
+}
+
+/// Creates `folder` and all above that are missing, and waits until their names are on disk.
+pub(crate) fn create_folder(folder: &Path) -> Result<(), SnapshotError> {
+    let is_missing = |above: &&Path| !above.as_os_str().is_empty() && !above.exists();
+    let missing: Vec<&Path> = folder.ancestors().take_while(is_missing).collect();
+    fs::create_dir_all(folder).map_err(SnapshotError::io("create", folder))?;
+    missing.into_iter().try_for_each(|created| sync_folder(parent_of(created)))
+}
+
+/// The folders that this thread has waited for.
+#[cfg(test)]
+pub(crate) mod record {
+    use std::cell::RefCell;
+    use std::path::PathBuf;
+
+    thread_local! {
+        pub(super) static SYNCED: RefCell<Vec<PathBuf>> = const { RefCell::new(Vec::new()) };
+    }
+
+    /// Those since the last call.
+    pub(crate) fn synced() -> Vec<PathBuf> {
+        SYNCED.with_borrow_mut(std::mem::take)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Draft;
+    use super::super::tests::home;
+    use super::record::synced;
+
+    /// What is published is waited for, with the names of all folders above that are new.
+    #[test]
+    fn new_names_are_waited_for() {
+        let (home, _) = home();
+        let out = home.path().join("a/b/new");
+        synced();
+        let draft = Draft::create(&out).expect("vacant");
+        let parents = synced();
+        for above in ["", "a"] {
+            assert!(parents.contains(&home.path().join(above)), "{parents:?}");
+        }
+        draft.write("c/d", b"one").expect("written");
+        draft.commit().expect("published");
+        let partial = home.path().join("a/b/new.partial");
+        let expect = [partial.join("tree/c"), partial.join("tree"), home.path().join("a/b")];
+        assert_eq!(synced(), expect);
+    }
+}

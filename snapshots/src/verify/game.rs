@@ -1,0 +1,204 @@
+//! A game of a release: rules, levels, card and witnesses, and whether they belong together.
+
+use super::numbers;
+use super::replay::{Meter, Replayed, replay};
+use crate::card::{Card, Origin};
+use crate::contents::Contents;
+use crate::manifest::{Kind, Manifest};
+use crate::sealed::held_witness;
+use crate::witness::Witness;
+use crate::{Digest, SnapshotError};
+use engine::Game;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The largest `card.json`, in bytes: 1 MiB. Cards of twenty levels have a tenth of it.
+const CARD_LIMIT: u64 = 1 << 20;
+/// The most patterns that a game is told to be composed of. Ours have some ten, and edits.
+const MAX_PATTERNS: usize = 1024;
+
+/// The files of a game's folder, by path below it.
+pub(super) type Files = BTreeSet<String>;
+
+/// A game that was looked at.
+pub(super) struct GameCheck {
+    /// Levels that were read.
+    pub(super) levels: usize,
+    /// Witnesses that were replayed to a win.
+    pub(super) replayed: usize,
+    /// Where a sealed release has its witnesses.
+    pub(super) held: Vec<String>,
+    /// The card, if it is one.
+    pub(super) card: Option<Card>,
+    /// All that is wrong, each naming the file.
+    pub(super) problems: Vec<String>,
+}
+
+/// How the folders of a release are checked.
+pub(super) struct Checker<'a> {
+    pub(super) contents: &'a Contents,
+    pub(super) manifest: &'a Manifest,
+    /// None: the witnesses are of other semantics.
+    pub(super) meter: Option<&'a Meter>,
+}
+
+impl Checker<'_> {
+    /// Checks folders whose names end with the same digest, in their order: of two that hold the same game, the second
+    /// is a problem, and its witnesses are not replayed.
+    pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
+        let mut seen = BTreeMap::new();
+        folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
+    }
+
+    fn game(
+        &self,
+        folder: &str,
+        files: &Files,
+        seen: &mut BTreeMap<Digest, String>,
+    ) -> Result<GameCheck, SnapshotError> {
+        let mut check =
+            GameCheck { levels: 0, replayed: 0, held: Vec::new(), card: None, problems: Vec::new() };
+        let canary = &self.manifest.canary;
+        let path = |file: &str| format!("games/{folder}/{file}");
+        // The digests hold, so every listed file can be read as a text of its size; what is in it is another matter.
+        let read = |file: &str| -> Result<Option<String>, SnapshotError> {
+            match files.contains(file) {
+                true => Ok(String::from_utf8(self.contents.read(&path(file))?).ok()),
+                false => Ok(None),
+            }
+        };
+        let mut wrong = |file: &str, what: String| check.problems.push(format!("{}: {what}", path(file)));
+
+        let Some(source) = read("game.vgdl")? else {
+            wrong("game.vgdl", "missing or not a text".to_owned());
+            return Ok(check);
+        };
+        if !super::carries(source.as_bytes(), canary) {
+            wrong("game.vgdl", "without the release's canary".to_owned());
+        }
+        let game = match Game::from_source(&source) {
+            Ok(game) => game,
+            Err(problems) => {
+                wrong("game.vgdl", format!("not a game: {problems}"));
+                return Ok(check);
+            }
+        };
+        let of_card = path("card.json");
+        let of_card = self.manifest.items.binary_search_by(|item| item.path.cmp(&of_card));
+        let of_card = of_card.ok().map(|at| &self.manifest.items[at]);
+        if let Some(item) = of_card.filter(|item| item.size > CARD_LIMIT) {
+            wrong("card.json", format!("{} bytes, and a card has at most {CARD_LIMIT}", item.size));
+            return Ok(check);
+        }
+        let mut card: Card = match read("card.json")?.map(|text| serde_json::from_str(&text)) {
+            Some(Ok(card)) => card,
+            Some(Err(error)) => {
+                wrong("card.json", format!("not a card: {error}"));
+                return Ok(check);
+            }
+            None => {
+                wrong("card.json", "missing or not a text".to_owned());
+                return Ok(check);
+            }
+        };
+        if card.id != folder || card.digest != game.digest() || !folder.ends_with(&game.digest().short()) {
+            wrong("card.json", "card, folder name and game do not belong together".to_owned());
+        }
+        if matches!(&card.origin, Origin::Generated { patterns, .. } if patterns.len() > MAX_PATTERNS) {
+            wrong("card.json", format!("more than {MAX_PATTERNS} patterns"));
+            return Ok(check);
+        }
+        if card.canary != *canary {
+            wrong("card.json", "its canary is not the release's".to_owned());
+        }
+        if card.levels.is_empty() {
+            wrong("card.json", "the game has no levels".to_owned());
+        }
+        let twin = seen.get(&game.digest());
+        if let Some(other) = twin {
+            wrong("game.vgdl", format!("the same game as games/{other}"));
+        }
+        let is_sealed = self.manifest.kind == Kind::Sealed;
+        let mut known: BTreeSet<String> = ["game.vgdl", "card.json"].map(str::to_owned).into();
+        let mut boards: BTreeMap<Digest, usize> = BTreeMap::new();
+        let (mut levels, mut replayed) = (0, 0);
+        let mut held = Vec::new();
+        for (number, level_card) in card.levels.iter().enumerate() {
+            let (file, witness_file) = (format!("lvl{number}.txt"), format!("witness/lvl{number}.json"));
+            if is_sealed {
+                held.push(held_witness(folder, number));
+            }
+            let level = match read(&file)?.map(|text| game.level(&text)) {
+                Some(Ok(level)) => level,
+                Some(Err(problems)) => {
+                    wrong(&file, format!("not a level of this game: {problems}"));
+                    continue;
+                }
+                None => {
+                    wrong(&file, "missing or not a text".to_owned());
+                    continue;
+                }
+            };
+            levels += 1;
+            if level_card.file != file || level_card.digest != level.digest() {
+                wrong(&file, "card and level do not belong together".to_owned());
+            }
+            for what in numbers::problems(level_card, &level) {
+                wrong("card.json", format!("{file}: {what}"));
+            }
+            let first = *boards.entry(level.digest()).or_insert(number);
+            if first != number {
+                wrong(&file, format!("the same level as lvl{first}.txt"));
+            }
+            let is_again = first != number || twin.is_some();
+            let witness = match is_sealed {
+                true => {
+                    let bytes = self.contents.find(&held_witness(folder, number))?;
+                    bytes.and_then(|bytes| String::from_utf8(bytes).ok())
+                }
+                false => read(&witness_file)?,
+            };
+            match witness.map(|text| serde_json::from_str::<Witness>(&text)) {
+                Some(Ok(witness)) if witness.canary != *canary => {
+                    wrong(&witness_file, "its canary is not the release's".to_owned());
+                }
+                Some(Ok(Witness { episode, .. })) => {
+                    let told = (level_card.witness_ticks, level_card.witness_score);
+                    let fits = (episode.actions.len(), episode.score) == told;
+                    if !fits {
+                        wrong(
+                            "card.json",
+                            format!("not the ticks and score of the episode that wins {file}"),
+                        );
+                    }
+                    // What is there twice, or not as declared, is a problem already, and costs nothing more.
+                    match self.meter.filter(|_| fits && !is_again) {
+                        None => {}
+                        Some(meter) => match replay(&episode, &game, &level, meter) {
+                            Replayed::Won => replayed += 1,
+                            Replayed::Wrong(what) => wrong(&witness_file, what),
+                            Replayed::OutOfWork => {}
+                        },
+                    }
+                }
+                Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
+                // Whether all that is held back is there has been looked at.
+                None if is_sealed => {}
+                None => wrong(&witness_file, "missing or not a text".to_owned()),
+            }
+            known.insert(file);
+            if !is_sealed {
+                known.insert(witness_file);
+            }
+        }
+        for file in files.difference(&known) {
+            wrong(file, "a game has no such file".to_owned());
+        }
+        seen.entry(game.digest()).or_insert_with(|| folder.to_owned());
+        // Texts are not kept: the cards of all games are, until they are counted.
+        for text in [&mut card.title, &mut card.description, &mut card.goal, &mut card.rules] {
+            *text = String::new();
+        }
+        (check.levels, check.replayed, check.held, check.card) = (levels, replayed, held, Some(card));
+        Ok(check)
+    }
+}

@@ -1,0 +1,141 @@
+//! Replaying witnesses within bounds: what a stranger's release may cost.
+
+use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// How much work the replays of a release may be, in units of the engine's limit on one tick
+/// ([`MAX_WORK`](engine::MAX_WORK)): a sprite or a cell that is looked at is one unit. A core does some hundred million
+/// units a second.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Bounds {
+    /// Units for any release.
+    pub work: u64,
+    /// Further units for each level that the release declares.
+    pub work_per_level: u64,
+}
+
+impl Bounds {
+    /// 2³² units and 2²² for each level: about half a minute of one core, where a release of 600 levels takes a second
+    /// or two.
+    pub const RELEASE: Bounds = Bounds { work: 1 << 32, work_per_level: 1 << 22 };
+
+    /// The units that a release of so many levels may take.
+    pub fn of(&self, levels: usize) -> u64 {
+        self.work.saturating_add(self.work_per_level.saturating_mul(levels as u64))
+    }
+}
+
+impl Default for Bounds {
+    fn default() -> Bounds {
+        Bounds::RELEASE
+    }
+}
+
+/// Counts the work of all replays of a release, from several threads.
+///
+/// Whether the limit is passed does not depend on threads: it is if all replays together take more.
+pub(super) struct Meter {
+    limit: u64,
+    spent: AtomicU64,
+}
+
+impl Meter {
+    pub(super) fn new(limit: u64) -> Meter {
+        Meter { limit, spent: AtomicU64::new(0) }
+    }
+
+    /// The limit, if more than that was spent.
+    pub(super) fn exceeded(&self) -> Option<u64> {
+        (self.spent() > self.limit).then_some(self.limit)
+    }
+
+    /// The units spent so far.
+    pub(super) fn spent(&self) -> u64 {
+        self.spent.load(Ordering::Relaxed)
+    }
+
+    fn spend(&self, units: u64) {
+        // Relaxed, and one addition an episode at most overflows nothing: 2^64 units take a thousand years.
+        self.spent.fetch_add(units, Ordering::Relaxed);
+    }
+}
+
+/// Units that a tick counts whatever happens in it.
+const TICK: u64 = 64;
+
+/// The answer of [`replay`].
+pub(super) enum Replayed {
+    /// The episode is what it says, and wins.
+    Won,
+    /// It is not what it should be.
+    Wrong(String),
+    /// The limit was passed, here or in another replay.
+    OutOfWork,
+}
+
+/// Plays a witness again, as [`Episode::replay`] does, as long as the meter allows; refuses before the first tick what no
+/// witness is.
+pub(super) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Meter) -> Replayed {
+    let wrong = |divergence: Divergence| Replayed::Wrong(divergence.to_string());
+    if episode.game != game.digest() {
+        return wrong(Divergence::Game { recorded: episode.game, given: game.digest() });
+    }
+    if episode.level != level.digest() {
+        return wrong(Divergence::Level { recorded: episode.level, given: level.digest() });
+    }
+    let (actions, hashes) = (episode.actions.len(), episode.hashes.len());
+    if actions != hashes {
+        return wrong(Divergence::Lengths { actions, hashes });
+    }
+    if actions > MAX_TICKS as usize {
+        return Replayed::Wrong(format!(
+            "the episode has {actions} ticks, and no game more than {MAX_TICKS}"
+        ));
+    }
+    if episode.outcome != Outcome::Won {
+        return Replayed::Wrong("the episode does not win".to_owned());
+    }
+    let mut state = game.start(level, episode.seed);
+    meter.spend((level.columns() * level.rows()) as u64);
+    for (tick, (&action, &recorded)) in episode.actions.iter().zip(&episode.hashes).enumerate() {
+        if meter.exceeded().is_some() {
+            return Replayed::OutOfWork;
+        }
+        if state.is_over() {
+            return Replayed::Wrong(format!("the episode goes on after its end, which tick {tick} was"));
+        }
+        let mut work = Work(0);
+        game.step_watched(&mut state, action, &mut work);
+        meter.spend(TICK + work.0);
+        let got = state.state_hash();
+        if got != recorded {
+            return wrong(Divergence::Hash { tick, recorded, got });
+        }
+    }
+    let (got, score) = (state.outcome(), state.score());
+    if got != episode.outcome || score != episode.score {
+        let (recorded, recorded_score) = (episode.outcome, episode.score);
+        return wrong(Divergence::End { recorded, recorded_score, got, score });
+    }
+    Replayed::Won
+}
+
+/// Why an episode does not replay to a win within the bounds of a release of one level; none if it does.
+pub(crate) fn problem(episode: &Episode, game: &Game, level: &Level) -> Option<String> {
+    match replay(episode, game, level, &Meter::new(Bounds::RELEASE.of(1))) {
+        Replayed::Won => None,
+        Replayed::Wrong(what) => Some(what),
+        Replayed::OutOfWork => Some("its replay is more work than a release may take".to_owned()),
+    }
+}
+
+/// The work of one tick.
+struct Work(u64);
+
+impl Watch for Work {
+    fn interaction(&mut self, _: usize) {}
+
+    fn worked(&mut self, work: usize) {
+        self.0 = work as u64;
+    }
+}
