@@ -32,7 +32,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
     /// Forward-model calls of one of the planner's decisions, unless it is named with its own: `mcts:500`
-    #[arg(long, value_name = "CALLS", default_value_t = 1000)]
+    #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
     budget: u64,
     /// Text that the seeds of chance and planner come from
     #[arg(long, value_name = "TEXT", default_value = "play")]
@@ -104,7 +104,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "ticks": ticks,
         "score": score,
         "outcome": episode.outcome,
-        "recorded": written,
+        "recorded": written.map(|path| path.to_string_lossy()),
     }))?;
     let outcome = format!("{:?}", episode.outcome).to_lowercase();
     console.say(format_args!("{}: {outcome} after {ticks} ticks, score {score}", named.name));
