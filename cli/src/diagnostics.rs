@@ -1,9 +1,12 @@
 //! Diagnostics as people and programs read them.
 
+mod excerpt;
+
 use crate::failure::Failure;
 use crate::input::Named;
 use engine::{Diagnostic, Severity, line_and_column};
-use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource, Report};
+use excerpt::Excerpt;
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, Report};
 use serde::Serialize;
 use std::fmt;
 use std::io::IsTerminal;
@@ -46,7 +49,7 @@ pub(crate) fn in_words(source: &Named, problems: &[Diagnostic]) -> String {
 /// One problem: code, message, file, line, column, the line with a caret, help.
 pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
     let label = if problem.label.is_empty() { "here" } else { &problem.label };
-    let length = problem.span.end - problem.span.start;
+    let code = Excerpt::of(&source.name, &source.text, problem.span.start, problem.span.end);
     let severity = match problem.severity {
         Severity::Error => miette::Severity::Error,
         Severity::Warning => miette::Severity::Warning,
@@ -54,13 +57,12 @@ pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
     let mut diagnostic = MietteDiagnostic::new(problem.message.clone())
         .with_code(problem.code)
         .with_severity(severity)
-        .with_label(LabeledSpan::new(Some(label.to_owned()), problem.span.start, length));
+        .with_label(LabeledSpan::new_with_span(Some(label.to_owned()), code.span()));
     diagnostic.help.clone_from(&problem.help);
     let theme = match std::io::stderr().is_terminal() {
         true => GraphicalTheme::unicode(),
         false => GraphicalTheme::unicode_nocolor(),
     };
-    let code = NamedSource::new(&source.name, source.text.clone());
     let report = Report::new(diagnostic).with_source_code(code);
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(theme).with_context_lines(1).with_width(100);
@@ -87,4 +89,62 @@ pub(crate) fn placed(source: &Named, problems: &[Diagnostic]) -> Vec<Placed> {
         Placed { file: source.name.clone(), line, column, problem: problem.clone() }
     };
     problems.iter().map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(text: &str, problem: &Diagnostic) -> String {
+        one_in_words(&Named { name: "game.vgdl".to_owned(), text: text.to_owned() }, problem)
+    }
+
+    #[track_caller]
+    fn check(text: &str, marked: &str, expect: &[&str]) {
+        let start = text.find(marked).unwrap();
+        let span = engine::Span::new(start, start + marked.len());
+        let told = shown(text, &Diagnostic::error("bad", span, "no such thing").label("this"));
+        for words in expect {
+            assert!(told.contains(words), "`{words}` is not in\n{told}");
+        }
+    }
+
+    #[test]
+    fn the_place_is_marked_in_its_lines() {
+        check(
+            "one\ntwo bad\nthree\n",
+            "bad",
+            &["game.vgdl:2:5", " 1 │ one", " 2 │ two bad", "    ─┬─", " 3 │ three"],
+        );
+        check("bad", "bad", &["game.vgdl:1:1", "1 │ bad", "─┬─"]);
+        check("one\r\nbad\r\n", "bad", &["game.vgdl:2:1", "1 │ one\n", "2 │ bad\n"]);
+        // A tab is one column, and to be seen.
+        check("a\n\tbad\n", "bad", &["game.vgdl:2:2", "2 │ →bad", "·  ─┬─"]);
+        check("", "", &["no such thing"]);
+    }
+
+    #[test]
+    fn lines_are_cropped_around_the_place() {
+        let wide = format!("first\n{}bad{}\nlast\n", " ".repeat(66_000), "x".repeat(90_000));
+        check(&wide, "bad", &["game.vgdl:2:66001", "2 │ …", " bad", "…"]);
+        let wide = format!("{}\nbad\n{}", "蟻".repeat(70_000), "\t".repeat(70_000));
+        check(&wide, "bad", &["game.vgdl:2:1", "─┬─"]);
+    }
+
+    #[test]
+    fn no_text_and_no_span_is_too_much() {
+        let mut sampler = engine::Seed::from_text("excerpts").sampler();
+        let pieces = ["\t", "蟻", "\u{301}", " ", "a", "\r", "\n", "\u{feff}", "🎮", "\u{200b}"];
+        for _ in 0..400 {
+            let mut text = String::new();
+            for _ in 0..sampler.below(9) {
+                let longest = if sampler.ratio(1, 4) { 70_000 } else { 300 };
+                text.push_str(&sampler.choose(&pieces).repeat(sampler.below(longest)));
+            }
+            let start = sampler.below(text.len() + 3);
+            let span = engine::Span::new(start, start + sampler.below(70_000));
+            let told = shown(&text, &Diagnostic::error("bad", span, "no such thing").help("try another"));
+            assert!(told.len() < 10_000, "{} bytes of {} for {span:?}", told.len(), text.len());
+        }
+    }
 }

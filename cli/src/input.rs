@@ -92,6 +92,11 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     }
     if found.is_some() {
         let text = read_text(path, MAX_SOURCE)?;
+        if is_level(&text) {
+            return Err(Failure::malformed(format!(
+                "{name}: this is a level, not a game; name its game first: arcade validate GAME {name}"
+            )));
+        }
         let whole_folder = path.file_stem().is_some_and(|stem| stem == "game");
         let folder = path.parent().unwrap_or(Path::new("."));
         let levels = if whole_folder { level_files(folder)? } else { Vec::new() };
@@ -174,6 +179,21 @@ fn beside(path: &Path) -> Option<String> {
     Some(folder.join(near).display().to_string())
 }
 
+/// Whether a text looks like a level: rows of characters of one width, with nothing that a game has.
+fn is_level(text: &str) -> bool {
+    let rows: Vec<&str> = text.lines().map(str::trim_end).collect();
+    let width = |row: &&str| row.chars().count();
+    let widest = rows.iter().map(width).max().unwrap_or_default();
+    // Rows of one width, blanks at their ends aside; a word alone may be anything.
+    let full = rows.iter().filter(|row| width(row) == widest).count();
+    let speaks = |row: &&str| {
+        let words =
+            ["BasicGame", "GameSpace", "SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
+        row.contains(" > ") || words.iter().any(|word| row.trim().starts_with(word))
+    };
+    rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(speaks)
+}
+
 fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
     let Some(path) = first_file(folder, ["game.vgdl", "game.txt"])? else { return Ok(None) };
     let text = read_text(&path, MAX_SOURCE)?;
@@ -246,4 +266,21 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
         let at = error.utf8_error().valid_up_to();
         Failure::malformed(format!("{name}: not a text file (byte {at} is not UTF-8)"))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_level;
+
+    #[test]
+    fn levels_are_told_from_games() {
+        for level in ["wwww\nw.Aw\nwwww\n", "A g\nw\nwww\nwww", "w w\r\nwAw\r\n"] {
+            assert!(is_level(level), "{level}");
+        }
+        for other in
+            ["", "\n", "BasicGame\n", "BasicGame\n  SpriteSet\n    a > Door\n", "ELF", "a > b\nc > d\n"]
+        {
+            assert!(!is_level(other), "{other}");
+        }
+    }
 }

@@ -314,3 +314,199 @@ fn planners_play_and_report() {
     assert_eq!(alone["rows"][0], rows[1]);
     run(folder.path(), &["run", ".", "--jobs", "0"], 2);
 }
+
+/// A corridor: the exit opens for two lamps.
+const CORRIDOR: &str = "\
+BasicGame
+    SpriteSet
+        wall > Immovable
+        lamp > Resource limit=3
+        exit > Door
+        avatar > MovingAvatar
+    LevelMapping
+        w > wall
+        L > lamp
+        g > exit
+    InteractionSet
+        avatar wall > stepBack
+        lamp avatar > collectResource
+        exit avatar > killIfOtherHasMore resource=lamp limit=2
+    TerminationSet
+        SpriteCounter stype=exit win=True
+        Timeout limit=100 win=False
+";
+
+#[test]
+fn a_level_that_cannot_be_won_is_explained_as_a_chain() {
+    let folder = folder(CORRIDOR, "wwwwwwwww\nwA  L  gw\nwwwwwwwww\n");
+    let said = text(&run(folder.path(), &["validate", "."], 1).stdout);
+    for words in [
+        "FAILS winnable: no way to win, whatever is played: the exit opens for 2 lamps; 1 lamp exists; nothing makes more\n",
+        "column 8, row 2; ./game.vgdl:16 `SpriteCounter stype=exit win=True`",
+        "- the exit opens for 2 lamps; ./game.vgdl:14 `exit avatar > killIfOtherHasMore resource=lamp limit=2`",
+        "- 1 lamp exists; column 5, row 2; ./game.vgdl:13 `lamp avatar > collectResource`",
+        "try: place 1 lamp more, or ask for 1",
+        // What cannot be asked of it.
+        "-    length       not asked: the level cannot be won",
+        "-    skill        not asked: the level cannot be won",
+    ] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("open a way") && !said.contains("pass skill"), "{said}");
+    // Programs find the same fields as before.
+    let output = run(folder.path(), &["--json", "validate", "."], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let skill = judgement(&document, "skill");
+    assert_eq!((&skill["verdict"], &skill["spent"]), (&"unknown".into(), &0.into()));
+    assert_eq!(document["levels"][0]["out_of_reach"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn a_swapped_rule_is_named_with_its_repair() {
+    let swapped = CORRIDOR.replace("lamp avatar >", "avatar lamp >");
+    let folder = folder(&swapped, "wwwwwwwww\nwA L L gw\nwwwwwwwww\n");
+    let said = text(&run(folder.path(), &["validate", "."], 1).stdout);
+    for words in ["game.vgdl:13:9", "swapped-rule", "did you mean `lamp avatar > collectResource`?"] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("never-fires"), "{said}");
+}
+
+#[test]
+fn no_verdict_contradicts_another() {
+    // Won by search, and by nobody of the ladder: both are said, of whom they hold.
+    let folder = folder(GAME, LEVEL);
+    let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
+    assert!(said.contains("the witness wins in ") && said.contains("fewer ticks win: proved"), "{said}");
+    assert!(said.contains("ticks on average") && !said.contains(", unbeaten"), "{said}");
+}
+
+#[test]
+fn problems_of_the_game_hide_none_of_its_levels() {
+    let broken = GAME.replace("stepBack", "stepBakc");
+    let folder = folder(&broken, &LEVEL.replace('A', "X"));
+    fs::write(folder.path().join("lvl1.txt"), LEVEL).unwrap();
+    let output = run(folder.path(), &["validate", "."], 2);
+    let said = text(&output.stderr);
+    for words in
+        ["unknown-effect", "lvl0.txt:2:2", "`X` is not in the LevelMapping", "the level places no avatar"]
+    {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("lvl1.txt"), "{said}");
+    let output = run(folder.path(), &["--json", "validate", "."], 2);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let codes: Vec<&str> = document["levels"][0]["problems"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|problem| problem["code"].as_str().unwrap())
+        .collect();
+    assert_eq!(codes, ["no-avatar", "undefined-character"]);
+    assert_eq!(document["levels"][1]["problems"].as_array().unwrap().len(), 0);
+    // Of a sound game, too.
+    malformed(
+        GAME,
+        &LEVEL.replace('A', "X"),
+        "lvl0.txt:2:2",
+        &["`X` is not", "no avatar", "did you mean `A`?"],
+    );
+}
+
+#[test]
+fn a_level_in_the_place_of_a_game_is_told_so() {
+    let folder = folder(GAME, LEVEL);
+    for verb in ["validate", "describe", "fmt", "play"] {
+        let output = run(folder.path(), &[verb, "lvl0.txt"], 2);
+        let said = text(&output.stderr);
+        let meant =
+            "lvl0.txt: this is a level, not a game; name its game first: arcade validate GAME lvl0.txt";
+        assert!(said.contains(meant), "{said}");
+    }
+}
+
+#[test]
+fn a_tab_is_shown_and_told_of() {
+    let tabbed = GAME.replace("        avatar wall > stepBack", "\tavatar wall > stepBack");
+    malformed(&tabbed, LEVEL, "game.vgdl:15:2", &["→avatar wall > stepBack", "a tab counts as one column"]);
+}
+
+#[test]
+fn a_line_of_any_width_gets_a_message() {
+    let folder = folder(GAME, LEVEL);
+    let wide = [
+        GAME.replace("        avatar thorn", &format!("{}avatar thorn", " ".repeat(66_000))),
+        GAME.replace("    TerminationSet", &format!("    TerminationSet{}x", " ".repeat(66_000))),
+        GAME.replace("stepBack", &format!("stepBack {}", "\t".repeat(70_000) + "=")),
+        GAME.replace("stepBack", &"蟻".repeat(30_000)),
+    ];
+    for source in wide {
+        fs::write(folder.path().join("wide.vgdl"), source).unwrap();
+        for verb in ["validate", "describe", "fmt"] {
+            let output = run(folder.path(), &[verb, "wide.vgdl"], 2);
+            let said = text(&output.stderr);
+            assert!(said.contains("wide.vgdl:") && said.len() < 9_000, "{} bytes of {said:.900}", said.len());
+        }
+    }
+}
+
+#[test]
+fn counts_of_nothing_are_refused() {
+    let folder = folder(GAME, LEVEL);
+    for args in [
+        &["validate", ".", "--budget", "0"][..],
+        &["validate", ".", "--budget", "-5"],
+        &["run", ".", "--runs", "0"],
+        &["run", ".", "--max-ticks", "0"],
+        &["run", ".", "--budget", "-5"],
+    ] {
+        let said = text(&run(folder.path(), args, 2).stderr);
+        assert!(said.contains("invalid value") && !said.contains("'-- -5'"), "{said}");
+    }
+}
+
+#[test]
+fn a_parameter_that_is_given_twice_is_told_of() {
+    let folder = folder(&GAME.replace("color=YELLOW", "color=YELLOW speed=0.5 speed=1"), LEVEL);
+    let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
+    assert!(said.contains("duplicate-parameter") && said.contains("`0.5`, and `1`, which counts"), "{said}");
+}
+
+#[test]
+fn a_small_budget_is_a_small_piece_of_work() {
+    // Nobody is through in less than 300 ticks, and no player decides on fewer calls than it needs.
+    let game = GAME
+        .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
+        .replace("        A > floor", "        b > floor bee\n        A > floor")
+        .replace("        avatar thorn", "        bee wall > stepBack\n        avatar thorn");
+    let folder = folder(&game, "wwwwwwwwww\nwA......bw\nw....ttttw\nw....tn..w\nw....ttttw\nwwwwwwwwww\n");
+    let output = run(folder.path(), &["--json", "validate", ".", "--budget", "1"], 1);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let skill = judgement(&document, "skill");
+    assert_eq!(skill["verdict"], "unknown");
+    let rungs = skill["ladder"]["rungs"].as_array().unwrap();
+    let held_out = skill["ladder"]["held_out"].as_array().unwrap();
+    let calls = rungs.iter().chain(held_out).map(|fared| fared["rate"]["calls"].as_u64().unwrap());
+    assert!(calls.sum::<u64>() < 5_000, "{skill}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_path_that_is_not_unicode_does_no_harm() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = folder(GAME, LEVEL);
+    let strange = OsStr::from_bytes(b"win-\xff.json");
+    let command = |args: &[&str], more: &[&OsStr]| {
+        arcade::arcade(folder.path()).args(args).args(more).output().unwrap()
+    };
+    let output = command(&["validate", ".", "--witness"], &[strange]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(folder.path().join(strange).exists());
+    let output = command(&["run", ".", "--planner", "random", "--runs", "1", "--csv"], &[strange]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    for verb in ["validate", "describe", "fmt", "play", "run"] {
+        let output = command(&[verb], &[strange]);
+        assert_eq!(output.status.code(), Some(2), "{verb}: {}", text(&output.stderr));
+    }
+}

@@ -1,6 +1,7 @@
 //! A level: a grid of characters, checked against one game's LevelMapping (`spec/01` §2).
 
 use crate::Digest;
+use crate::compile::{Outline, outline};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::game::{Game, SpriteType};
 use crate::limits::{MAX_ATTEMPTS, MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SPRITES};
@@ -117,6 +118,38 @@ impl Game {
     }
 }
 
+/// What is known of the levels of a faulty game: as much as its LevelMapping and its SpriteSet tell.
+#[derive(Clone, Debug)]
+pub struct LevelMapping {
+    game: Game,
+    knows_characters: bool,
+    knows_avatars: bool,
+}
+
+impl LevelMapping {
+    /// Reads the LevelMapping of a game that may have faults elsewhere; none if it cannot be read itself.
+    pub fn of_source(source: &str) -> Option<LevelMapping> {
+        let (description, Diagnostics(problems)) = crate::syntax::parse_all(source);
+        let Outline { description, knows_characters, knows_avatars } = outline(&description, &problems)?;
+        let game = Game::compile(&description).ok()?;
+        Some(LevelMapping { game, knows_characters, knows_avatars })
+    }
+
+    /// The problems of a level's text that are certain, whatever is wrong with the game; sorted by place.
+    pub fn problems(&self, text: &str) -> Vec<Diagnostic> {
+        let level = self.game.level(text);
+        let mut problems = level.map_or_else(|problems| problems.0, |level| level.warnings);
+        problems.retain(|problem| match problem.code {
+            "undefined-character" => self.knows_characters,
+            "no-avatar" | "extra-avatars" => self.knows_avatars,
+            // It has no terminations but one of its own.
+            "ends-at-once" => false,
+            _ => true,
+        });
+        problems
+    }
+}
+
 struct LevelReader<'a> {
     game: &'a Game,
     /// The characters that the LevelMapping has a line for.
@@ -195,15 +228,14 @@ impl LevelReader<'_> {
         }
     }
 
-    /// Characters without a mapping, each with the one that was most likely meant. Whether that is the missing avatar.
-    fn tell_undefined(&mut self, columns: usize, cells: &[u8]) -> bool {
+    /// Characters without a mapping, each with the one that was most likely meant.
+    fn tell_undefined(&mut self, columns: usize, cells: &[u8]) {
         let unused: Vec<char> =
             self.mapped.iter().copied().filter(|&c| !cells.contains(&(c as u8))).collect();
         let undefined = std::mem::take(&mut self.undefined);
         let mut counts: BTreeMap<char, usize> = BTreeMap::new();
         undefined.iter().for_each(|(_, symbol, _)| *counts.entry(*symbol).or_default() += 1);
         let kinds = counts.len();
-        let mut avatar_told = false;
         let avatar = self.avatar_symbol().filter(|_| self.avatars.is_empty() && undefined.len() == 1);
         for (at, symbol, span) in undefined {
             // Each is told of where it stands first.
@@ -211,7 +243,6 @@ impl LevelReader<'_> {
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
             let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
             let near = around(at, columns, cells).filter(|_| count == 1);
-            avatar_told |= other_case.is_none() && avatar.is_some();
             let shown = symbol.escape_default();
             let help = match (other_case.or(avatar), &unused[..], near) {
                 (Some(meant), ..) => format!("did you mean `{meant}`?"),
@@ -233,7 +264,6 @@ impl LevelReader<'_> {
             };
             self.problems.push(Diagnostic::error("undefined-character", span, message).help(help));
         }
-        avatar_told
     }
 
     /// The first character of the LevelMapping that places an avatar.
@@ -258,7 +288,9 @@ impl LevelReader<'_> {
         rows: usize,
         cells: Vec<u8>,
     ) -> Result<Level, Diagnostics> {
-        let avatar_told = !self.game.0.as_reference && self.tell_undefined(columns, &cells);
+        if !self.game.0.as_reference {
+            self.tell_undefined(columns, &cells);
+        }
         // The reference refuses the surplus, with a message each.
         let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
         if self.sprites > most {
@@ -271,7 +303,7 @@ impl LevelReader<'_> {
             let problem = Diagnostic::error("extra-avatars", extra, message).label("not the first one");
             self.problems.push(problem.help("keep one; the reference engine would remove all but the first"));
         }
-        if self.avatars.is_empty() && !avatar_told {
+        if self.avatars.is_empty() {
             let end = text.trim_end().len();
             let first = text.chars().next().map_or(0, char::len_utf8);
             let help = match self.avatar_symbol() {
@@ -353,7 +385,7 @@ mod tests {
         check("wAg\r\nwww\r\n", Ok((3, 2)));
         check("wAg\nw\n", Ok((3, 2)));
         check("wAg\n\n", Ok((3, 2)));
-        check("w@g\n", Err(&["undefined-character"]));
+        check("w@g\n", Err(&["no-avatar", "undefined-character"]));
         check("wAG\n", Err(&["undefined-character"]));
         check("wgw\n", Err(&["no-avatar"]));
         check("\u{feff}\n", Err(&["empty-level"]));
@@ -364,6 +396,27 @@ mod tests {
         check(&"x".repeat(MAX_LEVEL_TEXT + 1), Err(&["too-large"]));
         check("Aé\u{0}\n", Err(&["undefined-character", "undefined-character"]));
         check("Axxx\nxxxx\n", Err(&["undefined-character"]));
+    }
+
+    #[test]
+    fn levels_of_a_faulty_game_are_looked_at_as_far_as_its_mapping_tells() {
+        let check = |replace: &str, with: &str, level: &str, expect: &[&str]| {
+            let source = GAME.replace(replace, with);
+            assert!(Game::from_source(&source).is_err(), "{source}");
+            let mapping = LevelMapping::of_source(&source);
+            let told = mapping.map(|mapping| mapping.problems(level)).unwrap_or_default();
+            assert_eq!(told.iter().map(|problem| problem.code).collect::<Vec<_>>(), expect, "{source}");
+        };
+        let both = ["no-avatar", "undefined-character"];
+        check("stepBack", "stepBakc", "wXg\n", &both);
+        check("MovingAvatar", "MovnigAvatar", "wXg\n", &both);
+        check("stepBack", "stepBakc", "wAg\n", &[]);
+        check("stepBack", "stepBakc", "AgA\nw\n", &["extra-avatars", "ragged-level"]);
+        // Who knows what the line was to place, or whether that moves.
+        check("A > avatar", "A avatar", "wXg\n", &[]);
+        check("A > avatar", "A > avatr", "wXg\n", &["undefined-character"]);
+        check("MovingAvatar", "Quux", "wXg\n", &["undefined-character"]);
+        check("  LevelMapping\n    w > wall\n    g > gold\n    A > avatar\n", "", "wXg\n", &[]);
     }
 
     #[test]

@@ -23,6 +23,8 @@ use rayon::prelude::*;
 pub struct RulesMatter {
     /// Forward-model calls for each interaction.
     pub calls: u64,
+    /// Forward-model calls of all interactions together, if they are bounded: what does not fit is not tried.
+    pub total: Option<u64>,
 }
 
 /// Futures from each execution.
@@ -54,7 +56,7 @@ impl GameValidator for RulesMatter {
         let lines = case.usage.lines.iter().enumerate().filter(|(_, uses)| !uses.is_empty());
         let lines: Vec<(usize, &Vec<Use>)> = lines.collect();
         let found: Vec<(Found, u64)> =
-            lines.par_iter().map(|(line, uses)| self.try_without(case, *line, uses)).collect();
+            lines.par_iter().map(|(line, uses)| self.try_without(case, *line, uses, lines.len())).collect();
         let spent = found.iter().map(|(_, spent)| spent).sum();
         let (mut idle, mut unshown, mut guards) = (Vec::new(), Vec::new(), Vec::new());
         for ((line, uses), (found, _)) in lines.iter().zip(&found) {
@@ -86,12 +88,20 @@ impl GameValidator for RulesMatter {
 }
 
 impl RulesMatter {
-    fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use]) -> (Found, u64) {
+    /// Tries one of so many lines.
+    fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use], lines: usize) -> (Found, u64) {
         let without = case.game.without(line);
-        let mut calls = 0;
+        let share = self.total.map(|total| total / lines.max(1) as u64);
+        let most = share.map_or(self.calls, |share| share.min(self.calls));
+        let is_spent = |calls: u64| share.is_some() && calls >= most;
+        let (mut calls, mut cut) = (0, false);
         let of = |at: &Use| (case.recording[at.level], &case.recording[at.level].episodes[at.episode]);
         for at in uses {
             let (recorded, episode) = of(at);
+            cut |= is_spent(calls);
+            if cut {
+                break;
+            }
             calls += episode.actions.len() as u64;
             if ends(&without, recorded, episode.seed, &episode.actions) != (episode.outcome, episode.score) {
                 return (Found::Matters, calls);
@@ -100,6 +110,10 @@ impl RulesMatter {
         let mut differs = false;
         for (number, at) in uses.iter().enumerate() {
             let (recorded, episode) = of(at);
+            cut |= is_spent(calls);
+            if cut {
+                break;
+            }
             let seed = case.seed.child("line", line as u64).child("future", number as u64);
             let futures = Futures { with: case.game, without: &without, recorded, episode, tick: at.tick };
             let (matters, state, spent) = futures.differ(seed);
@@ -109,7 +123,7 @@ impl RulesMatter {
                 return (Found::Matters, calls);
             }
             // Half is kept for the searching player.
-            if calls >= self.calls / 2 {
+            if calls >= most / 2 {
                 break;
             }
         }
@@ -117,13 +131,13 @@ impl RulesMatter {
         levels.sort_unstable();
         levels.dedup();
         for (number, level) in levels.into_iter().enumerate() {
-            if calls >= self.calls {
+            if calls >= most {
                 break;
             }
             let recorded = case.recording[level];
             let seed = case.seed.child("line", line as u64).child("play", number as u64);
             let mut planner = Mcts::new(MctsConfig::bold(SIGHT), seed.child("planner", 0));
-            let limits = Limits { ticks: PLAY, calls: self.calls - calls };
+            let limits = Limits { ticks: PLAY, calls: most - calls };
             let played =
                 play(&without, recorded.level, &mut planner, DECISION, seed.child("chance", 0), limits);
             calls += played.calls;
@@ -133,7 +147,7 @@ impl RulesMatter {
             }
         }
         // A rule that waits for something is idle as long as nobody gets that far.
-        (if differs || !case.usage.won { Found::Unshown } else { Found::Idle }, calls)
+        (if differs || cut || !case.usage.won { Found::Unshown } else { Found::Idle }, calls)
     }
 }
 

@@ -172,6 +172,17 @@ pub(crate) struct Climbed {
     pub(crate) plays: Vec<Vec<Play>>,
 }
 
+impl Climbed {
+    /// How many plays were broken off because of so many calls.
+    pub(crate) fn broken_off(&self, calls: u64) -> usize {
+        let is_cut = |play: &&Play| {
+            play.episode.outcome == Outcome::Ongoing
+                && (play.calls >= calls || play.episode.actions.len() as u64 >= calls)
+        };
+        self.plays.iter().flatten().filter(is_cut).count()
+    }
+}
+
 impl Climb {
     fn players(&self) -> impl Iterator<Item = &Rung> {
         self.rungs.iter().chain(&self.held_out)
@@ -188,11 +199,22 @@ impl Climb {
         (self.measure(&climbed), climbed.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 
+    /// How many plays a round has.
+    pub(crate) fn of_a_round(&self) -> u64 {
+        ROUND * self.players().count() as u64
+    }
+
     /// Lets all play equally often. Rounds go on until the plays, or the calls, are spent.
     pub(crate) fn climb(&self, case: Case<'_>) -> Climbed {
+        self.climb_within(case, u64::MAX)
+    }
+
+    /// The same with plays that are broken off at the first decision beyond so many calls, and ticks.
+    pub(crate) fn climb_within(&self, case: Case<'_>, calls: u64) -> Climbed {
         let patient = |witness: &Episode| self.patience.saturating_mul(witness.actions.len()) + GRACE;
         let ticks = self.ticks.min(case.witness.map_or(usize::MAX, patient));
-        let limits = Limits { ticks, ..Limits::default() };
+        let ticks = ticks.min(usize::try_from(calls).unwrap_or(usize::MAX));
+        let limits = Limits { ticks, calls };
         let players: Vec<&Rung> = self.players().collect();
         let mut plays: Vec<Vec<Play>> = vec![Vec::new(); players.len()];
         let mut spent = 0;

@@ -4,7 +4,9 @@
 //! counter-example. *Unknown* says how much was spent: running out of budget is never called unsolvable.
 
 mod ablation;
+mod allowance;
 mod board;
+mod causes;
 mod criteria;
 mod early_death;
 mod ending;

@@ -1,6 +1,9 @@
 //! All judges together.
 
 use crate::ablation::RulesMatter;
+use crate::allowance::{Allowance, IdleWithin, RandomWithin};
+use crate::causes;
+use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameReport, GameValidator};
 use crate::recording::{Recorded, Usage, explore};
 use crate::{
@@ -16,7 +19,16 @@ use serde::Serialize;
 pub struct Panel {
     validators: Vec<Box<dyn Validator + Send>>,
     of_game: Vec<Box<dyn GameValidator + Send>>,
+    /// The criteria, and the calls that they share, if those are bounded.
+    bound: Option<(Criteria, u64)>,
+    /// Ticks of the ways that are tried on each level for rules which were never seen.
+    exploration: u64,
 }
+
+/// Criteria that cannot be asked of a level which nobody can win.
+const NEED_A_WIN: [&str; 2] = ["length", "skill"];
+/// What is said of them then.
+const NOT_ASKED: &str = "not asked: the level cannot be won";
 
 /// What one validator found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -60,6 +72,11 @@ impl Report {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
     }
 
+    /// Whether it is proved that nobody can win.
+    fn is_unwinnable(&self) -> bool {
+        self.finding("winnable").is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
+    }
+
     /// Takes the witness of a judgement; where there is none because the search found none, a win that somebody else has
     /// played is as good.
     fn accept(&mut self, judgement: &mut Judgement) {
@@ -96,12 +113,36 @@ impl Panel {
     /// # Panics
     /// If they name players or criteria that there are not; see [`Criteria::check`].
     pub fn new(criteria: &Criteria) -> Panel {
-        let c = criteria;
+        Panel::allowed(criteria, None)
+    }
+
+    /// The same with so many forward-model calls for each level, and for the game over all its levels, shared out among all
+    /// criteria: together they take some eight times as many at most, and the least that gives any answer. What does not fit is
+    /// broken off, and its answer is unknown. Where a tick is unusually much work, it counts as several calls.
+    ///
+    /// # Panics
+    /// As [`Panel::new`].
+    pub fn bounded(criteria: &Criteria, calls: u64) -> Panel {
+        Panel { bound: Some((criteria.clone(), calls)), ..Panel::new(criteria) }
+    }
+
+    fn allowed(criteria: &Criteria, allowance: Option<Allowance>) -> Panel {
+        let bounded = allowance.map(|allowance| allowance.bounds(criteria));
+        let c = bounded.as_ref().unwrap_or(criteria);
+        let climb = c.climb().expect("the criteria name planners that exist");
+        let play_calls = allowance.map_or(u64::MAX, |allowance| allowance.ladder_play(climb.of_a_round()));
+        let [idle, random] = match allowance {
+            None => [usize::MAX; 2],
+            Some(allowance) => [allowance.idle_play(), allowance.random_play()],
+        };
         let level: [(&str, Box<dyn Validator + Send>); 8] = [
             ("well-formed", Box::new(WellFormed)),
             ("readable", Box::new(Readable)),
-            ("not-idle", Box::new(NotIdle { plays: c.idle_plays })),
-            ("not-random", Box::new(NotRandom { plays: c.random_plays, most: c.random_wins })),
+            ("not-idle", Box::new(IdleWithin(NotIdle { plays: c.idle_plays }, idle))),
+            (
+                "not-random",
+                Box::new(RandomWithin(NotRandom { plays: c.random_plays, most: c.random_wins }, random)),
+            ),
             (
                 "early-death",
                 Box::new(NoEarlyDeath {
@@ -122,29 +163,33 @@ impl Panel {
                 }))),
             ),
             ("length", Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
-            (
-                "skill",
-                Box::new(SkillPays {
-                    climb: c.climb().expect("the criteria name planners that exist"),
-                    wins: c.skill_wins,
-                    scores: c.skill_scores,
-                }),
-            ),
+            ("skill", Box::new(SkillPays { climb, wins: c.skill_wins, scores: c.skill_scores, play_calls })),
         ];
         let game: [(&str, Box<dyn GameValidator + Send>); 3] = [
             ("skill-overall", Box::new(SkillOverall { wins: c.skill_overall })),
             ("rule-use", Box::new(RuleUse)),
-            ("ablation", Box::new(RulesMatter { calls: c.ablation_calls })),
+            (
+                "ablation",
+                Box::new(RulesMatter { calls: c.ablation_calls, total: allowance.map(Allowance::ablation) }),
+            ),
         ];
         Panel {
             validators: level.into_iter().filter(|(name, _)| c.asks(name)).map(|(_, judge)| judge).collect(),
             of_game: game.into_iter().filter(|(name, _)| c.asks(name)).map(|(_, judge)| judge).collect(),
+            bound: None,
+            exploration: allowance.map_or(u64::MAX, Allowance::exploration),
         }
     }
 
     /// Asks every validator of levels.
     pub fn judge(&self, game: &Game, level: &Level, seed: Seed) -> Report {
-        self.ask(game, level, None, seed, false)
+        match &self.bound {
+            None => self.ask(game, level, None, seed, false),
+            Some((criteria, calls)) => {
+                let allowance = Allowance::of(*calls, game, [level]);
+                Panel::allowed(criteria, Some(allowance)).ask(game, level, None, seed, false)
+            }
+        }
     }
 
     /// Asks until one does not pass: for minting, where candidates are many.
@@ -177,10 +222,15 @@ impl Panel {
         if self.of_game.is_empty() || levels.is_empty() {
             return Vec::new();
         }
+        if let Some((criteria, calls)) = &self.bound {
+            let allowance = Allowance::of(*calls, game, levels);
+            let panel = Panel::allowed(criteria, Some(allowance));
+            return panel.judge_together(game, levels, reports, seed);
+        }
         let analysis = Analysis::of(game);
-        let episodes = record(game, levels, reports, seed.child("explore", 0));
+        let episodes = record(game, levels, reports, seed.child("explore", 0), self.exploration);
         let recording = recorded(levels, &episodes);
-        let usage = Usage::of(game, &recording);
+        let usage = Usage::within(game, &recording, self.exploration);
         let ladders: Vec<Option<&Ladder>> = reports.iter().map(Report::ladder).collect();
         let judge = |validator: &(dyn GameValidator + Send)| {
             let criterion = validator.name();
@@ -204,9 +254,19 @@ impl Panel {
         let ask = |validator: &(dyn Validator + Send), witness: Option<&Episode>| {
             let criterion = validator.name();
             let case = Case { game, level, seed: seed.child(criterion, 0), analysis: &analysis, witness };
-            Judgement { criterion, finding: validator.validate(case) }
+            let mut finding = validator.validate(case);
+            if criterion == "winnable" && !screen {
+                causes::explain(case, &mut finding);
+            }
+            Judgement { criterion, finding }
         };
         for validator in &self.validators {
+            let criterion = validator.name();
+            if NEED_A_WIN.contains(&criterion) && report.is_unwinnable() {
+                let finding = Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(NOT_ASKED)]);
+                report.judgements.push(Judgement { criterion, finding });
+                continue;
+            }
             let mut judgement = ask(&**validator, report.witness.as_ref());
             if judgement.criterion == "winnable" {
                 report.accept(&mut judgement);
@@ -238,13 +298,19 @@ impl Panel {
     }
 }
 
-/// What was played on each level, and what random keys add where some rule was never seen.
-pub(crate) fn record(game: &Game, levels: &[Level], reports: &[Report], seed: Seed) -> Vec<Vec<Episode>> {
+/// What was played on each level, and what random keys add in at most `most` ticks where some rule was never seen.
+pub(crate) fn record(
+    game: &Game,
+    levels: &[Level],
+    reports: &[Report],
+    seed: Seed,
+    most: u64,
+) -> Vec<Vec<Episode>> {
     let mut episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
     let new = {
         let recording = recorded(levels, &episodes);
-        let usage = Usage::of(game, &recording);
-        explore(game, &recording, &usage, seed)
+        let usage = Usage::within(game, &recording, most);
+        explore(game, &recording, &usage, seed, most)
     };
     for (episodes, new) in episodes.iter_mut().zip(new) {
         // After the witness, before what may be too much to look at.

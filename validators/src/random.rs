@@ -1,6 +1,7 @@
 //! Is it won by pressing any key?
 
 use crate::ending::Ending;
+use crate::idle::broken_off;
 use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
 use agents::{Budget, Limits, Play, Random, play};
 use engine::Outcome;
@@ -21,19 +22,21 @@ impl Validator for NotRandom {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
+        self.judge(case, usize::MAX)
+    }
+}
+
+impl NotRandom {
+    /// Judges by plays of so many ticks at most; what is broken off is no answer.
+    pub(crate) fn judge(&self, case: Case<'_>, ticks: usize) -> Finding {
+        let limits = Limits { ticks, ..Limits::default() };
         let played: Vec<Play> = (0..u64::from(self.plays))
             .into_par_iter()
             .map(|run| {
                 let seed = case.seed.child("random", run);
                 let mut planner = Random::new(seed.child("planner", 0));
-                play(
-                    case.game,
-                    case.level,
-                    &mut planner,
-                    Budget(0),
-                    seed.child("chance", 0),
-                    Limits::default(),
-                )
+                let chance = seed.child("chance", 0);
+                play(case.game, case.level, &mut planner, Budget(0), chance, limits)
             })
             .collect();
         let measured = Rate::of(&played);
@@ -41,7 +44,7 @@ impl Validator for NotRandom {
         let won = played.iter().map(|play| &play.episode).filter(|episode| episode.outcome == Outcome::Won);
         let shortest = won.min_by_key(|episode| episode.actions.len());
         let finding = match shortest.filter(|_| share > self.most) {
-            None => Finding::from(Verdict::pass()),
+            None => broken_off(&played, ticks).unwrap_or_else(|| Finding::from(Verdict::pass())),
             Some(shortest) => {
                 let Rate { wins, plays, .. } = measured;
                 let most = 100.0 * self.most;

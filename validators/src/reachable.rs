@@ -1,12 +1,14 @@
 //! What is proved before anything is searched.
 
+use crate::causes::lower;
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Validator, Verdict};
 use engine::analysis::Cause;
 use engine::describe;
 
 /// Asks the analysis of the level before a search: a win that is out of reach (`engine::analysis::Reach`) is a failure, and
-/// the validator within is not asked. Its name is that of the one within.
+/// the validator within is not asked. Its name is that of the one within. (Where designers ask, the panel adds the chain of
+/// causes.)
 #[derive(Clone, Debug)]
 pub struct Reachable<V>(pub V);
 
@@ -41,10 +43,4 @@ impl<V: Validator> Validator for Reachable<V> {
         Finding::from(Verdict::fail(format!("no way to win, whatever is played: {}", lower(why))))
             .seen(evidence)
     }
-}
-
-/// A sentence as the end of another.
-fn lower(sentence: &str) -> String {
-    let mut characters = sentence.trim_end_matches('.').chars();
-    characters.next().map_or(String::new(), |first| first.to_lowercase().chain(characters).collect())
 }

@@ -73,9 +73,15 @@ impl Usage {
 
     /// Plays the recording again. Cost: that of the episodes, at most 100,000 ticks a level.
     pub(crate) fn of(game: &Game, recording: &[Recorded<'_>]) -> Usage {
+        Usage::within(game, recording, TICKS)
+    }
+
+    /// The same of at most so many ticks a level, and the episode that goes beyond.
+    pub(crate) fn within(game: &Game, recording: &[Recorded<'_>], most: u64) -> Usage {
+        let most = most.min(TICKS);
         let numbered: Vec<(usize, &Recorded<'_>)> = recording.iter().enumerate().collect();
         let of_level =
-            |&(number, recorded): &(usize, &Recorded<'_>)| Usage::of_level(game, number, *recorded);
+            |&(number, recorded): &(usize, &Recorded<'_>)| Usage::of_level(game, number, *recorded, most);
         let mut usage = Usage::new(game);
         let levels: Vec<Usage> = numbered.par_iter().map(of_level).collect();
         for (line, all) in usage.lines.iter_mut().enumerate() {
@@ -95,11 +101,11 @@ impl Usage {
         usage
     }
 
-    fn of_level(game: &Game, number: usize, recorded: Recorded<'_>) -> Usage {
+    fn of_level(game: &Game, number: usize, recorded: Recorded<'_>, most: u64) -> Usage {
         let mut usage = Usage::new(game);
         usage.won = recorded.episodes.iter().any(|episode| episode.outcome == Outcome::Won);
         for (episode, played) in recorded.episodes.iter().enumerate() {
-            if usage.ticks >= TICKS {
+            if usage.ticks >= most {
                 break;
             }
             let mut state = game.start(recorded.level, played.seed);
@@ -138,12 +144,13 @@ const TRIES: u64 = 400;
 const KEYS: usize = 40;
 
 /// Looks for executions of interactions that a recording does not show: from some moment of some episode of a level,
-/// random keys are pressed. Returns, by level, the episodes that show something new; they are episodes like all others.
+/// random keys are pressed, for at most `most` ticks a level and one way more. Returns, by level, the episodes that show something new; they are episodes like all others.
 pub(crate) fn explore(
     game: &Game,
     recording: &[Recorded<'_>],
     usage: &Usage,
     seed: Seed,
+    most: u64,
 ) -> Vec<Vec<Episode>> {
     let unseen: Vec<bool> = usage.lines.iter().map(Vec::is_empty).collect();
     if !unseen.contains(&true) {
@@ -154,13 +161,22 @@ pub(crate) fn explore(
         let mut unseen = unseen.clone();
         let tries = (0..TRIES).map(|number| seed.child("way", number));
         let tries = tries.map(|way| way.child("level", number));
-        tries.filter_map(|way| try_way(game, *recorded, &mut unseen, way)).collect()
+        let mut left = most;
+        let tries =
+            tries.map_while(|way| (left > 0).then(|| try_way(game, *recorded, &mut unseen, way, &mut left)));
+        tries.flatten().collect()
     };
     numbered.par_iter().map(of_level).collect()
 }
 
 /// Marks what a way shows that was not seen; the episode up to the last of it.
-fn try_way(game: &Game, recorded: Recorded<'_>, unseen: &mut [bool], seed: Seed) -> Option<Episode> {
+fn try_way(
+    game: &Game,
+    recorded: Recorded<'_>,
+    unseen: &mut [bool],
+    seed: Seed,
+    left: &mut u64,
+) -> Option<Episode> {
     struct News<'a>(&'a mut [bool], bool);
     impl Watch for News<'_> {
         fn interaction(&mut self, line: usize) {
@@ -189,6 +205,7 @@ fn try_way(game: &Game, recorded: Recorded<'_>, unseen: &mut [bool], seed: Seed)
         let mut news = News(unseen, false);
         game.step_watched(&mut state, action, &mut news);
         actions.push(action);
+        *left = left.saturating_sub(1);
         if news.1 {
             telling = actions.len();
         }

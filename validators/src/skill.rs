@@ -21,6 +21,8 @@ pub struct SkillPays {
     pub wins: f64,
     /// Or by how much the mean scores must, as a share of the range of all scores.
     pub scores: f64,
+    /// Forward-model calls of one play, after which it is broken off; then a failure is no answer.
+    pub play_calls: u64,
 }
 
 /// Resamples for an interval of scores.
@@ -41,7 +43,8 @@ impl Validator for SkillPays {
     }
 
     fn validate(&self, case: Case<'_>) -> Finding {
-        let climbed = self.climb.climb(case);
+        let climbed = self.climb.climb_within(case, self.play_calls);
+        let cut = climbed.broken_off(self.play_calls);
         let ladder = self.climb.measure(&climbed);
         let spent = climbed.plays.iter().flatten().map(|play| play.calls).sum();
         let range = range(&climbed);
@@ -72,7 +75,7 @@ impl Validator for SkillPays {
         let unsure = edges.iter().chain(&held).any(|edge| edge.unsure);
         let verdict = if shown && accepted {
             Verdict::pass()
-        } else if unsure || !won || (shown && !accepted) {
+        } else if unsure || !won || (shown && !accepted) || cut > 0 {
             Verdict::Unknown { spent }
         } else {
             let strongest = edges.last().or(held.last()).map(|edge| edge.text.as_str());
@@ -86,6 +89,10 @@ impl Validator for SkillPays {
                 "let choices matter: dangers that foresight avoids, points that a plan earns, less luck"
                     .to_owned(),
             );
+        }
+        if cut > 0 {
+            let text = format!("{cut} plays were broken off, by the budget");
+            evidence.insert(0, Evidence::new(text));
         }
         let episodes = climbed.plays.into_iter().flatten().map(|play| play.episode);
         Finding { ladder: Some(ladder), ..Finding::from(verdict).seen(evidence).played(episodes) }

@@ -19,7 +19,8 @@ impl Validator for WellFormed {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Case { game, level, analysis, seed, .. } = case;
         if !analysis.can_win() {
-            let told = game.warnings().iter().find(|warning| warning.code == "no-win");
+            let told =
+                game.warnings().iter().find(|warning| ["swapped-rule", "no-win"].contains(&warning.code));
             let reason = told.map_or("the game cannot be won", |warning| warning.message.as_str());
             let help = told.and_then(|warning| warning.help.clone());
             let wins = analysis.goals().iter().filter(|goal| goal.win);

@@ -28,7 +28,10 @@ impl Validator for Winnable {
             }
             Solution::Impossible { states, nearest } => {
                 let reason = format!("no way to win: all {states} states that can be reached were looked at");
-                Finding::from(Verdict::fail(reason)).seen(nearest_to_a_win(case, &nearest))
+                let note = "no single cause is known: rules and places alone do not rule a win out";
+                Finding::from(Verdict::fail(reason))
+                    .seen([Evidence::new(note)])
+                    .seen(nearest_to_a_win(case, &nearest))
             }
             Solution::Unknown => Verdict::Unknown { spent: solved.calls }.into(),
         };

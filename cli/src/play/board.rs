@@ -23,19 +23,21 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
-    /// The sign of the glyph; where several types have one glyph and its sign leaves the second column free, the type's own
-    /// character is there, so that more than colour tells them apart.
+    /// The sign of the glyph; where several types have one sign, the type's own character is its second column, so that more
+    /// than colour tells them apart. (Unicode signs that fill both columns stay as they are.)
     pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
         let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };
         let text = |stype: SpriteType| {
-            let glyph = looks.look(stype).glyph;
-            let kin = looks.shown().filter(|&other| looks.look(other).glyph == glyph).count();
-            let sign = sign(glyph);
-            match sign.strip_suffix(' ') {
-                Some(first) if kin > 1 && glyph != Glyph::Floor => {
+            let own = sign(looks.look(stype).glyph);
+            let is_floor = |stype: SpriteType| looks.look(stype).glyph == Glyph::Floor;
+            let like = |&other: &SpriteType| !is_floor(other) && sign(looks.look(other).glyph) == own;
+            let kin = looks.shown().filter(like).count();
+            let mut characters = own.chars();
+            match (characters.next(), characters.next()) {
+                (Some(first), Some(second)) if kin > 1 && !is_floor(stype) && (ascii || second == ' ') => {
                     format!("{first}{}", symbols.symbol(stype))
                 }
-                _ => sign.to_owned(),
+                _ => own.to_owned(),
             }
         };
         let texts = looks.game().sprite_types().map(text).collect();
@@ -158,6 +160,35 @@ mod tests {
         check(16, 30, 2..5);
         check(-100, 400, 0..5);
         check(13, 4, 1..2);
+    }
+
+    #[test]
+    fn no_two_types_share_a_sign_of_ascii() {
+        let sprites: String =
+            (0..12).map(|at| format!("        s{at} > Door\n        b{at} > Passive\n")).collect();
+        let letter = |from: u8, at: u8| char::from(from + at);
+        let mapping: String = (0..12)
+            .map(|at| format!("        {} > s{at}\n        {} > b{at}\n", letter(b'a', at), letter(b'B', at)))
+            .collect();
+        let rules: String = (0..12)
+            .map(|at| format!("        s{at} avatar > killSprite\n        b{at} avatar > bounceForward\n"))
+            .collect();
+        let source = format!(
+            "BasicGame\n    SpriteSet\n{sprites}        avatar > MovingAvatar\n    LevelMapping\n{mapping}    InteractionSet\n{rules}    TerminationSet\n        SpriteCounter stype=s0 win=True\n"
+        );
+        let game = engine::Game::from_source(&source).unwrap();
+        let analysis = engine::Analysis::of(&game);
+        let looks = Looks::of(&analysis);
+        let signs = Signs::of(&looks, &Symbols::of(&analysis, &looks), true);
+        let shown: Vec<SpriteType> =
+            looks.shown().filter(|&stype| looks.look(stype).glyph != Glyph::Floor).collect();
+        assert!(shown.len() > 20, "{}", shown.len());
+        for (at, &stype) in shown.iter().enumerate() {
+            let text = &signs.texts[stype.index()];
+            assert!(text.is_ascii() && text.len() == 2, "{text}");
+            let other = shown[..at].iter().find(|other| signs.texts[other.index()] == *text);
+            assert_eq!(other.map(|&other| game.name(other)), None, "{} has `{text}`, too", game.name(stype));
+        }
     }
 
     #[test]

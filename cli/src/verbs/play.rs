@@ -32,7 +32,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
     /// Forward-model calls of one of the planner's decisions, unless it is named with its own: `mcts:500`
-    #[arg(long, value_name = "CALLS", default_value_t = 1000)]
+    #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
     budget: u64,
     /// Text that the seeds of chance and planner come from
     #[arg(long, value_name = "TEXT", default_value = "play")]

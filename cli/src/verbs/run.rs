@@ -26,14 +26,14 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "mcts")]
     planner: Vec<String>,
     /// Forward-model calls of one decision
-    #[arg(long, value_name = "CALLS", default_value_t = 1000)]
+    #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
     budget: u64,
     /// Episodes of each planner on each level
-    #[arg(long, value_name = "N", default_value_t = 5)]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     runs: u64,
     /// Ticks of an episode at most
-    #[arg(long, value_name = "N", default_value_t = 2000)]
-    max_ticks: usize,
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
+    max_ticks: u64,
     /// Text that all seeds come from
     #[arg(long, value_name = "TEXT", default_value = "run")]
     seed: String,
@@ -87,7 +87,7 @@ struct Report<'a> {
     semantics: u32,
     seed: &'a str,
     runs: u64,
-    max_ticks: usize,
+    max_ticks: u64,
     as_reference: bool,
     rows: Vec<Row<'a>>,
 }
@@ -181,7 +181,7 @@ fn play_entry<'a>(args: &Args, entry: &Entry<'a>) -> Line<'a> {
         .child("run", run);
     let mut player = planner.player(seed.child(planner.name(), 0));
     let budget = budget(args, planner);
-    let limits = Limits { ticks: args.max_ticks, ..Limits::default() };
+    let limits = Limits { ticks: usize::try_from(args.max_ticks).unwrap_or(usize::MAX), ..Limits::default() };
     let started = Stopwatch::start();
     let chance = seed.child("chance", 0);
     let played = play(&subject.game, &subject.levels[level], &mut player, Budget(budget), chance, limits);

@@ -6,14 +6,14 @@ mod text;
 use crate::console::Console;
 use crate::diagnostics;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, Named};
+use crate::input::{self, GameInput, Named};
 use document::{Document, LevelDocument};
-use engine::{Analysis, Episode, Game, Level, Seed, describe};
+use engine::{Analysis, Diagnostic, Diagnostics, Episode, Game, Level, LevelMapping, Seed, describe};
 use rayon::prelude::*;
 use std::path::PathBuf;
 use validators::{Criteria, Panel, Report};
 
-/// Judges a game and its levels: all problems of the files first, then each criterion of a release.
+/// Judges a game and its levels: all problems of all files first, then each criterion of a release.
 ///
 /// The verdict comes first, a line for each level and one for the game; then the reasons, each with what was seen and what
 /// to try. Whether every rule is used is asked of the game over all its levels, if no level is left out. See
@@ -31,8 +31,8 @@ pub(crate) struct Args {
     /// Level files, or numbers of the game's own levels; all of those if none is named
     #[arg(value_name = "LEVEL")]
     levels: Vec<String>,
-    /// Forward-model calls to find a win, for each level
-    #[arg(long, value_name = "CALLS", default_value_t = Criteria::default().budget)]
+    /// Forward-model calls to find a win, for each level; all else that is asked takes some eight times as many at most
+    #[arg(long, value_name = "CALLS", default_value_t = Criteria::default().budget, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     budget: u64,
     /// Text that the judges' seed comes from
     #[arg(long, value_name = "TEXT", default_value = "validate")]
@@ -67,15 +67,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let load = if args.as_reference { Game::from_source_as_reference } else { Game::from_source };
     let game = match load(&input.source.text) {
         Ok(game) => game,
-        Err(problems) => {
-            console.document(&Document::of_malformed(&input.source, &problems.0))?;
-            return Err(diagnostics::failure(&input.source, &problems.0));
-        }
+        Err(problems) => return Err(malformed(args, console, &input, &problems.0)),
     };
-    let levels: Vec<Named> = match args.levels[..] {
-        [] => input.levels()?,
-        _ => args.levels.iter().map(|name| input.level(name)).collect::<Result<_, _>>()?,
-    };
+    let levels = levels(args, &input)?;
     if levels.is_empty() {
         let name = &input.source.name;
         let help = "name a level file after it, or put lvl0.txt beside game.vgdl";
@@ -88,7 +82,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return Err(Failure::malformed(message));
     }
     let criteria = Criteria { budget: args.budget, ..Criteria::full() };
-    let panel = Panel::new(&criteria);
+    let panel = Panel::bounded(&criteria, args.budget);
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
     let mut judged: Vec<Judged<'_>> = levels
@@ -148,6 +142,39 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
     }
     Ok(passes)
+}
+
+fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {
+    match args.levels[..] {
+        [] => input.levels(),
+        _ => args.levels.iter().map(|name| input.level(name)).collect(),
+    }
+}
+
+/// The problems of a game that does not compile, and those of its levels that are certain all the same.
+fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diagnostic]) -> Failure {
+    let mut told = vec![diagnostics::in_words(&input.source, problems)];
+    let mapping = Some(&input.source.text).filter(|_| !args.as_reference);
+    let mapping = mapping.and_then(|source| LevelMapping::of_source(source));
+    let levels = match levels(args, input) {
+        Ok(levels) => levels,
+        Err(failure) => {
+            told.push(failure.to_string());
+            Vec::new()
+        }
+    };
+    let mut documents = Vec::new();
+    for level in &levels {
+        let problems = mapping.as_ref().map_or(Vec::new(), |mapping| mapping.problems(&level.text));
+        if Diagnostics::has_errors(&problems) {
+            told.push(diagnostics::in_words(level, &problems));
+        }
+        documents.push(LevelDocument::of_malformed_game(level, &problems));
+    }
+    match console.document(&Document::of_malformed(&input.source, problems, documents)) {
+        Ok(()) => Failure::malformed(told.join("\n")),
+        Err(failure) => failure,
+    }
 }
 
 fn save(witness: &Episode, path: &PathBuf) -> Result<(), Failure> {

@@ -30,7 +30,7 @@ pub use goal::{Aims, Condition, Goal};
 pub use keying::Keying;
 pub use lock::{Fate, Key, Lock, Pushable, Resource, Sink};
 pub use pairs::MAX_RULES_PER_PAIR;
-pub use reach::{Cause, Hindrance, Reach};
+pub use reach::{Apart, Cause, Chain, Closed, Hindrance, Lack, Obstacle, Reach, Shortage, Source};
 pub use requirement::{MAX_GOALS, Reason, Requirement};
 pub use role::Role;
 pub use taxonomy::{Genre, Spatiality, Taxonomy, Time};

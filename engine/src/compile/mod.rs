@@ -4,6 +4,7 @@ mod as_reference;
 mod clauses;
 mod header;
 mod interactions;
+mod outline;
 mod params;
 mod references;
 mod space;
@@ -29,8 +30,9 @@ use crate::scenery::{scenery, spoken_of};
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
+pub(crate) use outline::{Outline, outline};
 use smallvec::SmallVec;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 /// What to do about faults.
@@ -81,6 +83,9 @@ fn compile_with(
     let (terminations, can_end) = terminations::terminations(description, names, setting, &mut problems);
     let obstacles = header.obstacles.iter().flatten();
     let obstacles = obstacles.filter_map(|name| names.resolve(name, &mut problems)).collect();
+    if policy == Policy::Strict {
+        repeated_parameters(description, &mut problems);
+    }
     if policy == Policy::Strict && problems.len() < MAX_PROBLEMS {
         misspelt_declarations(description, &mut problems);
     }
@@ -198,6 +203,30 @@ fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     unknown.sort_unstable();
     unknown.dedup();
     unknown.len() as u32
+}
+
+/// Parameters that a line gives twice.
+fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>) {
+    let lines = description.sprite_lines().into_iter().map(|(_, line)| &line.params);
+    let lines = lines.chain(description.interactions.iter().map(|line| &line.params));
+    let lines = lines.chain(description.terminations.iter().map(|line| &line.params));
+    for params in lines.chain([&description.header.params]) {
+        let mut seen: BTreeMap<&str, &Param> = BTreeMap::new();
+        for param in params {
+            let key = param.key.text.as_str();
+            let Some(earlier) = seen.insert(key, param) else { continue };
+            let (earlier, last) = (&earlier.value.text, &param.value.text);
+            let message = match earlier == last {
+                true => format!("`{key}` is given twice on this line"),
+                false => {
+                    format!("`{key}` is given twice on this line: `{earlier}`, and `{last}`, which counts")
+                }
+            };
+            let problem = Diagnostic::warning("duplicate-parameter", param.span(), message);
+            problems
+                .push(problem.help(format!("keep one: `{key}={last}`, if the game plays as you mean it")));
+        }
+    }
 }
 
 /// Refuses games that would take long to look at: before anything is resolved.

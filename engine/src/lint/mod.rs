@@ -1,8 +1,10 @@
 //! What is legal in a game but surely not meant, as far as the meaning of its rules tells. (What the text alone tells, the
 //! parser and the compiler say.)
 
+mod swapped;
 mod terminations;
 
+pub use swapped::{SwappedRule, swapped_rule};
 pub(crate) use terminations::over_at_start;
 
 use crate::analysis::{Analysis, Deed, Encounter, Motion, Provided};

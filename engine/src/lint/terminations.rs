@@ -1,7 +1,7 @@
 //! Terminations that end a game too early, or never.
 
-use super::Linter;
-use crate::analysis::{Attainable, Condition as Counted, Goal};
+use super::{Linter, swapped};
+use crate::analysis::{Analysis, Attainable, Condition as Counted, Goal};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Game, SpriteType};
 use crate::limits::MAX_TICKS;
@@ -107,7 +107,17 @@ impl Linter<'_> {
             return;
         }
         if !self.analysis.can_win() {
-            self.lacking_end(true, "the game cannot be won", problems);
+            match swapped::told(self.game) {
+                Some((problem, repaired)) => {
+                    // What never fires because of it is no problem of its own.
+                    let mut left = Vec::new();
+                    let linter = Linter { game: &repaired, analysis: &Analysis::of(&repaired) };
+                    linter.rules_that_never_fire(&mut left);
+                    problems.retain(|other| other.code != "never-fires" || left.contains(other));
+                    problems.push(problem);
+                }
+                None => self.lacking_end(true, "the game cannot be won", problems),
+            }
         }
         if !self.analysis.can_lose() {
             self.lacking_end(false, "the game cannot be lost before its last tick", problems);

@@ -31,7 +31,7 @@ pub(super) fn of_siblings(lines: &[&Line<'_>]) -> usize {
 /// Lines that are not indented deeper than the name of their section.
 pub(super) fn outside(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     for (first, count) in runs(lines, |_, line| (line.indent <= head).then_some(0)) {
-        let message = format!("{} not indented below {}", these(count), section.name());
+        let message = format!("{} not indented below {}{}", these(count), section.name(), of_tabs(first));
         let problem = Diagnostic::error("stray-line", first.span, message);
         problems.push(problem.help(format!("indent {} deeper than `{}`", them(count), section.name())));
     }
@@ -43,7 +43,7 @@ pub(super) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     let indent = usual(inside);
     let off = |line: &Line<'_>| line.indent > head && line.indent != indent;
     for (first, count) in runs(lines, |_, line| off(line).then_some(line.indent)) {
-        let message = format!("{} indented unlike the others", these(count));
+        let message = format!("{} indented unlike the others{}", these(count), of_tabs(first));
         let problem = Diagnostic::error("stray-indent", first.span, message);
         let help = format!("indent every line of {} by the same {indent} columns", section.name());
         problems.push(problem.help(help));
@@ -74,7 +74,7 @@ pub(super) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     for (first, count) in runs(lines, |at, line| off(step, at, line)) {
         let below = head + (first.indent - head) / step * step;
         let near = if below == head { below + step } else { below };
-        let message = format!("{} indented unlike the others", these(count));
+        let message = format!("{} indented unlike the others{}", these(count), of_tabs(first));
         let problem = Diagnostic::warning("uneven-indent", first.span, message);
         let it = if count == 1 { "it" } else { "the first of them" };
         problems.push(problem.help(match near == below {
@@ -103,6 +103,11 @@ fn runs<'a, 'b>(
         last = own;
     }
     runs
+}
+
+/// That an indent is not as wide as it may look, where it has tabs.
+pub(super) fn of_tabs(line: &Line<'_>) -> &'static str {
+    if line.tabbed { ": a tab counts as one column" } else { "" }
 }
 
 fn these(count: usize) -> String {

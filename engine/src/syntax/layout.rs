@@ -10,6 +10,8 @@ pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 pub(super) struct Line<'a> {
     /// Columns before the first character; a tab counts as one.
     pub(super) indent: usize,
+    /// Whether a tab is among them.
+    pub(super) tabbed: bool,
     /// Without indent, comment and trailing blanks.
     pub(super) text: &'a str,
     /// Where `text` stands.
@@ -36,10 +38,18 @@ pub(super) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
         if text.is_empty() {
             above.extend(comment);
         } else {
-            let indent = code.chars().take_while(|&c| c <= ' ').count();
+            let blanks = || code.chars().take_while(|&c| c <= ' ');
+            let (indent, tabbed) = (blanks().count(), blanks().any(|c| c == '\t'));
             let at = start + (text.as_ptr() as usize - raw.as_ptr() as usize);
             let span = Span::new(at, at + text.len());
-            lines.push(Line { indent, text, span, above: std::mem::take(&mut above), beside: comment });
+            lines.push(Line {
+                indent,
+                tabbed,
+                text,
+                span,
+                above: std::mem::take(&mut above),
+                beside: comment,
+            });
         }
         start += raw.len() + 1;
     }

@@ -30,12 +30,10 @@ impl Reader {
             let line = lines[at];
             let deeper = lines[at + 1..].iter().take_while(|child| child.indent > line.indent).count();
             if line.indent != indent && !self.columns {
-                let problem = Diagnostic::warning(
-                    "uneven-indent",
-                    line.span,
-                    "this line is indented unlike its siblings",
-                )
-                .help(format!("indent it by {indent} columns, like them"));
+                let of_tabs = indents::of_tabs(line);
+                let message = format!("this line is indented unlike its siblings{of_tabs}");
+                let problem = Diagnostic::warning("uneven-indent", line.span, message)
+                    .help(format!("indent it by {indent} columns, like them"));
                 self.problems.push(problem);
             }
             let mut sprite = self.sprite(line);

@@ -159,14 +159,20 @@ fn change_card(release: &mut Small, alter: impl Fn(&mut serde_json::Value)) {
 #[test]
 fn semantics_that_never_were_are_no_excuse() {
     for semantics in [0, engine::SEMANTICS - 1, engine::SEMANTICS + 1, u32::MAX] {
-        let expect = format!("MANIFEST.json: semantics {semantics}");
+        let expect =
+            format!("MANIFEST.json: GENERATION {} never had SEMANTICS {semantics}", generators::GENERATION);
         check(|release| release.manifest.semantics = semantics, &[&expect]);
     }
-    check(|release| release.manifest.generation = 0, &["never existed"]);
+    check(|release| release.manifest.generation = 0, &["GENERATION 0 never had SEMANTICS"]);
+    let number = snapshots::version::CURRENT.number;
+    let expect = format!("is minted by version {number}, not 0.1.0");
+    check(|release| release.manifest.version = Some("0.1.0".to_owned()), &[&expect]);
     // Of a later arcade, and of an earlier one: these can be, and were not replayed here.
-    for (semantics, generation) in [(engine::SEMANTICS + 1, generators::GENERATION + 1), (2, 8)] {
+    let later = (engine::SEMANTICS + 1, generators::GENERATION + 1, "0.99.0");
+    for (semantics, generation, version) in [later, (2, 8, "0.8.0")] {
         let mut release = small("2026-12", None);
         (release.manifest.semantics, release.manifest.generation) = (semantics, generation);
+        release.manifest.version = Some(version.to_owned());
         let verification = verified(&mut release, &Bounds::RELEASE);
         assert_eq!(verification.problems, [""; 0]);
         assert_eq!(verification.witnesses, Witnesses::NotReplayed { semantics });

@@ -20,8 +20,12 @@ pub(super) struct Document<'a> {
 }
 
 impl Document<'_> {
-    /// The answer for a game that does not compile.
-    pub(super) fn of_malformed(source: &Named, problems: &[Diagnostic]) -> Document<'static> {
+    /// The answer for a game that does not compile, with what is certain of its levels.
+    pub(super) fn of_malformed(
+        source: &Named,
+        problems: &[Diagnostic],
+        levels: Vec<LevelDocument<'static>>,
+    ) -> Document<'static> {
         Document {
             game: source.name.clone(),
             digest: None,
@@ -29,7 +33,7 @@ impl Document<'_> {
             seed: None,
             criteria: None,
             problems: diagnostics::placed(source, problems),
-            levels: Vec::new(),
+            levels,
             judgements: &[],
         }
     }
@@ -48,6 +52,22 @@ pub(super) struct LevelDocument<'a> {
     #[serde(flatten)]
     pub(super) report: Option<&'a Report>,
     pub(super) witness: Option<&'a Episode>,
+}
+
+impl LevelDocument<'_> {
+    /// What is certain of a level of a game that does not compile.
+    pub(super) fn of_malformed_game(level: &Named, problems: &[Diagnostic]) -> LevelDocument<'static> {
+        LevelDocument {
+            level: level.name.clone(),
+            digest: None,
+            passes: false,
+            problems: diagnostics::placed(level, problems),
+            board: Vec::new(),
+            out_of_reach: Vec::new(),
+            report: None,
+            witness: None,
+        }
+    }
 }
 
 /// Fills in the line numbers of the rules that evidence is about.

@@ -3,7 +3,7 @@
 use super::document::{Document, LevelDocument};
 use crate::input::Named;
 use std::fmt::Write;
-use validators::{Board, Evidence, Fared, Judgement, Ladder, Rate, Report, Verdict};
+use validators::{Board, Difficulty, Evidence, Fared, Judgement, Ladder, Rate, Report, Verdict};
 
 /// Widest board that is shown.
 const WIDEST: usize = 100;
@@ -11,6 +11,8 @@ const WIDEST: usize = 100;
 const MOST_BOARDS: usize = 2;
 /// Pieces of evidence of one criterion that are shown at most.
 const MOST_SEEN: usize = 6;
+/// Links of a chain of causes that are shown at most.
+const MOST_LINKS: usize = 16;
 
 /// The whole answer.
 pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
@@ -57,7 +59,10 @@ fn headline(level: &LevelDocument<'_>) -> String {
     }
     let won =
         report.witness.as_ref().map_or(String::new(), |won| format!(": won in {} ticks", won.actions.len()));
-    let hard = report.ladder().map_or(String::new(), |ladder| format!(", {}", ladder.difficulty));
+    let hard = report.ladder().map_or(String::new(), |ladder| match ladder.difficulty {
+        Difficulty::Unbeaten => "; too hard for every player of the ladder".to_owned(),
+        difficulty => format!(", {difficulty}"),
+    });
     format!("passes{won}{hard}")
 }
 
@@ -88,28 +93,38 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let mark = match &finding.verdict {
         Verdict::Pass { .. } => "pass",
         Verdict::Fail { .. } => "FAIL",
+        Verdict::Unknown { .. } if is_not_asked(finding) => "-",
         Verdict::Unknown { .. } => "?",
     };
     let words = answer(criterion, finding);
     let measured = finding.measured.as_ref().filter(|rate| rate.plays > 0).map_or(String::new(), rate);
     let comma = if words.is_empty() || measured.is_empty() { "" } else { "; " };
-    let optimal = finding.optimal.map_or(String::new(), |_| "; no fewer ticks win: proved".to_owned());
+    let optimal = match (&finding.verdict, finding.optimal) {
+        (_, Some(_)) => "; no fewer ticks win: proved",
+        (Verdict::Pass { witness: Some(_) }, None) => "; fewer ticks may win",
+        _ => "",
+    };
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
     // The reason has said what the first one says.
-    let told = |seen: &&Evidence| seen.rule.is_some() || !words.contains(seen.text.as_str());
+    let told = |seen: &&Evidence| {
+        seen.rule.is_some() || *criterion == "winnable" || !words.contains(seen.text.as_str())
+    };
     // A ladder says in a table what its evidence says in words.
     let told = |seen: &&Evidence| told(seen) && !(finding.ladder.is_some() && mark == "pass");
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(told).collect();
-    for seen in shown.iter().take(MOST_SEEN) {
-        evidence(text, seen, &words, source);
+    let most = if *criterion == "winnable" { MOST_LINKS } else { MOST_SEEN };
+    for seen in shown.iter().take(most) {
+        // A chain of causes is told link by link, each with its place.
+        let said = if *criterion == "winnable" { "" } else { &words };
+        evidence(text, seen, said, source);
         if let Some(seen) = seen.board.as_ref().filter(|_| *boards < MOST_BOARDS && mark != "pass") {
             *boards += 1;
             moment(text, seen);
         }
     }
-    if shown.len() > MOST_SEEN {
-        let _ = writeln!(text, "       and {} more (all with --json)", shown.len() - MOST_SEEN);
+    if shown.len() > most {
+        let _ = writeln!(text, "       and {} more (all with --json)", shown.len() - most);
     }
     let mut advice: Vec<&str> = finding.evidence.iter().filter_map(|seen| seen.advice.as_deref()).collect();
     advice.dedup();
@@ -118,15 +133,29 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     }
 }
 
+/// Whether a criterion was left out, as there is nothing that it could be asked of.
+fn is_not_asked(finding: &validators::Finding) -> bool {
+    finding.evidence.first().is_some_and(|seen| seen.text.starts_with("not asked"))
+}
+
+fn is_broken_off(seen: &Evidence) -> bool {
+    seen.text.ends_with("by the budget")
+}
+
 /// What a verdict says beside yes, no and unknown.
 fn answer(criterion: &str, finding: &validators::Finding) -> String {
     match &finding.verdict {
         Verdict::Pass { witness: Some(witness) } => {
-            format!("won in {} ticks, score {}", witness.actions.len(), witness.score)
+            format!("the witness wins in {} ticks, score {}", witness.actions.len(), witness.score)
         }
         Verdict::Pass { witness: None } => String::new(),
         Verdict::Fail { reason, .. } => reason.0.clone(),
+        Verdict::Unknown { .. } if is_not_asked(finding) => finding.evidence[0].text.clone(),
         Verdict::Unknown { spent: 0 } => "nothing to judge without a win".to_owned(),
+        // What the budget broke off comes first.
+        Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_broken_off) => {
+            finding.evidence[0].text.clone()
+        }
         Verdict::Unknown { spent } => match criterion {
             "winnable" => format!("no win found with {spent} forward-model calls; that proves nothing"),
             "early-death" => {
@@ -186,13 +215,18 @@ fn board(text: &mut String, rows: &[String]) {
 /// How the players of a ladder fared.
 fn climbed(text: &mut String, ladder: &Ladder) {
     let ease = ladder.ease.map_or(String::new(), |ease| format!(" (ease {ease:.2})"));
-    let _ = writeln!(text, "       difficulty: {}{ease}", ladder.difficulty);
+    let who = match ladder.difficulty {
+        Difficulty::Unbeaten => " by the players of the ladder",
+        _ => "",
+    };
+    let _ = writeln!(text, "       difficulty: {}{who}{ease}", ladder.difficulty);
     let players = ladder.rungs.iter().chain(&ladder.held_out);
     let width = players.clone().map(|fared| fared.player.len()).max().unwrap_or_default();
     for fared in players {
         let Fared { player, rate, win_ticks, .. } = fared;
         let [low, high] = rate.interval.map(|end| 100.0 * end);
-        let ticks = win_ticks.map_or(String::new(), |ticks| format!(", a win takes {ticks:.0} ticks"));
+        let ticks =
+            win_ticks.map_or(String::new(), |ticks| format!(", its wins take {ticks:.0} ticks on average"));
         let _ = writeln!(
             text,
             "         {player:<width$} {:>3} of {} won (95 %: {low:>2.0} to {high:>3.0} %), score {:.1}{ticks}",

@@ -26,8 +26,8 @@ pub(super) struct Events<'a> {
 }
 
 /// A way to get a resource: where it is met, how much each sprite gives, and whether that is used up by giving.
-struct Gift {
-    cells: Cells,
+pub(super) struct Gift {
+    pub(super) cells: Cells,
     each: i64,
     once: bool,
 }
@@ -115,8 +115,13 @@ impl<'a> Events<'a> {
         cells.iter().for_each(|cell| self.flood.come(stype, cell, at, heading));
     }
 
-    /// How much of each resource can be got.
-    fn resources(&mut self) -> Vec<i64> {
+    /// What the level places.
+    pub(super) fn placed(&self) -> &'a Placed {
+        self.placed
+    }
+
+    /// The ways to get resources, by resource and by the type that gives it.
+    pub(super) fn gifts(&mut self) -> BTreeMap<(SpriteType, SpriteType), Gift> {
         let mut gifts: BTreeMap<(SpriteType, SpriteType), Gift> = BTreeMap::new();
         for meeting in self.flood.model.meetings {
             let (Some(one), Some(two)) = (meeting.one, meeting.two()) else { continue };
@@ -149,6 +154,12 @@ impl<'a> Events<'a> {
             gift.each = if collected { gift.each.max(each) } else { gift.each.saturating_add(each) };
             gift.once &= once;
         }
+        gifts
+    }
+
+    /// How much of each resource can be got.
+    fn resources(&mut self) -> Vec<i64> {
+        let gifts = self.gifts();
         let unlimited = self.flood.model.unlimited.iter();
         let mut have: Vec<i64> = unlimited.map(|&unlimited| if unlimited { PLENTY } else { 0 }).collect();
         for ((resource, giver), gift) in gifts {
@@ -164,7 +175,7 @@ impl<'a> Events<'a> {
     }
 
     /// Whether what an effect asks for can be so.
-    fn can_be(&self, provided: Provided) -> bool {
+    pub(super) fn can_be(&self, provided: Provided) -> bool {
         match provided {
             Provided::Holds(_, resource, amount) => {
                 let limit = self.flood.model.info(resource).resource_limit;

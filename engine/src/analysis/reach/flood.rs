@@ -246,6 +246,12 @@ impl<'a> Flood<'a> {
         })
     }
 
+    /// The types of sprites that keep those of a type out of a cell, or end them there, for ever.
+    pub(super) fn barring(&self, stype: SpriteType, cell: usize) -> impl Iterator<Item = SpriteType> + '_ {
+        let bars = self.bars[stype.index()].iter().filter_map(|bar| bar.by);
+        bars.filter(move |by| self.firm[by.index()].contains(cell))
+    }
+
     /// Whether it has been too much.
     pub(super) fn is_spent(&self) -> bool {
         self.work > BUDGET

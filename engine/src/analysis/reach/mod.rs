@@ -29,6 +29,7 @@
 //! games that nobody would.
 
 mod cells;
+mod chain;
 mod contact;
 mod effects;
 mod events;
@@ -49,6 +50,8 @@ use crate::game::SpriteType;
 use crate::level::Level;
 use crate::limits::MAX_SPRITES;
 use cells::{Board, Cells};
+use chain::Chains;
+pub use chain::{Apart, Chain, Closed, Lack, Obstacle, Shortage, Source};
 use events::{Events, Placed};
 use flood::Flood;
 use model::Model;
@@ -161,9 +164,30 @@ impl Analysis {
     /// second for the largest ones. What would take more than a fixed amount of work, a few tenths of a second, gets a
     /// [coarse](Reach::is_coarse) answer.
     pub fn reach(&self, level: &Level) -> Reach {
-        let rules = &*self.game.0;
+        let (placed, board) = self.placed(level);
+        let prospect = self.prospect_of(&placed);
+        let reached = self.settled(&prospect, level, &placed, board, |events| self.reached(&events));
+        reached.unwrap_or_else(|| self.everything(&prospect, board))
+    }
+
+    /// Why terminations that win can never hold in a level, a chain of causes for each of [`Reach::hindrances`] that wins; none
+    /// where the [`Reach`] is coarse. Cost: that of [`Analysis::reach`], and O(interactions × cells) for each link.
+    pub fn causes(&self, level: &Level) -> Vec<Chain> {
+        let (placed, board) = self.placed(level);
+        let prospect = self.prospect_of(&placed);
+        let chains = self.settled(&prospect, level, &placed, board, |events| {
+            let hindrances = self.reached(&events).hindrances.into_iter();
+            let mut chains = Chains::of(self, events);
+            let wins = hindrances.filter(|hindrance| self.goals[hindrance.goal].win);
+            wins.map(|Hindrance { goal, cause }| chains.chain(goal, cause)).collect()
+        });
+        chains.unwrap_or_default()
+    }
+
+    /// What the level places, and its board.
+    fn placed(&self, level: &Level) -> (Placed, Board) {
         let board = Board { columns: level.columns() as i32, rows: level.rows() as i32 };
-        let mut placed: Placed = vec![Vec::new(); rules.types.len()];
+        let mut placed: Placed = vec![Vec::new(); self.game.0.types.len()];
         for (at, &symbol) in level.cells().iter().enumerate() {
             let cell = board.at((at % level.columns()) as i32, (at / level.columns()) as i32);
             for &stype in self.game.places(symbol) {
@@ -173,22 +197,34 @@ impl Analysis {
                 }
             }
         }
+        (placed, board)
+    }
+
+    fn prospect_of(&self, placed: &Placed) -> Prospect<'_> {
+        let rules = &*self.game.0;
         let there = self.game.sprite_types().filter(|stype| !placed[stype.index()].is_empty()).collect();
         let held = Some(vec![false; rules.types.len()]);
         let start = Start { there, planned: Start::planned(rules), held, ..Start::default() };
-        let prospect = Prospect::of(rules, &self.facts, &self.encounters, start);
-        // Whatever the seed, the cells of a level have the same size.
-        let block = self.game.start(level, Seed::from_text("reach")).block();
-        self.follow(&prospect, &placed, board, block).unwrap_or_else(|| self.everything(&prospect, board))
+        Prospect::of(rules, &self.facts, &self.encounters, start)
     }
 
-    fn follow(&self, prospect: &Prospect<'_>, placed: &Placed, board: Board, block: i32) -> Option<Reach> {
+    /// Follows all that can happen until nothing is new, and reads an answer off; none if that is too much.
+    fn settled<T>(
+        &self,
+        prospect: &Prospect<'_>,
+        level: &Level,
+        placed: &Placed,
+        board: Board,
+        read: impl FnOnce(Events<'_>) -> T,
+    ) -> Option<T> {
         let rules = &*self.game.0;
         let sprites: usize = placed.iter().flatten().map(|(_, count)| *count as usize).sum();
         if sprites > MAX_SPRITES {
             // Not all of them are made.
             return None;
         }
+        // Whatever the seed, the cells of a level have the same size.
+        let block = self.game.start(level, Seed::from_text("reach")).block();
         let clockwork = clockwork(rules);
         let meetings = meetings::meetings(rules, prospect, &clockwork)?;
         let model = Model::of(rules, prospect, &meetings, board, block)?;
@@ -199,16 +235,19 @@ impl Analysis {
             }
         }
         let mut events = Events::of(flood, placed);
-        if !events.settle() {
-            return None;
-        }
-        let Flood { regions, ended, made, .. } = events.flood;
-        let tally = Tally { rules, model: &model, placed, ended: &ended, made: &made };
+        events.settle().then(|| read(events))
+    }
+
+    fn reached(&self, events: &Events<'_>) -> Reach {
+        let flood = &events.flood;
+        let (ended, made) = (&flood.ended, &flood.made);
+        let tally = Tally { rules: &self.game.0, model: flood.model, placed: events.placed(), ended, made };
         let hindrance =
             |goal: usize| Some(Hindrance { goal, cause: tally.hinders(&self.goals[goal].condition)? });
         let hindrances: Vec<Hindrance> = (0..self.goals.len()).filter_map(hindrance).collect();
-        let (rest, touch) = regions.into_iter().map(|region| (region.rest, region.touch)).unzip();
-        Some(self.answer(board, (rest, touch), hindrances, false))
+        let cells = |of: fn(&flood::Region) -> &Cells| flood.regions.iter().map(of).cloned().collect();
+        let (rest, touch) = (cells(|region| &region.rest), cells(|region| &region.touch));
+        self.answer(flood.board, (rest, touch), hindrances, false)
     }
 
     fn everything(&self, prospect: &Prospect<'_>, board: Board) -> Reach {

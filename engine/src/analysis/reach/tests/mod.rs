@@ -1,3 +1,4 @@
+mod chains;
 mod goals;
 mod hostile;
 

@@ -1,0 +1,130 @@
+//! The lines around a problem, no wider than they can be shown.
+
+use engine::line_and_column;
+use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+
+/// Characters of a line that are shown.
+const WIDEST: usize = 160;
+/// Characters that are shown before the place, where the line is cut off on the left.
+const BEFORE: usize = 40;
+/// For characters that are left out.
+const CUT: char = '…';
+/// For a tab, which counts as one column.
+const TAB: char = '→';
+
+/// The line of a problem, and the ones above and below: cropped around the place, with tabs to be seen.
+pub(super) struct Excerpt {
+    name: String,
+    text: String,
+    /// The number of the first line in `text`, from 0, and how many it has.
+    first: usize,
+    count: usize,
+    /// Where the problem is: line and column in the file, from 0.
+    line: usize,
+    column: usize,
+    /// Where it is in `text`: start and length.
+    span: (usize, usize),
+}
+
+impl Excerpt {
+    /// Around the bytes `start..end` of a text. What goes on to another line is shown to the end of the first.
+    pub(super) fn of(name: &str, source: &str, start: usize, end: usize) -> Excerpt {
+        let boundary = |mut at: usize| {
+            at = at.min(source.len());
+            while !source.is_char_boundary(at) {
+                at -= 1;
+            }
+            at
+        };
+        let start = boundary(start);
+        let end = boundary(end).max(start);
+        let (line, column) = line_and_column(source, start);
+        let mut excerpt = Excerpt {
+            name: name.to_owned(),
+            text: String::new(),
+            first: line.saturating_sub(2),
+            count: 0,
+            line: line - 1,
+            column: column - 1,
+            span: (0, 0),
+        };
+        let from = source[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        let to = source[start..].find('\n').map_or(source.len(), |newline| start + newline);
+        if from > 0 {
+            let above = source[..from - 1].rfind('\n').map_or(0, |newline| newline + 1);
+            excerpt.push(&source[above..from - 1], 0);
+        }
+        let marked = source[start..end.min(to)].chars().count();
+        let (offset, shown) = excerpt.push(&source[from..to], column - 1);
+        // The characters that are shown of the line from the place on.
+        let visible = excerpt.text[shown..].trim_end_matches('\n');
+        let length = visible.chars().take(marked).map(char::len_utf8).sum();
+        excerpt.span = (shown, length);
+        debug_assert!(offset <= shown, "the place is in its line");
+        if to < source.len() {
+            let below = source[to + 1..].find('\n').map_or(source.len(), |newline| to + 1 + newline);
+            if below > to + 1 {
+                excerpt.push(&source[to + 1..below], 0);
+            }
+        }
+        excerpt
+    }
+
+    /// Adds a line, cropped around a column: where it starts in the text, and where that column is.
+    fn push(&mut self, line: &str, column: usize) -> (usize, usize) {
+        let line = line.strip_suffix('\r').unwrap_or(line);
+        let offset = self.text.len();
+        let skipped = if column >= WIDEST - BEFORE { column - BEFORE } else { 0 };
+        if skipped > 0 {
+            self.text.push(CUT);
+        }
+        let mut place = None;
+        let mut rest = line.chars().skip(skipped);
+        for at in skipped..skipped + WIDEST {
+            if at == column {
+                place = Some(self.text.len());
+            }
+            let Some(character) = rest.next() else { break };
+            self.text.push(match character {
+                '\t' => TAB,
+                character if character.is_control() => '\u{fffd}',
+                character => character,
+            });
+        }
+        if rest.next().is_some() {
+            self.text.push(CUT);
+        }
+        let place = place.unwrap_or(self.text.len());
+        self.text.push('\n');
+        self.count += 1;
+        (offset, place)
+    }
+
+    /// Where the problem is in what is shown.
+    pub(super) fn span(&self) -> SourceSpan {
+        self.span.into()
+    }
+}
+
+impl SourceCode for Excerpt {
+    /// All of it, or, with no lines of context, where the problem is.
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        _after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let name = self.name.clone();
+        Ok(Box::new(match before {
+            0 => {
+                let data = self.text.as_bytes().get(span.offset()..span.offset() + span.len());
+                let data = data.ok_or(MietteError::OutOfBounds)?;
+                MietteSpanContents::new_named(name, data, *span, self.line, self.column, 1)
+            }
+            _ => {
+                let all = (0, self.text.len()).into();
+                MietteSpanContents::new_named(name, self.text.as_bytes(), all, self.first, 0, self.count)
+            }
+        }))
+    }
+}

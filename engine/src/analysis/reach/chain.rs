@@ -1,0 +1,438 @@
+//! Why a termination can never hold in a level, link by link: from what it needs to the first thing that cannot be.
+//!
+//! Every link is proved by the over-approximation of [`Reach`](super::Reach): a rule is said to lack something only if it
+//! lacks it wherever sprites can be at all. What the links leave out is no proof that nothing else is missing.
+
+use super::super::Analysis;
+use super::super::encounter::{Deed, Encounter, Provided, Side};
+use super::Cause;
+use super::cells::Cells;
+use super::events::{Events, Gift};
+use crate::game::SpriteType;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Why a termination can never hold in a level, and what each rule lacks that could help.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Chain {
+    /// Index into [`Analysis::goals`].
+    pub goal: usize,
+    /// Why it can never hold.
+    pub cause: Cause,
+    /// The rules that could help, each with what it lacks; empty: no rule could.
+    pub obstacles: Vec<Obstacle>,
+}
+
+/// A rule that would end or make what is wanted, and can never do so in this level.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Obstacle {
+    /// The sprite that it would end, or the type that it would make.
+    pub target: SpriteType,
+    /// The index of the rule in [`Description::interactions`](crate::Description); none: a sprite makes it by itself.
+    pub line: Option<usize>,
+    /// What it lacks.
+    pub lack: Lack,
+}
+
+/// The first thing that a rule lacks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Lack {
+    /// No sprite of the type is placed in this level, and no rule or sprite that is here makes one.
+    Absent(SpriteType),
+    /// No sprite of the type is placed in this level, and those that could be made never are, as these rules lack something;
+    /// none: that has been told of before in the same chain.
+    Unmade(SpriteType, Vec<Obstacle>),
+    /// It asks for more of a resource than anybody can get.
+    Resource(Shortage),
+    /// No sprite of the one type ever gets to a cell.
+    Apart(Apart),
+    /// Sprites of the type come to the cell, and are put back before the rule is reached: by the rule of that index.
+    HeldUp(SpriteType, usize),
+    /// Sprites of the two types are nowhere together; none: the edge of the screen.
+    Nowhere(SpriteType, Option<SpriteType>),
+}
+
+/// A resource of which too few can be got.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shortage {
+    /// The resource.
+    pub resource: SpriteType,
+    /// How many are asked for at once.
+    pub needed: i32,
+    /// How many one sprite can hold, if those are too few already.
+    pub capacity: Option<i32>,
+    /// How many can be got in all; meaningless beside a `capacity`.
+    pub most: i64,
+    /// Indices of the rules that give it.
+    pub rules: Vec<usize>,
+    /// What the level has that gives it.
+    pub sources: Vec<Source>,
+}
+
+/// A sprite that gives a resource.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Its type.
+    pub stype: SpriteType,
+    /// Where the level places it.
+    pub cell: usize,
+    /// How many such sprites lie there.
+    pub count: u32,
+    /// How many it gives.
+    pub each: i64,
+    /// What keeps it from being got; none: it can be got.
+    pub apart: Option<Apart>,
+}
+
+/// A place that sprites of a type never get to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Apart {
+    /// The type.
+    pub who: SpriteType,
+    /// The place.
+    pub cell: usize,
+    /// What stands on the ways there beside where sprites of the type can be, and could be ended by some rule.
+    pub closed: Vec<Closed>,
+}
+
+/// A sprite in the way.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Closed {
+    /// Its type.
+    pub stype: SpriteType,
+    /// Where it stands.
+    pub cell: usize,
+    /// What the rules lack that could end it; empty where it has been told of before in the same chain.
+    pub obstacles: Vec<Obstacle>,
+}
+
+/// Rules that are told of for one sprite.
+const MAX_RULES: usize = 3;
+/// Sprites in the way that are told of.
+const MAX_CLOSED: usize = 2;
+/// Sources that are told of.
+const MAX_SOURCES: usize = 16;
+/// Sprites in the way, one behind the other, that are followed.
+const MAX_DEPTH: usize = 4;
+
+/// In the place of a cell: the making of sprites has been told of.
+const UNMADE: usize = usize::MAX;
+
+/// Which sprites an interaction would end.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ended {
+    Side(Side),
+    Anywhere,
+}
+
+/// Derives chains from what is known when nothing new is reached any more.
+pub(super) struct Chains<'a, 'e> {
+    analysis: &'a Analysis,
+    events: Events<'e>,
+    gifts: BTreeMap<(SpriteType, SpriteType), Gift>,
+}
+
+impl<'a, 'e> Chains<'a, 'e> {
+    pub(super) fn of(analysis: &'a Analysis, mut events: Events<'e>) -> Chains<'a, 'e> {
+        let gifts = events.gifts();
+        Chains { analysis, events, gifts }
+    }
+
+    /// The chain of a termination that is hindered for this cause.
+    pub(super) fn chain(&mut self, goal: usize, cause: Cause) -> Chain {
+        let mut told = Vec::new();
+        let obstacles = match &cause {
+            Cause::Stay(sprites) => {
+                sprites.first().map_or(Vec::new(), |&(stype, cell)| self.keeping(stype, cell, &mut told))
+            }
+            Cause::AtMost(_) => {
+                let mut types = self.analysis.goals()[goal].condition.types().to_vec();
+                types.dedup();
+                let lacking = types.iter().flat_map(|&stype| self.unmade(stype, &mut told));
+                lacking.take(MAX_RULES).collect()
+            }
+        };
+        Chain { goal, cause, obstacles }
+    }
+
+    /// What the rules lack that could end a sprite where it stands.
+    fn keeping(&self, stype: SpriteType, cell: usize, told: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
+        if told.contains(&(stype, cell)) || told.len() >= MAX_DEPTH {
+            return Vec::new();
+        }
+        told.push((stype, cell));
+        let mut obstacles: Vec<Obstacle> = Vec::new();
+        for encounter in &self.analysis.encounters {
+            let Some(ended) = self.ended(encounter, stype) else { continue };
+            if obstacles.iter().any(|known| known.line == Some(encounter.line)) {
+                continue;
+            }
+            if let Some(lack) = self.lack(encounter, Some((stype, cell, ended)), told) {
+                obstacles.push(Obstacle { target: stype, line: Some(encounter.line), lack });
+            }
+        }
+        // What is nearest to happening comes first.
+        obstacles.sort_by_key(|obstacle| obstacle.lack.rank());
+        obstacles.truncate(MAX_RULES);
+        obstacles
+    }
+
+    /// What the rules, and sprites, lack that could make sprites of a type.
+    fn unmade(&self, stype: SpriteType, told: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
+        let makes = |encounter: &Encounter| {
+            encounter.does(|deed| match deed {
+                Deed::Make(to) | Deed::Become(to) | Deed::BecomeAll(_, to) => *to == stype,
+                Deed::BecomeAny(options) => options.contains(&stype),
+                Deed::Clone => self.analysis.applies(encounter.first, stype),
+                _ => false,
+            })
+        };
+        let mut obstacles: Vec<Obstacle> = Vec::new();
+        for encounter in self.analysis.encounters.iter().filter(|encounter| makes(encounter)) {
+            let known = obstacles.iter().any(|known| known.line == Some(encounter.line));
+            if let Some(lack) = Some(()).filter(|()| !known).and_then(|()| self.lack(encounter, None, told)) {
+                obstacles.push(Obstacle { target: stype, line: Some(encounter.line), lack });
+            }
+        }
+        for maker in self.analysis.game().sprite_types() {
+            if self.analysis.facts(maker).makes.contains(&stype) && !self.events.is_there(maker) {
+                obstacles.push(Obstacle { target: stype, line: None, lack: Lack::Absent(maker) });
+            }
+        }
+        obstacles.sort_by_key(|obstacle| obstacle.lack.rank());
+        obstacles
+    }
+
+    /// Whether an interaction would end sprites of the type, and which ones.
+    fn ended(&self, encounter: &Encounter, stype: SpriteType) -> Option<Ended> {
+        let rules = &*self.analysis.game().0;
+        let first = self.analysis.applies(encounter.first, stype);
+        let second = encounter.second.is_some_and(|second| self.analysis.applies(second, stype));
+        // What is no resource is not collected.
+        let collects = encounter.deeds.contains(&Deed::Collect);
+        let first = first && (!collects || rules.types[stype.index()].traits.is_resource);
+        encounter.deeds.iter().find_map(|deed| match deed {
+            Deed::Kill(Side::First) | Deed::Become(_) | Deed::BecomeAny(_) | Deed::Teleport if first => {
+                Some(Ended::Side(Side::First))
+            }
+            Deed::Health { of: None, dies_at, by } if first && *dies_at > i32::MIN && *by < 0 => {
+                Some(Ended::Side(Side::First))
+            }
+            Deed::Kill(Side::Second) if second => Some(Ended::Side(Side::Second)),
+            Deed::KillAll(all) | Deed::BecomeAll(all, _) if *all == stype => Some(Ended::Anywhere),
+            Deed::Health { of: Some(of), dies_at, .. }
+                if *dies_at > i32::MIN && self.analysis.applies(*of, stype) =>
+            {
+                Some(Ended::Anywhere)
+            }
+            _ => None,
+        })
+    }
+
+    /// What an interaction lacks; of one that would end a sprite, to end it where it stands. None if nothing is proved.
+    fn lack(
+        &self,
+        encounter: &Encounter,
+        target: Option<(SpriteType, usize, Ended)>,
+        told: &mut Vec<(SpriteType, usize)>,
+    ) -> Option<Lack> {
+        let Encounter { first, second, provided, .. } = *encounter;
+        if let Some(absent) = [Some(first), second].into_iter().flatten().find(|&side| !self.is_alive(side)) {
+            let there = &self.events.flood.model.there;
+            let mut family = self.analysis.game().0.types[absent.index()].tree.iter();
+            return Some(match family.find(|stype| there[stype.index()]) {
+                None => Lack::Absent(absent),
+                Some(&stype) if told.contains(&(stype, UNMADE)) || told.len() >= MAX_DEPTH => {
+                    Lack::Unmade(stype, Vec::new())
+                }
+                Some(&stype) => {
+                    told.push((stype, UNMADE));
+                    let mut obstacles = self.unmade(stype, told);
+                    obstacles.truncate(1);
+                    Lack::Unmade(stype, obstacles)
+                }
+            });
+        }
+        if let Provided::Holds(_, resource, needed) = provided
+            && !self.events.can_be(provided)
+        {
+            return Some(Lack::Resource(self.shortage(resource, needed, told)));
+        }
+        let Some((stype, cell, Ended::Side(side))) = target else {
+            let met = match second {
+                Some(second) => self.all(first).shared(&self.all(second)),
+                None => self.all(first).shared(&self.events.board().ring()),
+            };
+            // Of what stands still, the place is known.
+            let stands = second.filter(|second| self.events.flood.model.of_type(*second).fixed);
+            let placed = stands.and_then(|second| self.events.placed()[second.index()].first());
+            let apart = placed.filter(|(cell, _)| !self.all(first).contains(*cell));
+            return met.is_empty().then(|| match apart {
+                Some(&(cell, _)) => Lack::Apart(self.apart(first, self.events.board().on_level(cell), told)),
+                None => Lack::Nowhere(first, second),
+            });
+        };
+        let Some(other) = (if side == Side::First { second } else { Some(first) }) else {
+            return Some(Lack::Nowhere(first, None));
+        };
+        // Of two of a kind, who knows which one is meant.
+        if self.analysis.applies(other, stype) {
+            return None;
+        }
+        if !self.all(other).contains(self.inner(cell)) {
+            return Some(Lack::Apart(self.apart(other, cell, told)));
+        }
+        let blocks = |earlier: &&Encounter| {
+            earlier.blocks()
+                && self.analysis.applies(earlier.first, other)
+                && earlier.second.is_some_and(|second| self.analysis.applies(second, stype))
+        };
+        let before = self.analysis.encounters.iter().take_while(|known| !std::ptr::eq(*known, encounter));
+        let lines: BTreeSet<usize> = before.filter(blocks).map(|earlier| earlier.line).collect();
+        Some(Lack::HeldUp(other, lines.first().copied()?))
+    }
+
+    /// Why no more of a resource can be got.
+    fn shortage(&self, resource: SpriteType, needed: i32, told: &mut Vec<(SpriteType, usize)>) -> Shortage {
+        let model = self.events.flood.model;
+        let rules = &*self.analysis.game().0;
+        let limit = rules.types[resource.index()].resource_limit;
+        let capacity = (needed > limit && !model.unlimited[resource.index()]).then_some(limit);
+        let mut lines = Vec::new();
+        let mut sources: Vec<Source> = Vec::new();
+        for encounter in &self.analysis.encounters {
+            let Some((giver, taker, each)) = self.giver(encounter, resource) else { continue };
+            if lines.last() != Some(&encounter.line) {
+                lines.push(encounter.line);
+            }
+            let family = rules.types[giver.index()].tree.iter().copied();
+            for stype in family.filter(|stype| model.there[stype.index()]) {
+                let traits = &rules.types[stype.index()].traits;
+                let own = each.unwrap_or(i64::from(traits.value));
+                let gives = each.is_some() || traits.is_resource && traits.resource == resource;
+                for &(cell, count) in &self.events.placed()[stype.index()] {
+                    let at = self.events.board().on_level(cell);
+                    let known = sources.iter().any(|source| (source.stype, source.cell) == (stype, at));
+                    if !gives || own <= 0 || known || sources.len() >= MAX_SOURCES {
+                        continue;
+                    }
+                    let got = self
+                        .gifts
+                        .get(&(resource, stype))
+                        .is_some_and(|gift| !model.of_type(stype).fixed || gift.cells.contains(cell));
+                    let apart = (!got).then(|| self.apart(taker, at, told));
+                    sources.push(Source { stype, cell: at, count, each: own, apart });
+                }
+            }
+        }
+        let most = self.events.have[resource.index()];
+        Shortage { resource, needed, capacity, most, rules: lines, sources }
+    }
+
+    /// The type whose sprites give a resource by an interaction, the one that gets it, and how many; none: its value.
+    fn giver(
+        &self,
+        encounter: &Encounter,
+        resource: SpriteType,
+    ) -> Option<(SpriteType, SpriteType, Option<i64>)> {
+        let second = encounter.second?;
+        let rules = &*self.analysis.game().0;
+        encounter.deeds.iter().find_map(|deed| match deed {
+            Deed::Collect => {
+                let mut family = rules.types[encounter.first.index()].tree.iter();
+                let gives = family.any(|stype| rules.types[stype.index()].traits.resource == resource);
+                gives.then_some((encounter.first, second, None))
+            }
+            Deed::Change { who: Side::First, resource: changed, by } if *changed == resource && *by > 0 => {
+                Some((second, encounter.first, Some(i64::from(*by))))
+            }
+            _ => None,
+        })
+    }
+
+    /// What keeps sprites of a type from a cell.
+    fn apart(&self, who: SpriteType, cell: usize, told: &mut Vec<(SpriteType, usize)>) -> Apart {
+        let closed = self.in_the_way(who, cell);
+        let closed = closed.into_iter().take(MAX_CLOSED).map(|(stype, cell)| {
+            let obstacles = self.keeping(stype, cell, told);
+            Closed { stype, cell, obstacles }
+        });
+        Apart { who, cell, closed: closed.collect() }
+    }
+
+    /// The sprites, each with its cell, that stand on ways to a cell beside where sprites of a type can be, and that some
+    /// rule could end. (Ways go from a cell to its four neighbours.)
+    fn in_the_way(&self, who: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
+        let (board, rules) = (self.events.board(), &*self.analysis.game().0);
+        let family: Vec<SpriteType> = rules.types[who.index()].tree.to_vec();
+        let rest = family.iter().fold(Cells::none(board), |mut all, &stype| {
+            if self.events.is_there(stype) {
+                all.add(self.events.rest(stype));
+            }
+            all
+        });
+        let barring = |cell: usize| -> Vec<SpriteType> {
+            let barring = family.iter().flat_map(|&stype| self.events.flood.barring(stype, cell));
+            barring.collect::<BTreeSet<_>>().into_iter().collect()
+        };
+        let opens = |stype: SpriteType| {
+            self.analysis.encounters.iter().any(|encounter| self.ended(encounter, stype).is_some())
+        };
+        let mut seen = Cells::none(board);
+        let start = self.inner(target);
+        seen.insert(start);
+        let (mut queue, mut found) = (vec![start], BTreeSet::new());
+        while let Some(cell) = queue.pop() {
+            let bars = barring(cell);
+            if bars.iter().any(|&stype| !opens(stype)) {
+                continue;
+            }
+            let neighbours = [(0, -1), (-1, 0), (0, 1), (1, 0)].map(|step| board.shifted(cell, step, 1));
+            let beside = neighbours.iter().any(|&next| rest.contains(next));
+            if beside {
+                found.extend(bars.iter().map(|&stype| (board.on_level(cell), stype)));
+            }
+            for next in neighbours {
+                if !board.is_ring(next) && !rest.contains(next) && seen.insert(next) {
+                    queue.push(next);
+                }
+            }
+        }
+        found.into_iter().map(|(cell, stype)| (stype, cell)).collect()
+    }
+
+    /// Whether sprites that a rule on `written` holds for can be there.
+    fn is_alive(&self, written: SpriteType) -> bool {
+        let tree = &self.analysis.game().0.types[written.index()].tree;
+        tree.iter().any(|&stype| self.events.is_there(stype))
+    }
+
+    /// Where sprites that a rule on `written` holds for can be at some moment.
+    fn all(&self, written: SpriteType) -> Cells {
+        let mut all = Cells::none(self.events.board());
+        for &stype in self.analysis.game().0.types[written.index()].tree.iter() {
+            if self.events.is_there(stype) {
+                all.add(self.events.touch(stype));
+            }
+        }
+        all
+    }
+
+    fn inner(&self, cell: usize) -> usize {
+        let board = self.events.board();
+        board.at(cell as i32 % board.columns, cell as i32 / board.columns)
+    }
+}
+
+impl Lack {
+    /// How near it is to not being lacked.
+    fn rank(&self) -> u8 {
+        match self {
+            Lack::Resource(_) => 0,
+            Lack::HeldUp(..) => 1,
+            Lack::Apart(_) => 2,
+            Lack::Nowhere(..) => 3,
+            Lack::Unmade(..) => 2,
+            Lack::Absent(_) => 4,
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Chains of causes: what the rules lack, and where.
+
+use super::*;
+use crate::analysis::{Apart, Lack, Shortage};
+
+const SPRITES: &str =
+    "wall > Immovable\nlamp > Resource limit=5\ndoor > Immovable\ngem > Door\nhero > MovingAvatar";
+const MAPPING: &str = "w > wall\nl > lamp\nd > door\ng > gem\nh > hero";
+const ENDS: &str = "SpriteCounter stype=gem win=True\nSpriteCounter stype=hero win=False";
+
+/// The chain of the only termination that wins, in a few words.
+#[track_caller]
+fn check(rules: &str, level: &str, expect: &str) {
+    let analysis = Analysis::of(&game(SPRITES, MAPPING, &format!("hero wall > stepBack\n{rules}"), ENDS));
+    let level = analysis.game().level(level).unwrap();
+    assert!(!analysis.reach(&level).can_win());
+    let chains = analysis.causes(&level);
+    assert_eq!(chains.len(), 1, "{chains:?}");
+    let told: Vec<String> = chains[0].obstacles.iter().map(|found| obstacle(&analysis, found)).collect();
+    assert_eq!(told.join("; "), expect);
+}
+
+fn obstacle(analysis: &Analysis, Obstacle { target, line, lack }: &Obstacle) -> String {
+    let name = |stype: SpriteType| analysis.game().name(stype).to_owned();
+    let lack = match lack {
+        Lack::Absent(stype) => format!("no {}", name(*stype)),
+        Lack::Unmade(stype, why) => {
+            let why: Vec<String> = why.iter().map(|found| obstacle(analysis, found)).collect();
+            format!("no {} yet ({})", name(*stype), why.join("; "))
+        }
+        Lack::Resource(Shortage { resource, needed, capacity, most, rules, sources }) => {
+            let sources: Vec<String> = sources
+                .iter()
+                .map(|source| {
+                    let got = source.apart.as_ref().map_or("got".to_owned(), |found| apart(analysis, found));
+                    format!("{} at {} {got}", name(source.stype), source.cell)
+                })
+                .collect();
+            let capacity = capacity.map_or(String::new(), |capacity| format!(", holds {capacity}"));
+            let of = format!("{needed} {} of {most}{capacity}", name(*resource));
+            format!("{of} by {rules:?} from {sources:?}")
+        }
+        Lack::Apart(found) => apart(analysis, found),
+        Lack::HeldUp(who, by) => format!("{} held up by {by}", name(*who)),
+        Lack::Nowhere(..) => "nowhere together".to_owned(),
+    };
+    format!("{} by {line:?}: {lack}", name(*target))
+}
+
+fn apart(analysis: &Analysis, Apart { who, cell, closed }: &Apart) -> String {
+    let name = |stype: SpriteType| analysis.game().name(stype).to_owned();
+    let closed: Vec<String> = closed
+        .iter()
+        .map(|closed| {
+            let why: Vec<String> = closed.obstacles.iter().map(|found| obstacle(analysis, found)).collect();
+            format!("{} at {} ({})", name(closed.stype), closed.cell, why.join("; "))
+        })
+        .collect();
+    format!("{} not at {cell}, behind {closed:?}", name(*who))
+}
+
+const TOLL: &str = "lamp hero > collectResource\ngem hero > killIfOtherHasMore resource=lamp limit=2";
+
+#[test]
+fn a_resource_that_is_short() {
+    check(TOLL, "wwwwww\nwh lgw\nwwwwww", r#"gem by Some(2): 2 lamp of 1 by [1] from ["lamp at 9 got"]"#);
+    let few = TOLL.replace("limit=2", "limit=9");
+    let level = "wwwwww\nwhllgw\nwwwwww";
+    let sources = r#"["lamp at 8 got", "lamp at 9 got"]"#;
+    check(&few, level, &format!("gem by Some(2): 9 lamp of 2, holds 5 by [1] from {sources}"));
+    // Nothing gives it.
+    let swapped = TOLL.replace("lamp hero", "hero lamp");
+    check(&swapped, "wwwwww\nwh lgw\nwwwwww", "gem by Some(2): 2 lamp of 0 by [] from []");
+    // One of two lies behind a wall that nothing opens.
+    let level = "wwwwwww\nwh lgww\nwwwwwww\nwlw   w\nwwwwwww";
+    let sources = r#"["lamp at 10 got", "lamp at 22 hero not at 22, behind []"]"#;
+    check(TOLL, level, &format!("gem by Some(2): 2 lamp of 1 by [1] from {sources}"));
+}
+
+#[test]
+fn a_door_in_the_way() {
+    let rules = "hero door > stepBack\nlamp hero > collectResource\ndoor hero > killIfOtherHasMore resource=lamp limit=1\ngem hero > killSprite";
+    // The key lies behind its own door.
+    let toll = "1 lamp of 0 by [2] from [\"lamp at 11 hero not at 11, behind [\\\"door at 9 ()\\\"]\"]";
+    let door = format!("door at 9 (door by Some(3): {toll})");
+    let expect = format!("gem by Some(4): hero not at 12, behind {:?}", [door]);
+    check(rules, "wwwwwww\nwhd lgw\nwwwwwww", &expect);
+    // A wall is nothing that opens.
+    check(rules, "wwwwww\nwhwlgw\nwwwwww", "gem by Some(4): hero not at 10, behind []");
+}
+
+#[test]
+fn rules_that_come_too_late_or_need_what_is_not_there() {
+    check("hero gem > stepBack\ngem hero > killSprite", "hg", "gem by Some(2): hero held up by 1");
+    check("gem door > killSprite", "hg", "gem by Some(1): no door");
+    // Doors turn into lamps where the hero comes, who cannot.
+    let unmade = "gem by Some(1): no lamp yet (lamp by Some(2): hero not at 3, behind [])";
+    check("gem lamp > killSprite\ndoor hero > transformTo stype=lamp", "hgwdw\nwwwww", unmade);
+    check("hero gem > stepBack", "hg", "");
+    check("gem door > killSprite", "hgd", "gem by Some(1): door not at 1, behind []");
+}

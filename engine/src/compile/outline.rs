@@ -1,0 +1,96 @@
+//! As much of a game as its levels need: which characters place something, and which of these an avatar.
+
+use crate::diagnostic::{Diagnostic, nearest};
+use crate::ontology::class::SpriteClass;
+use crate::syntax::{Description, Header, MappingLine, Param, Section, SpriteLine, TerminationLine, Word};
+use std::collections::BTreeSet;
+
+/// Problems of the text that make it uncertain which characters the LevelMapping has.
+const HIDES_MAPPING: [&str; 9] = [
+    "bad-mapping",
+    "missing-arrow",
+    "missing-section",
+    "swapped-section",
+    "unknown-section",
+    "wrong-section",
+    "stray-line",
+    "stray-indent",
+    "too-long",
+];
+
+/// A faulty game with all but the characters of its levels left out.
+pub(crate) struct Outline {
+    pub(crate) description: Description,
+    /// Every character that the game maps is among its mappings.
+    pub(crate) knows_characters: bool,
+    /// It is known of every character whether it places an avatar.
+    pub(crate) knows_avatars: bool,
+}
+
+/// The outline of a description that was read with these problems; none if it has no LevelMapping.
+pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Option<Outline> {
+    if !description.has[Section::LevelMapping as usize] || description.mapping.is_empty() {
+        return None;
+    }
+    let knows_characters = !problems.iter().any(|problem| HIDES_MAPPING.contains(&problem.code));
+    let mut sprites = Sprites { lines: Vec::new(), names: BTreeSet::new(), sure: true };
+    for line in &description.sprites {
+        sprites.add(line, None);
+    }
+    // These are there even if nothing declares them.
+    let known = |name: &str| sprites.names.contains(name) || ["wall", "avatar"].contains(&name);
+    let mut symbols = BTreeSet::new();
+    let mut sure = sprites.sure;
+    let mut mapping = Vec::new();
+    for line in description.mapping.iter().filter(|line| symbols.insert(line.symbol)) {
+        sure &= line.names.iter().all(|name| known(&name.text));
+        let names = line.names.iter().filter(|name| known(&name.text)).cloned().collect();
+        mapping.push(MappingLine { names, ..line.clone() });
+    }
+    let end = TerminationLine {
+        class: word("Timeout"),
+        params: vec![Param { key: word("limit"), value: word("9") }],
+        ..TerminationLine::default()
+    };
+    let description = Description {
+        header: Header { class: word("BasicGame"), ..Header::default() },
+        sprites: sprites.lines,
+        mapping,
+        terminations: vec![end],
+        has: [true; 4],
+        ..Description::default()
+    };
+    Some(Outline { description, knows_characters, knows_avatars: sure && knows_characters })
+}
+
+/// The sprites of an outline, without their family.
+struct Sprites {
+    lines: Vec<SpriteLine>,
+    names: BTreeSet<String>,
+    /// Which are avatars is known of all.
+    sure: bool,
+}
+
+impl Sprites {
+    fn add(&mut self, line: &SpriteLine, inherited: Option<SpriteClass>) {
+        let read = |class: &Word| {
+            let names = || SpriteClass::ALL.iter().map(|class| class.name());
+            SpriteClass::from_name(&class.text)
+                .or_else(|| nearest(&class.text, names()).and_then(SpriteClass::from_name))
+        };
+        let class = line.class.as_ref().map_or(inherited, read);
+        self.sure &= class.is_some() || line.class.is_none() && !line.children.is_empty();
+        if self.names.insert(line.name.text.clone()) {
+            let class = if class.is_some_and(SpriteClass::is_avatar) { "MovingAvatar" } else { "Immovable" };
+            let class = Some(word(class));
+            self.lines.push(SpriteLine { name: line.name.clone(), class, ..SpriteLine::default() });
+        }
+        for child in &line.children {
+            self.add(child, class);
+        }
+    }
+}
+
+fn word(text: &str) -> Word {
+    Word { text: text.to_owned(), ..Word::default() }
+}

@@ -1,0 +1,157 @@
+//! Rules whose two sides are the wrong way round.
+
+use crate::analysis::Analysis;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::game::{Game, SpriteType};
+use crate::ontology::class::SpriteClass;
+use crate::syntax::{Description, InteractionLine};
+use std::fmt::Write;
+
+/// An interaction that most likely has its two sides swapped.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SwappedRule {
+    /// Index of the line in [`Description::interactions`].
+    pub line: usize,
+    /// Its sprites and its effect.
+    pub span: Span,
+    /// What was most likely meant: a line for each partner.
+    pub repaired: Vec<String>,
+}
+
+/// Interactions of a game in which a swapped one is looked for: each takes two analyses.
+const MAX_LINES: usize = 128;
+/// The same times its sprite types.
+const MAX_TRIED: usize = 1 << 13;
+
+/// The one interaction without which, as it stands, a game still cannot be won, and with which, once its sides are swapped, it
+/// can; `wins` says whether a game can be won. None if there is no such line, or several. Cost: two games compiled and two
+/// calls of `wins` for each line; nothing is tried in games of unusual size.
+pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<SwappedRule> {
+    let description = game.description();
+    let lines = &description.interactions;
+    if lines.len() > MAX_LINES || lines.len() * game.sprite_types().count() > MAX_TRIED {
+        return None;
+    }
+    let with = |at: usize, instead: Vec<InteractionLine>| {
+        let mut lines = lines.clone();
+        lines.splice(at..=at, instead);
+        let changed = Description { interactions: lines, ..description.clone() };
+        Game::compile(&changed).is_ok_and(|game| wins(&game))
+    };
+    let goals = Analysis::of(game);
+    let goals = goals.goals().iter().filter(|goal| goal.win);
+    let counted: Vec<SpriteType> = goals.flat_map(|goal| goal.condition.types().to_vec()).collect();
+    let any = |name: &str, is: &dyn Fn(SpriteType) -> bool| {
+        let written = game.sprite_type(name);
+        written.is_some_and(|written| game.0.types[written.index()].tree.iter().any(|&stype| is(stype)))
+    };
+    let counts = |name: &str| any(name, &|stype| counted.contains(&stype));
+    let plays = |name: &str| any(name, &|stype| game.class(stype).is_some_and(SpriteClass::is_avatar));
+    // What acts on what the win counts is the right way round; what is between two others was hardly meant for the win.
+    let suspect = |line: &InteractionLine| {
+        let partner = line.second.iter().any(|word| plays(&word.text) || counts(&word.text));
+        !counts(&line.first.text) && (partner || plays(&line.first.text))
+    };
+    // Where the game can be won without the line, the line is in the way as it is: that makes no other one of it.
+    let repairs =
+        |at: &usize| swapped(&lines[*at]).is_some_and(|swapped| with(*at, swapped)) && !with(*at, Vec::new());
+    let mut found = (0..lines.len()).filter(|&at| suspect(&lines[at])).filter(repairs);
+    let (line, None) = (found.next()?, found.next()) else { return None };
+    let written = &lines[line];
+    let span = Span::new(written.first.span.start, written.effect.span.end);
+    let repaired = swapped(written)?.iter().map(in_words).collect();
+    Some(SwappedRule { line, span, repaired })
+}
+
+/// The line with its sides swapped: a line for each partner.
+fn swapped(line: &InteractionLine) -> Option<Vec<InteractionLine>> {
+    let sides = || line.second.iter().chain([&line.first]);
+    let is_sprite = |name: &str| !["EOS", "TIME"].contains(&name);
+    let distinct = line.second.iter().all(|word| word.text != line.first.text);
+    let swap = |second: &crate::syntax::Word| InteractionLine {
+        first: second.clone(),
+        second: vec![line.first.clone()],
+        ..line.clone()
+    };
+    (distinct && sides().all(|word| is_sprite(&word.text))).then(|| line.second.iter().map(swap).collect())
+}
+
+fn in_words(line: &InteractionLine) -> String {
+    let mut text = line.first.text.clone();
+    for word in &line.second {
+        let _ = write!(text, " {}", word.text);
+    }
+    let _ = write!(text, " > {}", line.effect.text);
+    for param in &line.params {
+        let _ = write!(text, " {}={}", param.key.text, param.value.text);
+    }
+    text
+}
+
+/// The swapped rule because of which a game cannot be won at all, and the game with it repaired.
+pub(super) fn told(game: &Game) -> Option<(Diagnostic, Game)> {
+    let found = swapped_rule(game, |game| Analysis::of(game).can_win())?;
+    let SwappedRule { line, span, repaired } = found;
+    let message = "the game cannot be won with this rule as it stands, and can with its sides swapped";
+    let meant: Vec<String> = repaired.iter().map(|line| format!("`{line}`")).collect();
+    let help = format!("did you mean {}?", meant.join(" and "));
+    let problem = Diagnostic::warning("swapped-rule", span, message)
+        .label("acts on the sprite that is named first")
+        .help(help);
+    let mut description = game.description().clone();
+    let lines = swapped(&description.interactions[line])?;
+    description.interactions.splice(line..=line, lines);
+    Some((problem, Game::compile(&description).ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lint::tests::GAME;
+
+    /// A game that is won when the chick is gone, which takes two eggs.
+    fn game(replace: &str, with: &str) -> Game {
+        let source = GAME
+            .replace(
+                "Timeout limit=300 win=True",
+                "SpriteCounter stype=chick win=True\n        Timeout limit=300",
+            )
+            .replace("prob=0.5 total=9", "prob=0.5 total=9\n        post > Immovable");
+        let source = source.replace("f > grass fence", "f > grass fence\n        p > post");
+        assert!(source.contains(replace), "{replace}");
+        Game::from_source(&source.replace(replace, with)).unwrap_or_else(|problems| panic!("{problems}"))
+    }
+
+    #[track_caller]
+    fn check(game: &Game, expect: &[(&str, &str)]) {
+        let told: Vec<(&str, &str)> = game
+            .warnings()
+            .iter()
+            .map(|warning| (warning.code, warning.help.as_deref().unwrap_or_default()))
+            .collect();
+        assert_eq!(told, expect, "{:?}", game.warnings());
+    }
+
+    #[test]
+    fn a_rule_the_wrong_way_round_is_told_with_its_repair() {
+        check(&game("", ""), &[]);
+        let meant = "did you mean `egg avatar > collectResource`?";
+        check(&game("egg avatar > collect", "avatar egg > collect"), &[("swapped-rule", meant)]);
+        let rule = "chick avatar > killIfOtherHasMore resource=egg limit=2 scoreChange=1";
+        let meant = format!("did you mean `{rule}`?");
+        let swapped = game(rule, &rule.replace("chick avatar", "avatar chick"));
+        check(&swapped, &[("swapped-rule", &meant)]);
+    }
+
+    #[test]
+    fn a_rule_that_is_only_in_the_way_is_not_taken_for_a_swapped_one() {
+        // Nothing ends posts, whatever is swapped; and without the fences nothing would be won either.
+        let immortal = game("stype=chick win", "stype=post win");
+        check(&immortal, &[("no-win", "add a rule that lowers it, or another termination")]);
+        let found = swapped_rule(&immortal, |game| {
+            // As in a level in which a fence stands before the post.
+            !Analysis::of(game).encounters().iter().any(|encounter| encounter.blocks())
+        });
+        assert_eq!(found, None);
+    }
+}

@@ -1,0 +1,296 @@
+//! Why a level cannot be won, in words: the chain of causes that the analysis proves, from the ending to the first thing that
+//! cannot be.
+
+use crate::evidence::{Evidence, Line};
+use crate::verdict::{Case, Finding, Reason, Verdict};
+use engine::analysis::{Apart, Cause, Chain, Closed, Deed, Lack, Motion, Obstacle, Shortage, Side};
+use engine::{Analysis, Game, Level, SpriteType, describe, swapped_rule};
+
+/// Chains that are told of: one for each termination that wins.
+const MAX_CHAINS: usize = 3;
+/// Cells of a level times interactions up to which a swapped rule is looked for.
+const MAX_EFFORT: usize = 1 << 18;
+
+/// Rewrites the failure of a level that is proved to be out of reach: with the chain of its causes, and a rule that is most
+/// likely the wrong way round. Other findings stay as they are. Cost: some analyses of the level, one for each rule.
+pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
+    let Case { game, level, analysis, .. } = case;
+    if !matches!(finding.verdict, Verdict::Fail { .. }) || analysis.reach(level).can_win() {
+        return;
+    }
+    let mut evidence = Vec::new();
+    let effort = level.cells().len() * game.description().interactions.len();
+    if analysis.can_win() && effort <= MAX_EFFORT {
+        // Where no level can be won, the warnings about the game say so.
+        let text = level.to_string();
+        let wins = |game: &Game| {
+            let level = game.level(&text);
+            level.is_ok_and(|level| Analysis::of(game).reach(&level).can_win())
+        };
+        evidence.extend(swapped_rule(game, wins).map(|swapped| {
+            let text = "with its two sides swapped, this rule would let the level be won";
+            let meant: Vec<String> = swapped.repaired.iter().map(|line| format!("`{line}`")).collect();
+            let rule = Line::interaction(game, swapped.line);
+            Evidence::new(text).of_rule(rule).advise(format!("did you mean {}?", meant.join(" and ")))
+        }));
+    }
+    let told = describe::hindered_wins(analysis, level, &analysis.reach(level));
+    let chains = analysis.causes(level);
+    let mut reason = None;
+    for (chain, sentence) in chains.iter().zip(&told).take(MAX_CHAINS) {
+        let mut words = Words { analysis, level, links: Vec::new() };
+        words.chain(chain);
+        let links: Vec<&str> = words.links.iter().map(|link| link.text.as_str()).collect();
+        reason.get_or_insert_with(|| match &chain.obstacles[..] {
+            [Obstacle { lack: Lack::Resource(_), .. }, ..] => links.join("; "),
+            _ => format!("{}: {}", lower(sentence), links.join("; ")),
+        });
+        let first = words.ending(chain, sentence);
+        evidence.push(first);
+        evidence.extend(words.links);
+    }
+    let Some(reason) = reason else { return };
+    finding.verdict = Verdict::Fail {
+        reason: Reason(format!("no way to win, whatever is played: {reason}")),
+        witness: None,
+    };
+    finding.evidence = evidence;
+}
+
+/// A sentence as the end of another.
+pub(crate) fn lower(sentence: &str) -> String {
+    let mut characters = sentence.trim_end_matches('.').chars();
+    characters.next().map_or(String::new(), |first| first.to_lowercase().chain(characters).collect())
+}
+
+/// The links of a chain as they are told.
+struct Words<'a> {
+    analysis: &'a Analysis,
+    level: &'a Level,
+    links: Vec<Evidence>,
+}
+
+impl Words<'_> {
+    /// The termination, with the first sprite that would have to go.
+    fn ending(&self, chain: &Chain, sentence: &str) -> Evidence {
+        let goal = &self.analysis.goals()[chain.goal];
+        let cell = match &chain.cause {
+            Cause::Stay(sprites) => sprites.first().map(|(_, cell)| self.place(*cell)),
+            Cause::AtMost(_) => None,
+        };
+        let rule = Some(Line::termination(self.analysis.game(), goal.line));
+        let text = sentence.trim_end_matches('.').to_owned();
+        Evidence { text, cell, rule, ..Evidence::default() }
+    }
+
+    fn chain(&mut self, chain: &Chain) {
+        if !chain.obstacles.is_empty() {
+            return chain.obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
+        }
+        let (text, advice) = match &chain.cause {
+            Cause::Stay(sprites) => {
+                let name = sprites.first().map_or("sprite", |(stype, _)| self.name(*stype));
+                let target = sprites.first().map(|(stype, _)| *stype);
+                match target.is_some_and(|stype| self.is_ended(stype)) {
+                    true => (
+                        format!("no rule that ends {} ever runs on it there", article(name)),
+                        "open a way to it, or make it go".to_owned(),
+                    ),
+                    false => {
+                        (format!("no rule ends {}", article(name)), format!("add a rule that ends `{name}`"))
+                    }
+                }
+            }
+            Cause::AtMost(_) => (
+                "no rule makes more of what it counts".to_owned(),
+                "place more of what it counts, or ask for fewer".to_owned(),
+            ),
+        };
+        self.links.push(Evidence::new(text).advise(advice));
+    }
+
+    /// Whether some rule ends sprites of the type.
+    fn is_ended(&self, stype: SpriteType) -> bool {
+        let applies = |written: SpriteType| self.analysis.applies(written, stype);
+        self.analysis.encounters().iter().any(|encounter| {
+            encounter.ends(Side::First) && applies(encounter.first)
+                || encounter.ends(Side::Second) && encounter.second.is_some_and(applies)
+                || encounter.does(|deed| match deed {
+                    Deed::KillAll(all) | Deed::BecomeAll(all, _) => *all == stype,
+                    Deed::Health { of: Some(of), .. } => applies(*of),
+                    _ => false,
+                })
+        })
+    }
+
+    fn obstacle(&mut self, obstacle: &Obstacle) {
+        let Obstacle { target, line, lack } = obstacle;
+        let rule = line.map(|line| Line::interaction(self.analysis.game(), line));
+        match lack {
+            Lack::Resource(shortage) => self.shortage(*target, rule, shortage),
+            Lack::Apart(apart) => {
+                let there = self.standing(apart.cell, *target);
+                let text = format!("{} cannot get to {}", self.who(apart.who), self.the(there));
+                self.apart(apart, text, rule);
+            }
+            Lack::HeldUp(who, by) => {
+                let by = Line::interaction(self.analysis.game(), *by);
+                let text = format!(
+                    "{} is put back from {} by `{}` before a later rule ends it",
+                    self.who(*who),
+                    self.the(*target),
+                    by.text
+                );
+                let advice = format!("put the rule that ends `{}` before that one", self.name(*target));
+                self.links.push(Evidence::new(text).of_rule(by).advise(advice));
+            }
+            Lack::Absent(absent) => {
+                let name = self.name(*absent);
+                let what = match line {
+                    Some(_) => format!("a rule on {} needs {}", self.the(*target), article(name)),
+                    None => format!("{} makes {}", article(name), article(self.name(*target))),
+                };
+                let text = format!("{what}; none is placed here, and nothing makes one");
+                let advice = format!("place {} in the level", article(name));
+                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(advice));
+            }
+            Lack::Unmade(unmade, obstacles) => {
+                let name = self.name(*unmade);
+                let text = format!(
+                    "a rule on {} needs {}, and there never is one",
+                    self.the(*target),
+                    article(name)
+                );
+                self.links.push(Evidence { rule, ..Evidence::new(text) });
+                obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
+            }
+            Lack::Nowhere(first, second) => {
+                let second = second.map_or("the edge of the screen".to_owned(), |second| self.who(second));
+                let text = format!("{} and {second} never meet", self.who(*first));
+                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise("let them meet"));
+            }
+        }
+    }
+
+    /// A resource that is asked for and cannot be had.
+    fn shortage(&mut self, target: SpriteType, rule: Option<Line>, shortage: &Shortage) {
+        let Shortage { resource, needed, capacity, most, rules, sources } = shortage;
+        let name = self.name(*resource).to_owned();
+        let still = self.analysis.facts(target).motion == Motion::Still;
+        let verb = if still { "opens" } else { "goes" };
+        let text = format!("{} {verb} for {}", self.the(target), count(i64::from(*needed), &name));
+        self.links.push(Evidence { rule, ..Evidence::new(text) });
+        if let Some(capacity) = capacity {
+            let text = format!("nobody can hold more than {}", count(i64::from(*capacity), &name));
+            let advice = format!("raise the `limit=` of `{name}` to {needed}, or ask for fewer");
+            let rule = Line::sprite(self.analysis.game(), &name);
+            self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(advice));
+            return;
+        }
+        if rules.is_empty() {
+            let text = format!("no rule gives {}", article(&name));
+            let advice = format!("add a rule that gives `{name}`");
+            self.links.push(Evidence::new(text).advise(advice));
+            return;
+        }
+        let all: i64 = sources.iter().map(|source| source.each * i64::from(source.count)).sum();
+        let verb = if all == 1 { "exists" } else { "exist" };
+        let text = format!("{} {verb}", if all == 0 { format!("no {name}") } else { count(all, &name) });
+        let cell = sources.first().map(|source| self.place(source.cell));
+        let rule = rules.first().map(|&line| Line::interaction(self.analysis.game(), line));
+        self.links.push(Evidence { cell, rule, ..Evidence::new(text) });
+        let lost: Vec<_> =
+            sources.iter().filter_map(|source| Some((source, source.apart.as_ref()?))).collect();
+        for (source, apart) in &lost {
+            let text = format!("{} cannot get to the {}", self.who(apart.who), self.name(source.stype));
+            self.apart(apart, text, None);
+        }
+        if !lost.is_empty() && *most > 0 {
+            self.links.push(Evidence::new(format!("{most} can be got")));
+        }
+        let missing = count(i64::from(*needed) - all, &name);
+        let advice = match (lost.is_empty(), *most) {
+            (true, 0) => format!("place {missing}"),
+            (true, most) => format!("place {missing} more, or ask for {most}"),
+            (false, _) => format!("open a way to {}, or place more where it can be got", article(&name)),
+        };
+        self.links.push(Evidence::new("nothing makes more").advise(advice));
+    }
+
+    /// A place that somebody never gets to, and what is in the way.
+    fn apart(&mut self, apart: &Apart, text: String, rule: Option<Line>) {
+        let cell = Some(self.place(apart.cell));
+        let link = Evidence { cell, rule, ..Evidence::new(text) };
+        // Of a source among others, the shortage says what to do.
+        let alone = apart.closed.is_empty() && link.rule.is_some();
+        self.links.push(if alone { link.advise("open a way to it") } else { link });
+        for Closed { stype, cell, obstacles } in &apart.closed {
+            let name = self.name(*stype);
+            let again = obstacles.is_empty();
+            let text = format!("{} {name} is in the way", if again { "that" } else { "the" });
+            let link = Evidence { cell: Some(self.place(*cell)), ..Evidence::new(text) };
+            let advice = format!("let what opens the {name} be had without passing it");
+            self.links.push(if again { link.advise(advice) } else { link });
+            obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
+        }
+    }
+
+    /// A type if the level places it in a cell, or else what it places there on top.
+    fn standing(&self, cell: usize, stype: SpriteType) -> SpriteType {
+        let places = self.analysis.game().places(self.level.cells()[cell]);
+        let known = places.contains(&stype) || places.is_empty();
+        if known { stype } else { places[places.len() - 1] }
+    }
+
+    fn name(&self, stype: SpriteType) -> &str {
+        self.analysis.game().name(stype)
+    }
+
+    fn the(&self, stype: SpriteType) -> String {
+        format!("the {}", self.name(stype))
+    }
+
+    /// Somebody who acts: the avatar, whatever it is called, or sprites of a type.
+    fn who(&self, stype: SpriteType) -> String {
+        let own = self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype));
+        if own { "the avatar".to_owned() } else { self.the(stype) }
+    }
+
+    /// Column and row, from 1.
+    fn place(&self, cell: usize) -> (usize, usize) {
+        (cell % self.level.columns() + 1, cell / self.level.columns() + 1)
+    }
+}
+
+/// `1 lamp`, `2 lamps`, `2 boxes`, `2 pennies`.
+fn count(number: i64, name: &str) -> String {
+    if number == 1 {
+        return format!("1 {name}");
+    }
+    let stem = name.strip_suffix('y').filter(|stem| !stem.ends_with(['a', 'e', 'i', 'o', 'u']));
+    match stem {
+        Some(stem) => format!("{number} {stem}ies"),
+        None if ["s", "x", "z", "ch", "sh"].iter().any(|end| name.ends_with(end)) => {
+            format!("{number} {name}es")
+        }
+        None => format!("{number} {name}s"),
+    }
+}
+
+/// `a lamp`, `an exit`.
+fn article(name: &str) -> String {
+    let vowel = name.starts_with(['a', 'e', 'i', 'o', 'u', 'A', 'E', 'I', 'O', 'U']);
+    format!("{} {name}", if vowel { "an" } else { "a" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_have_their_plural() {
+        let words = [count(1, "lamp"), count(2, "lamp"), count(3, "penny"), count(2, "box"), count(0, "key")];
+        assert_eq!(words, ["1 lamp", "2 lamps", "3 pennies", "2 boxes", "0 keys"]);
+        assert_eq!([article("exit"), article("lamp")], ["an exit", "a lamp"]);
+    }
+}
