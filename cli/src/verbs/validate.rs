@@ -4,11 +4,11 @@ mod document;
 mod text;
 
 use crate::console::Console;
-use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Named};
+use crate::{diagnostics, episodes};
 use document::{Document, LevelDocument};
-use engine::{Analysis, Episode, Game, Level, Seed, describe};
+use engine::{Analysis, Game, Level, Seed, describe};
 use rayon::prelude::*;
 use std::path::PathBuf;
 use validators::{Criteria, Panel, Report};
@@ -141,17 +141,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(path) = &args.witness {
         match judged.iter().find_map(|judged| judged.report.as_ref()?.witness.as_ref()) {
             Some(witness) => {
-                save(witness, path)?;
+                episodes::write(path, witness)?;
                 console.say(format_args!("witness written to {}", path.display()));
             }
             None => console.remark(format_args!("{}: not written, as no win was found", path.display())),
         }
     }
     Ok(passes)
-}
-
-fn save(witness: &Episode, path: &PathBuf) -> Result<(), Failure> {
-    crate::episodes::write(path, witness)
 }
 
 fn document_of<'a>(analysis: &Analysis, judged: &'a Judged<'_>) -> LevelDocument<'a> {
