@@ -175,7 +175,7 @@ fn beside(path: &Path) -> Option<String> {
     let wanted = path.file_name()?.to_string_lossy();
     let there = sorted_entries(folder).ok()?;
     let names: Vec<_> = there.iter().filter_map(|path| path.file_name()?.to_str()).collect();
-    let near = engine::nearest(&wanted, names.into_iter())?;
+    let near = engine::nearest(&wanted, names)?;
     Some(folder.join(near).display().to_string())
 }
 

@@ -73,12 +73,14 @@ fn levels_keep_what_was_asked() {
 #[test]
 fn what_does_not_fit_is_no_level_and_no_endless_work() {
     let home = tempfile::tempdir().unwrap();
-    let args = ["generate", "levels", "--game", "hailglass", "--with", "orchid=100", "--out", "new"];
-    let message = text(&run(home.path(), &args, 1).stderr);
+    let args =
+        ["--json", "generate", "levels", "--game", "hailglass", "--with", "orchid=100", "--out", "new"];
+    let output = run(home.path(), &args, 1);
+    let message = text(&output.stderr);
     assert!(message.contains("no board holds what is asked: 100 of orchid are asked for"), "{message}");
     assert!(message.contains("--with"), "{message}");
     assert!(!home.path().join("new").exists());
-    let asked = generate(home.path(), "hailglass", "new", &["--with", "orchid=100"], 1);
+    let asked: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(asked["levels"], serde_json::json!([]));
     assert!(asked["reason"].as_str().unwrap().contains("100 of orchid"), "{asked}");
 }

@@ -55,6 +55,19 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     let said = said(&["merge", "shard1", "shard2", "shard3", "--out", "x"]);
     assert!(said.contains(&lot) && said.contains("changed after it was made"), "{said}");
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
+
+    // `arcade clean` lists shards and removes them on request, but not one that somebody has put something into.
+    fs::write(folder.join("shard2/notes.txt"), "mine").unwrap();
+    let clean = |flags: &[&str]| {
+        let output = arcade(folder).env("TMPDIR", folder).arg("clean").args(flags).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    assert!(clean(&[]).contains("kept ./shard1: shard 1/3 of `slices`"));
+    assert!(clean(&["--shards"]).contains("3 of 3 removed"));
+    let is_there = |name: &str| folder.join(name).exists();
+    assert!(!is_there("shard1") && !is_there("shard3") && !is_there("other2"));
+    assert!(is_there("shard2/SHARD.json") && is_there("whole") && is_there("merged"));
 }
 
 /// Kills a mint into the folder `out` again and again, and goes on with it; what is made is not thrown away unless that is

@@ -2,7 +2,7 @@
 
 mod game;
 mod numbers;
-mod papers;
+mod readme_and_card;
 mod replay;
 mod version;
 
@@ -122,7 +122,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         let cards: Option<Vec<&Card>> = games.iter().map(|game| game.card.as_ref()).collect();
         // Counted only if nothing is left out: what is missing has been named.
         if let Some(cards) = cards {
-            problems.extend(papers::problems(&contents, &manifest, &cards)?);
+            problems.extend(readme_and_card::problems(&contents, &manifest, &cards)?);
         }
     }
     let levels = games.iter().map(|game| game.levels).sum();
@@ -259,7 +259,7 @@ fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<Str
             Some((folder, file)) => {
                 folders.entry(folder.to_owned()).or_default().insert(file.to_owned());
             }
-            None if [papers::README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
+            None if [readme_and_card::README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
             None if manifest.kind == Kind::Sealed && item.path.starts_with(HELD) => {}
             None => problems.push(format!("{}: a release has no such file", item.path)),
         }

@@ -21,10 +21,10 @@ use std::path::PathBuf;
 /// Example: arcade diff releases/2026-11 releases/2026-12
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The earlier snapshot's folder
+    /// The earlier snapshot's folder or .tar.zst
     #[arg(value_name = "BEFORE")]
     before: PathBuf,
-    /// The later snapshot's folder
+    /// The later snapshot's folder or .tar.zst
     #[arg(value_name = "AFTER")]
     after: PathBuf,
     /// Nearest pairs of games to list

@@ -36,6 +36,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 /// The folders whose pages are known by their names, such as codes of diagnostics: they are listed without titles.
 const NAMED: [&str; 4] = ["diagnostics", "ontology/effects", "ontology/sprites", "ontology/terminations"];
+/// The folder whose pages come last of those with titles.
+const DECISIONS: &str = "decisions";
 /// Columns of a line of names.
 const COLUMNS: usize = 100;
 
@@ -46,7 +48,9 @@ fn list(pages: &[Page]) -> String {
     let own = |page: &&Page| {
         !NAMED.contains(&page.folder()) || NAMED.iter().any(|folder| folder.ends_with(&page.name))
     };
-    for page in pages.iter().filter(own) {
+    let mut titled: Vec<&Page> = pages.iter().filter(own).collect();
+    titled.sort_by_key(|page| page.folder() == DECISIONS);
+    for page in titled {
         let _ = writeln!(text, "{:<width$}  {}", page.name, page.title());
     }
     for folder in NAMED {

@@ -4,11 +4,11 @@ mod document;
 mod text;
 
 use crate::console::Console;
-use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named};
+use crate::{diagnostics, episodes};
 use document::{Document, LevelDocument};
-use engine::{Analysis, Diagnostic, Diagnostics, Episode, Game, Level, LevelMapping, Seed, describe};
+use engine::{Analysis, Diagnostic, Diagnostics, Game, Level, LevelMapping, Seed, describe};
 use rayon::prelude::*;
 use std::path::PathBuf;
 use validators::{Criteria, Panel, Report};
@@ -135,7 +135,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(path) = &args.witness {
         match judged.iter().find_map(|judged| judged.report.as_ref()?.witness.as_ref()) {
             Some(witness) => {
-                save(witness, path)?;
+                episodes::write(path, witness)?;
                 console.say(format_args!("witness written to {}", path.display()));
             }
             None => console.remark(format_args!("{}: not written, as no win was found", path.display())),
@@ -175,10 +175,6 @@ fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diag
         Ok(()) => Failure::malformed(told.join("\n")),
         Err(failure) => failure,
     }
-}
-
-fn save(witness: &Episode, path: &PathBuf) -> Result<(), Failure> {
-    crate::episodes::write(path, witness)
 }
 
 fn document_of<'a>(analysis: &Analysis, judged: &'a Judged<'_>) -> LevelDocument<'a> {

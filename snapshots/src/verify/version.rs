@@ -47,7 +47,12 @@ mod tests {
     fn only_versions_that_were_or_may_come_are_possible() {
         let Version { number, generation, semantics, .. } = CURRENT;
         check(generation, semantics, Some(number), None);
-        check(generation, semantics, Some("0.1.0"), Some(&format!("is minted by version {number}, not 0.1.0")));
+        check(
+            generation,
+            semantics,
+            Some("0.1.0"),
+            Some(&format!("is minted by version {number}, not 0.1.0")),
+        );
         check(generation, 0, None, Some("counted from 1"));
         check(0, 1, None, Some("counted from 1"));
         check(1, 1, None, None);
