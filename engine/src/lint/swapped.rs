@@ -38,19 +38,21 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
         let changed = Description { interactions: lines, ..description.clone() };
         Game::compile(&changed).is_ok_and(|game| wins(&game))
     };
-    let goals = Analysis::of(game);
-    let goals = goals.goals().iter().filter(|goal| goal.win);
-    let counted: Vec<SpriteType> = goals.flat_map(|goal| goal.condition.types().to_vec()).collect();
+    let analysis = Analysis::of(game);
     let any = |name: &str, is: &dyn Fn(SpriteType) -> bool| {
         let written = game.sprite_type(name);
         written.is_some_and(|written| game.0.types[written.index()].tree.iter().any(|&stype| is(stype)))
     };
-    let counts = |name: &str| any(name, &|stype| counted.contains(&stype));
+    let counts = |name: &str, of_wins: bool| {
+        let mut goals = analysis.goals().iter().filter(|goal| goal.win || !of_wins);
+        goals.any(|goal| any(name, &|stype| goal.condition.types().contains(&stype)))
+    };
     let plays = |name: &str| any(name, &|stype| game.class(stype).is_some_and(SpriteClass::is_avatar));
-    // What acts on what the win counts is the right way round; what is between two others was hardly meant for the win.
+    // What acts on what counts for an ending is the right way round; what is between two others was hardly meant for the win.
     let suspect = |line: &InteractionLine| {
-        let partner = line.second.iter().any(|word| plays(&word.text) || counts(&word.text));
-        !counts(&line.first.text) && (partner || plays(&line.first.text))
+        let first = line.first.text.as_str();
+        let partner = line.second.iter().any(|word| plays(&word.text) || counts(&word.text, true));
+        !counts(first, true) && (plays(first) || partner && !counts(first, false))
     };
     // Where the game can be won without the line, the line is in the way as it is: that makes no other one of it.
     let repairs =

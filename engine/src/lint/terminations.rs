@@ -107,7 +107,9 @@ impl Linter<'_> {
             return;
         }
         if !self.analysis.can_win() {
-            match swapped::told(self.game) {
+            // What is never there has been told of; it may well be why.
+            let told = self.game.0.warnings.iter().any(|problem| problem.code == "never-there");
+            match Some(self.game).filter(|_| !told).and_then(swapped::told) {
                 Some((problem, repaired)) => {
                     // What never fires because of it is no problem of its own.
                     let mut left = Vec::new();

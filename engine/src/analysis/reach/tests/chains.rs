@@ -94,8 +94,8 @@ fn rules_that_come_too_late_or_need_what_is_not_there() {
     check("hero gem > stepBack\ngem hero > killSprite", "hg", "gem by Some(2): hero held up by 1");
     check("gem door > killSprite", "hg", "gem by Some(1): no door");
     // Doors turn into lamps where the hero comes, who cannot.
-    let unmade = "gem by Some(1): no lamp yet (lamp by Some(2): hero not at 3, behind [])";
-    check("gem lamp > killSprite\ndoor hero > transformTo stype=lamp", "hgwdw\nwwwww", unmade);
+    let unmade = "gem by Some(1): no lamp yet (lamp by Some(2): hero not at 10, behind [])";
+    check("gem lamp > killSprite\ndoor hero > transformTo stype=lamp", "wwwwww\nwhgwdw\nwwwwww", unmade);
     check("hero gem > stepBack", "hg", "");
     check("gem door > killSprite", "hgd", "gem by Some(1): door not at 1, behind []");
 }
