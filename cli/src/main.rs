@@ -9,6 +9,7 @@ mod evaluation_report;
 mod failure;
 mod game_report;
 mod input;
+mod interrupt;
 mod level_report;
 mod page;
 mod play;
@@ -45,6 +46,8 @@ enum Verb {
     Run(verbs::run::Args),
     Evaluate(Box<verbs::evaluate::Args>),
     ServePlayer(verbs::serve_player::Args),
+    #[command(hide = true)]
+    PlayerGuard(verbs::player_guard::Args),
     Report(verbs::report::Args),
     Diff(verbs::diff::Args),
     Export(verbs::export::Args),
@@ -76,6 +79,7 @@ fn main() -> ExitCode {
         Verb::Run(args) => verbs::run::run(&args, &console),
         Verb::Evaluate(args) => verbs::evaluate::run(&args, &console),
         Verb::ServePlayer(args) => verbs::serve_player::run(&args, &console),
+        Verb::PlayerGuard(args) => verbs::player_guard::run(&args),
         Verb::Report(args) => verbs::report::run(&args, &console),
         Verb::Diff(args) => verbs::diff::run(&args, &console),
         Verb::Export(args) => verbs::export::run(&args, &console),

@@ -224,5 +224,5 @@ fn damaged_logs_are_told() {
     assert!(error.contains("step 0 leads elsewhere than recorded"), "{error}");
     fs::write(&path, "no log\n").unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
-    assert!(error.contains(":1: not an event of an episode"), "{error}");
+    assert!(error.contains(": line 1 is not an event of an episode"), "{error}");
 }

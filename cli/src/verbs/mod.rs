@@ -9,6 +9,7 @@ pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod merge;
 pub(crate) mod play;
+pub(crate) mod player_guard;
 pub(crate) mod regenerate;
 pub(crate) mod release;
 pub(crate) mod render;

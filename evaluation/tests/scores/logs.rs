@@ -177,7 +177,7 @@ fn faults() {
             *outcome = Outcome::Won;
         }
     };
-    check_fault(win, "the log says Won");
+    check_fault(win, "the log says won");
     let older = |log: &mut Vec<Event>| {
         if let Some(Event::Start { semantics, .. }) = log.first_mut() {
             *semantics -= 1;
@@ -206,6 +206,7 @@ fn answers() {
             latency_ms: 0.0,
         })
     };
+    use ReplyClass::{Invalid, Refused, Strict, Tolerant, Truncated};
     let subject = subject();
     let steps = log(&subject, 0, &[Right, Nil, Right, Nil, Nil], 5);
     let answered = |classes: &[(&[ReplyClass], Validity)]| {
@@ -214,7 +215,13 @@ fn answers() {
             for (attempt, class) in classes.iter().enumerate() {
                 let (step, attempt) = (step as u64, attempt as u32);
                 log.push(Event::Request { step, attempt, messages: Vec::new(), tokens: 90 });
-                log.push(reply(step, attempt, *class, Some(7)));
+                let mut answer = reply(step, attempt, *class, Some(7));
+                if let (Event::Reply(reply), Event::Step { action, .. }, Strict | Tolerant) =
+                    (&mut answer, event, class)
+                {
+                    reply.action = Some(*action);
+                }
+                log.push(answer);
             }
             let mut event = event.clone();
             if let Event::Step { validity, .. } = &mut event {
@@ -224,7 +231,6 @@ fn answers() {
         }
         log
     };
-    use ReplyClass::{Invalid, Refused, Strict, Tolerant, Truncated};
     let mut log = answered(&[
         (&[Strict], Validity::Valid),
         (&[Invalid, Invalid], Validity::Invalid),
@@ -232,6 +238,14 @@ fn answers() {
         (&[Refused], Validity::Refused),
         (&[Truncated], Validity::Truncated),
     ]);
+    // A step that says otherwise than its answers is not believed.
+    for (at, came) in [(3, Validity::Invalid), (8, Validity::Valid), (13, Validity::Invalid)] {
+        let mut forged = log.clone();
+        let Event::Step { validity, .. } = &mut forged[at] else { panic!("{:?}", forged[at]) };
+        *validity = came;
+        let error = EpisodeMetrics::of(&subject, &forged).unwrap_err().to_string();
+        assert!(error.contains(&format!("line {}: ", at + 1)) && error.contains("is recorded as"), "{error}");
+    }
     let found = EpisodeMetrics::of(&subject, &log).unwrap();
     assert_eq!(found.choices, Choices { valid: 1, tolerant: 1, invalid: 1, refused: 1, truncated: 1 });
     assert_eq!((found.spending.requests, found.spending.replies), (7, 7));
