@@ -163,7 +163,7 @@ fn faults() {
             *action = Nil;
         }
     };
-    check_fault(|log| at(log, 1, &alter), "hall level 0 run 2: step 1 leads to");
+    check_fault(|log| at(log, 1, &alter), "line 3: step 1 leads to");
     let gain = |event: &mut Event| {
         if let Event::Step { score, .. } = event {
             *score += 1.0;
@@ -171,7 +171,7 @@ fn faults() {
     };
     check_fault(|log| at(log, 3, &gain), "step 3 leads to");
     check_fault(|log| drop(log.remove(1)), "step 0 is recorded as step 1");
-    check_fault(|log| drop(log.remove(0)), "does not begin with the start");
+    check_fault(|log| drop(log.remove(0)), "line 1 is not the start of an episode");
     let win = |log: &mut Vec<Event>| {
         if let Some(Event::End { outcome, .. }) = log.last_mut() {
             *outcome = Outcome::Won;
