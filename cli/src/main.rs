@@ -9,6 +9,7 @@ mod evaluation_report;
 mod failure;
 mod game_report;
 mod input;
+mod interrupt;
 mod level_report;
 mod manual;
 mod page;
@@ -53,6 +54,8 @@ enum Verb {
     Run(verbs::run::Args),
     Evaluate(Box<verbs::evaluate::Args>),
     ServePlayer(verbs::serve_player::Args),
+    #[command(hide = true)]
+    PlayerGuard(verbs::player_guard::Args),
     Report(verbs::report::Args),
     Diff(verbs::diff::Args),
     Export(verbs::export::Args),
@@ -79,6 +82,9 @@ fn main() -> ExitCode {
 }
 
 fn answer(verb: Verb, console: &Console) -> Answer {
+    if let Verb::PlayerGuard(args) = &verb {
+        verbs::player_guard::run(args) // without a pool of threads
+    }
     threads::start()?;
     match verb {
         Verb::Release(args) => verbs::release::run(&args, console),
@@ -90,6 +96,7 @@ fn answer(verb: Verb, console: &Console) -> Answer {
         Verb::Run(args) => verbs::run::run(&args, console),
         Verb::Evaluate(args) => verbs::evaluate::run(&args, console),
         Verb::ServePlayer(args) => verbs::serve_player::run(&args, console),
+        Verb::PlayerGuard(_) => unreachable!("it has run above"),
         Verb::Report(args) => verbs::report::run(&args, console),
         Verb::Diff(args) => verbs::diff::run(&args, console),
         Verb::Export(args) => verbs::export::run(&args, console),

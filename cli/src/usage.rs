@@ -95,7 +95,8 @@ pub(crate) mod tests {
     pub(crate) fn for_each_verb(look: &mut dyn FnMut(&str, &Command)) {
         fn walk(path: &str, command: &Command, look: &mut dyn FnMut(&str, &Command)) {
             look(path, command);
-            for verb in command.get_subcommands().filter(|verb| verb.get_name() != "help") {
+            let shown = |verb: &&Command| verb.get_name() != "help" && !verb.is_hide_set();
+            for verb in command.get_subcommands().filter(shown) {
                 walk(&format!("{path} {}", verb.get_name()), verb, look);
             }
         }

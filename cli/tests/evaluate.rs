@@ -249,6 +249,15 @@ fn malformed_questions_are_told() {
         (&["hailglas", "--player", "random"][..], "did you mean the corpus game `hailglass`?"),
         (&["hailglass", "--player", "mtcs"], "did you mean `mcts`?"),
         (&["hailglass"], "--player"),
+        (&["hailglass"], "--model"),
+        (&["corpus", "--player", "random", "--games", "jars"], "did you mean `quiet-jars`?"),
+        (&["corpus", "--player", "random", "--games", "zzzz"], "there are belfry-sling, "),
+        (&["hailglass", "--player", "random", "--runs", "1000000000"], "`runs` is 1000000000"),
+        (
+            &["hailglass", "--player", "random", "--max-steps", "18446744073709551615"],
+            "has 1 to 1000000 decisions",
+        ),
+        (&["hailglass", "--player", "random", "--jobs", "0"], "at least 1"),
         (&["hailglass", "--player", "random", "--levels", "9"], "no level to play"),
         (&["hailglass", "--player", "random", "--games", "hailgas"], "did you mean `hailglass`?"),
         (&["hailglass", "hailglass", "--player", "random"], "two games are called `hailglass`"),
@@ -277,4 +286,105 @@ fn malformed_questions_are_told() {
     let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];
     assert!(refusal(&other).contains("another player, model, prompt or decoding"));
     assert!(refusal(&["hailglass", "--player", "nil", "--out", "r"]).contains("not empty"));
+}
+
+/// More episodes at a time than there are: said, and not tried.
+#[test]
+fn no_more_at_a_time_than_there_are() {
+    let home = tempfile::tempdir().unwrap();
+    let args = ["evaluate", "hailglass", "--levels", "0,1", "--max-steps", "3", "--player", "random"];
+    let output = run(home.path(), &[&args[..], &["--jobs", "5000", "--out", "r"]].concat(), 0);
+    let told = text(&output.stderr);
+    assert!(told.contains("--jobs 5000") && told.contains("2 at a time"), "{told}");
+}
+
+#[test]
+fn archives_are_played_as_folders_are() {
+    let home = tempfile::tempdir().unwrap();
+    let release = |args: &[&str]| run(home.path(), args, 0);
+    release(&["release", "tiny", "--out", "tiny", "-q"]);
+    release(&["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"]);
+    let play = |subject: &str, out: &str| {
+        let args = ["--json", "evaluate", subject, "--player", "random", "--max-steps", "5", "--out", out];
+        json(&run(home.path(), &args, 0))["tally"].clone()
+    };
+    assert_eq!(play("tiny.tar.zst", "one"), play("tiny", "two"));
+    assert!(files(&home.path().join("one/games")) == files(&home.path().join("two/games")));
+    let settings =
+        |out: &str| std::fs::read_to_string(home.path().join(out).join("evaluation.json")).unwrap();
+    assert_eq!(settings("one"), settings("two"));
+    let mut bytes = std::fs::read(home.path().join("tiny.tar.zst")).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(home.path().join("bad.tar.zst"), bytes).unwrap();
+    std::fs::write(home.path().join("none.tar.zst"), "hello").unwrap();
+    for name in ["bad.tar.zst", "none.tar.zst"] {
+        let output = run(home.path(), &["evaluate", name, "--player", "random", "--out", "three"], 2);
+        assert!(text(&output.stderr).contains(name) && !home.path().join("three").exists());
+    }
+}
+
+/// A folder may be called anything.
+#[cfg(target_os = "linux")]
+#[test]
+fn results_and_reports_in_folders_that_are_no_text() {
+    use std::os::unix::ffi::OsStrExt;
+    let home = tempfile::tempdir().unwrap();
+    let name = |bytes: &[u8]| std::ffi::OsStr::from_bytes(bytes).to_owned();
+    for flags in [&[][..], &["--json"]] {
+        let (results, report) = (name(b"r\xff"), name(b"p\xff"));
+        let mut command = arcade(home.path());
+        command.args(flags).args([
+            "evaluate",
+            "hailglass",
+            "--levels",
+            "0",
+            "--player",
+            "random",
+            "--max-steps",
+            "3",
+        ]);
+        let played = command.arg("--resume").arg("--out").arg(&results).output().unwrap();
+        assert_eq!(played.status.code(), Some(0), "{}", text(&played.stderr));
+        let mut command = arcade(home.path());
+        let told =
+            command.args(flags).arg("report").arg(&results).arg("--out").arg(&report).output().unwrap();
+        assert_eq!(told.status.code(), Some(0), "{}", text(&told.stderr));
+        std::fs::remove_dir_all(home.path().join(&report)).unwrap();
+    }
+}
+
+/// A disk that is full, as far as a program can tell: the limit of a file's size stands for it. It is a failure of the environment, and
+/// with room again the episode goes on where it was.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_stops_and_loses_nothing() {
+    let server = Server::start(answer);
+    let (home, url) = (tempfile::tempdir().unwrap(), server.base_url());
+    let more = ["--mode", "contextual", "--concurrency", "1"];
+    let limited = |blocks: &str| {
+        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
+        let mut command = std::process::Command::new("sh");
+        command.current_dir(home.path()).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_arcade")]);
+        command.args(asking(&url, &[&more[..], &["--resume"]].concat())).output().unwrap()
+    };
+    let full = limited("20");
+    let told = text(&full.stderr);
+    assert_eq!(full.status.code(), Some(3), "{told}");
+    assert!(told.contains("cannot write") && told.contains("--resume goes on"), "{told}");
+    let log = home.path().join("results/episodes/hailglass-lvl0-run0.jsonl");
+    assert!(!matches!(read(&log).unwrap().last(), Some(Event::End { .. })));
+    run(home.path(), &asking(&url, &[&more[..], &["--resume"]].concat()), 0);
+    let undisturbed = tempfile::tempdir().unwrap();
+    run(undisturbed.path(), &asking(&url, &more), 0);
+    assert_eq!(logs(&home.path().join("results")), logs(&undisturbed.path().join("results")));
+    // Where not even the settings fit, there is nothing that looks like an evaluation.
+    let other = tempfile::tempdir().unwrap();
+    let script = "trap '' XFSZ; ulimit -f 0; exec \"$@\"";
+    let mut command = std::process::Command::new("sh");
+    command.current_dir(other.path()).args(["-c", script, "sh", env!("CARGO_BIN_EXE_arcade")]);
+    let none = command.args(asking(&url, &more)).output().unwrap();
+    assert_eq!(none.status.code(), Some(3), "{}", text(&none.stderr));
+    assert!(!other.path().join("results/evaluation.json").exists());
+    run(other.path(), &asking(&url, &more), 0);
 }

@@ -24,7 +24,7 @@ fn a_served_player_tells_where_it_is() {
     let port = told["port"].as_u64().unwrap();
     let mut reply = String::new();
     let mut stream = TcpStream::connect(("127.0.0.1", u16::try_from(port).unwrap())).unwrap();
-    stream.write_all(b"GET /v1/models HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n").unwrap();
+    stream.write_all(b"GET /v1/models HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n").unwrap();
     stream.read_to_string(&mut reply).unwrap();
     let taken = run(folder.path(), &["serve-player", "--player", "reflex", "--port", &port.to_string()], 3);
     server.kill().unwrap();
@@ -83,6 +83,124 @@ fn an_agent_of_somebody_else_plays_and_is_taken_up_again() {
     assert_eq!(actions, vec!["left"; 6]);
     let malformed = run(folder.path(), &evaluate("cmd:sh 'agent.sh", &["--resume"]), 2);
     assert!(text(&malformed.stderr).contains("is no command line"), "{}", text(&malformed.stderr));
+}
+
+/// Answers three times, then waits for a file `go`; with children of its own, one of which leaves the group and the session, and deaf to
+/// what asks it to end.
+#[cfg(target_os = "linux")]
+const STUBBORN: &str = "trap '' TERM HUP INT QUIT\nsetsid sleep 600 & echo $! > $1/setsid\nsleep 600 & echo $! > $1/child\n\
+     pwd > $1/folder\nn=0\nwhile read line; do case $line in *'\"past\":true'*) n=$((n+1));; *'\"type\":\"turn\"'*) n=$((n+1))\n\
+     [ $n -gt 3 ] && [ ! -e $1/go ] && { echo $$ > $1/shell; sleep 600; }\necho '{\"action\":\"left\"}';; esac; done\nexec sleep 600\n";
+
+/// Whether a signal does what it usually does: whoever starts the tests in the background may have it ignored.
+#[cfg(target_os = "linux")]
+fn is_heeded(signal: u32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).unwrap();
+    u64::from_str_radix(mask.trim(), 16).unwrap() & (1 << (signal - 1)) == 0
+}
+
+/// Looks until something is so, for some twenty seconds.
+#[cfg(target_os = "linux")]
+#[track_caller]
+fn wait_until(what: &str, is_so: impl Fn() -> bool) {
+    for _ in 0..1000 {
+        if is_so() {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    panic!("{what}: never");
+}
+
+/// Whether a process is gone, but for its entry in the table of processes.
+#[cfg(target_os = "linux")]
+fn is_gone(pid: &str) -> bool {
+    fs::read_to_string(format!("/proc/{pid}/stat")).map_or(true, |stat| stat.contains(") Z "))
+}
+
+/// However `arcade` ends: the player, all that it has started, and its folder are gone, and `--resume` goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn players_end_with_arcade() {
+    for (name, signal) in [("INT", 2), ("TERM", 15), ("HUP", 1), ("QUIT", 3), ("KILL", 9)] {
+        if !is_heeded(signal) {
+            continue;
+        }
+        let home = tempfile::tempdir().unwrap();
+        fs::write(home.path().join("agent.sh"), STUBBORN).unwrap();
+        let player = format!("cmd:sh agent.sh {}", home.path().display());
+        let command = || {
+            let mut command = arcade(home.path());
+            command.args(evaluate(&player, &[])).stdout(Stdio::null()).stderr(Stdio::piped());
+            command
+        };
+        let child = command().spawn().unwrap();
+        let said =
+            |name: &str| fs::read_to_string(home.path().join(name)).unwrap_or_default().trim().to_owned();
+        wait_until("the player waits", || !said("shell").is_empty());
+        let [folder, shell, setsid, own] = ["folder", "shell", "setsid", "child"].map(said);
+        assert!(Path::new(&folder).exists() && ![&shell, &setsid, &own].into_iter().any(|pid| is_gone(pid)));
+        Command::new("kill").args(["-s", name, &child.id().to_string()]).status().unwrap();
+        let output = child.wait_with_output().unwrap();
+        let told = text(&output.stderr);
+        if name == "KILL" {
+            assert_eq!(output.status.code(), None);
+        } else {
+            assert_eq!(output.status.code(), Some(128 + i32::try_from(signal).unwrap()), "{name}: {told}");
+            assert!(told.contains("interrupted") && told.contains("--resume"), "{name}: {told}");
+        }
+        for pid in [&shell, &setsid, &own] {
+            wait_until(&format!("{name}: process {pid} is gone"), || is_gone(pid));
+        }
+        wait_until(&format!("{name}: the folder is gone"), || !Path::new(&folder).exists());
+        fs::write(home.path().join("go"), "").unwrap();
+        let resumed = command().arg("--resume").output().unwrap();
+        assert_eq!(resumed.status.code(), Some(0), "{name}: {}", text(&resumed.stderr));
+        let log = log(&home.path().join("results"));
+        let events: Vec<&str> = log.iter().map(|event| event["event"].as_str().unwrap()).collect();
+        assert_eq!(events, ["start", "step", "step", "step", "step", "step", "step", "end"], "{name}");
+    }
+}
+
+/// At the end of an episode nothing of its player is left either, whatever group it is in.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_leaves_the_group_ends_with_the_episode() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("agent.sh"), STUBBORN).unwrap();
+    fs::write(home.path().join("go"), "").unwrap();
+    run(home.path(), &evaluate(&format!("cmd:sh agent.sh {}", home.path().display()), &[]), 0);
+    let said = |name: &str| fs::read_to_string(home.path().join(name)).unwrap().trim().to_owned();
+    // The guard has gone before, and it goes last.
+    assert!(is_gone(&said("setsid")) && is_gone(&said("child")));
+    assert!(!Path::new(&said("folder")).exists());
+}
+
+/// A program that is not there is a malformed question, and leaves nothing in the way.
+#[cfg(unix)]
+#[test]
+fn a_misspelt_program_is_told_before_anything_is_written() {
+    use std::os::unix::fs::PermissionsExt;
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("agent.sh"), "exit 1\n").unwrap();
+    for (player, words) in [
+        ("cmd:./agnet.sh", "there is no file `./agnet.sh`; did you mean `./agent.sh`?"),
+        ("cmd:sh agnet.sh", "there is no file `agnet.sh`; did you mean `agent.sh`?"),
+        ("cmd:agent.sh", "write `./agent.sh` for the file that is here"),
+        ("cmd:no-such-program-anywhere", "there is no program `no-such-program-anywhere` in PATH"),
+    ] {
+        for more in [&[][..], &["--resume"], &["--dry-run"]] {
+            let told = text(&run(home.path(), &evaluate(player, more), 2).stderr);
+            assert!(told.contains(words), "{told}");
+        }
+        assert!(!home.path().join("results").exists());
+    }
+    // What only the system can tell is told as before.
+    fs::write(home.path().join("broken"), "\u{1}").unwrap();
+    fs::set_permissions(home.path().join("broken"), fs::Permissions::from_mode(0o755)).unwrap();
+    let told = text(&run(home.path(), &evaluate("cmd:./broken", &[]), 3).stderr);
+    assert!(told.contains("`./broken` cannot be started: ") && !told.contains("player-guard"), "{told}");
 }
 
 #[test]

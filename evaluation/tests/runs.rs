@@ -155,7 +155,7 @@ fn an_agents_episode_is_taken_up_where_it_ends() {
 
 /// An episode that network or server breaks off stays open, and is gone on with later.
 #[test]
-fn the_surroundings_are_not_the_players_fault() {
+fn environment_failures_are_not_the_players_fault() {
     let home = tempfile::tempdir().unwrap();
     let subjects = vec![corridor()];
     let folder = home.path().join("results");
@@ -224,5 +224,5 @@ fn damaged_logs_are_told() {
     assert!(error.contains("step 0 leads elsewhere than recorded"), "{error}");
     fs::write(&path, "no log\n").unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
-    assert!(error.contains(":1: not an event of an episode"), "{error}");
+    assert!(error.contains(": line 1 is not an event of an episode"), "{error}");
 }

@@ -5,10 +5,13 @@ use engine::{Action, Game, Observation, Outcome, Seed, State};
 use evaluation::answer::Reading;
 use evaluation::client::{ChatMessage, ChatRequest, Decoding, Model, ModelOptions, Role, connect};
 use evaluation::prompt::{Attempt, Mode, Past, PromptSettings, Prompter, Rules};
-use evaluation::serve::{PromptPlayer, Running, Server};
+use evaluation::serve::{Bounds, PromptPlayer, Running, Server};
 use evaluation::{Before, Subject, SubjectFacts, Turn};
 use serde_json::{Value, json};
+use std::io::{ErrorKind, Read, Write};
+use std::net::TcpStream;
 use std::path::Path;
+use std::time::Duration;
 
 /// Decisions of an episode at most.
 const LIMIT: u64 = 200;
@@ -257,4 +260,119 @@ fn what_is_asked_by_hand_is_answered() {
     let mut models = ureq::get(format!("{}/models", server.base_url())).call().unwrap();
     let models: Value = serde_json::from_str(&models.body_mut().read_to_string().unwrap()).unwrap();
     assert_eq!(models["data"][0]["id"], "random");
+}
+
+/// A connection that gives up reading after `patience`.
+fn connection(server: &Running, patience: Duration) -> TcpStream {
+    let address = server.base_url().strip_prefix("http://").unwrap().strip_suffix("/v1").unwrap();
+    let stream = TcpStream::connect(address).unwrap();
+    stream.set_read_timeout(Some(patience)).unwrap();
+    stream
+}
+
+const PATIENT: Duration = Duration::from_secs(60);
+
+/// What comes back for these bytes, to the end.
+fn raw(server: &Running, bytes: &str) -> String {
+    let mut stream = connection(server, PATIENT);
+    stream.write_all(bytes.as_bytes()).unwrap();
+    let mut reply = String::new();
+    stream.read_to_string(&mut reply).unwrap();
+    reply
+}
+
+/// A page of a stranger, opened in a browser on this machine, gets nothing from a served player.
+#[test]
+fn pages_of_strangers_are_refused() {
+    let server = spawn("random");
+    let check = |headers: &str, status: &str, code: &str| {
+        let request = format!(
+            "POST /v1/chat/completions HTTP/1.1\r\n{headers}Connection: close\r\nContent-Length: 2\r\n\r\n{{}}"
+        );
+        let reply = raw(&server, &request);
+        assert!(
+            reply.starts_with(&format!("HTTP/1.1 {status}")) && reply.contains(code),
+            "{headers}: {reply}"
+        );
+    };
+    let json = "Content-Type: application/json\r\n";
+    check(&format!("Host: localhost:1\r\n{json}"), "400", "invalid_json");
+    check(&format!("Host: [::1]\r\nOrigin: http://localhost:3000\r\n{json}"), "400", "invalid_json");
+    check(&format!("Host: evil.example\r\n{json}"), "421", "foreign_host");
+    check(json, "421", "foreign_host");
+    check(&format!("Host: localhost\r\nOrigin: https://evil.example\r\n{json}"), "403", "foreign_origin");
+    check(&format!("Host: localhost\r\nOrigin: null\r\n{json}"), "403", "foreign_origin");
+    check("Host: localhost\r\nContent-Type: text/plain\r\n", "415", "unsupported_content_type");
+    check("Host: localhost\r\n", "415", "unsupported_content_type");
+    check("Host: localhost\r\nContent-Type: application/json; charset=utf-8\r\n", "400", "invalid_json");
+    let models = raw(&server, "GET /v1/models HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n");
+    assert!(models.starts_with("HTTP/1.1 421"), "{models}");
+}
+
+fn bounded(bounds: Bounds) -> Running {
+    Server::bind("random".parse().unwrap(), 0).unwrap().within(bounds).spawn()
+}
+
+const HEAD: &str = "POST /v1/chat/completions HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nConnection: close\r\n";
+
+/// Who is slow is let go, with the head of a request and with its body.
+#[test]
+fn slow_clients_are_let_go() {
+    let short = Duration::from_millis(200);
+    let server = bounded(Bounds { head_time: short, body_time: short, ..Bounds::default() });
+    for bytes in ["", "POST /v1/chat/comp", HEAD] {
+        let reply = raw(&server, bytes);
+        assert!(reply.is_empty() || reply.starts_with("HTTP/1.1 408"), "{bytes}: {reply}");
+    }
+    let reply = raw(&server, &format!("{HEAD}Content-Length: 100\r\n\r\n{{"));
+    assert!(reply.starts_with("HTTP/1.1 408") && reply.contains("request_timeout"), "{reply}");
+}
+
+/// Connections beyond the limit wait for one to be closed.
+#[test]
+fn connections_are_bounded() {
+    let server = bounded(Bounds { connections: 2, head_time: PATIENT, ..Bounds::default() });
+    let idle = [connection(&server, PATIENT), connection(&server, PATIENT)];
+    let mut third = connection(&server, Duration::from_millis(300));
+    third.write_all(b"GET /v1/models HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n").unwrap();
+    let kind = third.read(&mut [0; 1]).unwrap_err().kind();
+    assert!(matches!(kind, ErrorKind::WouldBlock | ErrorKind::TimedOut), "{kind:?}");
+    drop(idle);
+    third.set_read_timeout(Some(PATIENT)).unwrap();
+    let mut reply = String::new();
+    third.read_to_string(&mut reply).unwrap();
+    assert!(reply.starts_with("HTTP/1.1 200"), "{reply}");
+}
+
+/// Bodies that are under way take up no more memory together than the bounds allow.
+#[test]
+fn bodies_are_bounded() {
+    let server =
+        bounded(Bounds { body: 48 << 10, bodies: 64 << 10, body_time: PATIENT, ..Bounds::default() });
+    let mut half = connection(&server, PATIENT);
+    half.write_all(format!("{HEAD}Content-Length: {}\r\n\r\n{{", 48 << 10).as_bytes()).unwrap();
+    // Read as far as it is sent, so that its room is taken.
+    half.flush().unwrap();
+    let request = format!("{HEAD}Content-Length: {}\r\n\r\n{}", 32 << 10, " ".repeat(32 << 10));
+    let mut waiting = connection(&server, Duration::from_millis(500));
+    std::thread::sleep(Duration::from_millis(100));
+    waiting.write_all(request.as_bytes()).unwrap();
+    let kind = waiting.read(&mut [0; 1]).unwrap_err().kind();
+    assert!(matches!(kind, ErrorKind::WouldBlock | ErrorKind::TimedOut), "{kind:?}");
+    // A small one has room beside them.
+    assert!(raw(&server, &format!("{HEAD}Content-Length: 2\r\n\r\n{{}}")).starts_with("HTTP/1.1 400"));
+    drop(half);
+    waiting.set_read_timeout(Some(PATIENT)).unwrap();
+    let mut reply = String::new();
+    waiting.read_to_string(&mut reply).unwrap();
+    assert!(reply.starts_with("HTTP/1.1 400") && reply.contains("invalid_json"), "{reply}");
+    // Too large by its own word, too large in pieces.
+    let stated = raw(&server, &format!("{HEAD}Content-Length: {}\r\n\r\n", (48 << 10) + 1));
+    assert!(stated.starts_with("HTTP/1.1 413"), "{stated}");
+    let piece = format!("{:x}\r\n{}\r\n0\r\n\r\n", 49 << 10, " ".repeat(49 << 10));
+    let mut pieces = connection(&server, PATIENT);
+    let _ = pieces.write_all(format!("{HEAD}Transfer-Encoding: chunked\r\n\r\n{piece}").as_bytes());
+    let mut start = [0; 12];
+    pieces.read_exact(&mut start).unwrap();
+    assert_eq!(&start, b"HTTP/1.1 413");
 }

@@ -7,6 +7,7 @@ use super::told::Told;
 use crate::failure::Failure;
 use crate::page::facts::Fact;
 use crate::page::words;
+use engine::Digest;
 use evaluation::study::{LeaderRow, Study, Table};
 use serde::Serialize;
 
@@ -29,6 +30,9 @@ struct Page<'a> {
     /// Style rules that show the chosen heat map.
     tab_rules: String,
     replays: Option<Replays>,
+    /// What the script of the page is known by, so that no other one runs. It follows from all that the page shows, none of which can
+    /// therefore name it.
+    nonce: String,
 }
 
 /// The page. The same results give the same bytes.
@@ -36,7 +40,7 @@ pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Re
     let (sections, tab_rules) = sections::all(results.study, tables);
     let room = BYTES.saturating_sub(sections.iter().map(Section::bytes).sum());
     let replays = Replays::of(results.evaluations, results.replays, room)?;
-    let page = Page {
+    let mut page = Page {
         title: &told.title,
         subtitle: &told.subtitle,
         headlines: headlines(results.study),
@@ -45,7 +49,11 @@ pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Re
         sections,
         tab_rules,
         replays: Some(replays).filter(Replays::is_some),
+        nonce: String::new(),
     };
+    let shown = serde_json::to_vec(&page);
+    let shown = shown.map_err(|error| Failure::environment(error, "the page of the report"))?;
+    page.nonce = Digest::of(&shown).to_string();
     crate::page::render_with(&PARTS, TEMPLATE, &page)
 }
 

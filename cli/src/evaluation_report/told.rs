@@ -4,7 +4,7 @@ use super::Results;
 use crate::page::words;
 use evaluation::Evaluation;
 use evaluation::metrics::EpisodeStatus;
-use evaluation::study::{Study, Table};
+use evaluation::study::{Study, Table, in_markdown};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The words at the head of page and Markdown.
@@ -41,12 +41,12 @@ impl Told {
 
     /// The report as Markdown.
     pub(super) fn markdown(&self, tables: &[Table]) -> String {
-        let mut text = format!("# {}\n\n{}\n", self.title, self.subtitle);
+        let mut text = format!("# {}\n\n{}\n", in_markdown(&self.title), in_markdown(&self.subtitle));
         for sentence in &self.counted {
-            text += &format!("\n{sentence}\n");
+            text += &format!("\n{}\n", in_markdown(sentence));
         }
         for warning in &self.warnings {
-            text += &format!("\n> {warning}\n");
+            text += &format!("\n> {}\n", in_markdown(warning));
         }
         for table in tables.iter().filter(|table| !table.rows.is_empty()) {
             text += &format!("\n{}", table.to_markdown());

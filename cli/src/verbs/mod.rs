@@ -13,6 +13,7 @@ pub(crate) mod generate;
 pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod play;
+pub(crate) mod player_guard;
 pub(crate) mod recipes;
 pub(crate) mod regenerate;
 pub(crate) mod release;

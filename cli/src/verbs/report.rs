@@ -82,7 +82,7 @@ fn summary(args: &Args, study: &Study, files: &[String]) -> Value {
         .collect();
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     json!({
-        "report": args.out,
+        "report": args.out.display().to_string(),
         "files": files,
         "episodes": study.episodes.len(),
         "ended": ended,

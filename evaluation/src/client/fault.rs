@@ -72,14 +72,17 @@ fn body_kind(body: &str) -> Option<&'static str> {
     body.starts_with('<').then_some("a page of HTML")
 }
 
-/// How long a `Retry-After` asks to wait: seconds, or until a date.
+/// The longest wait that is told apart, a year: nobody waits as long.
+const LONGEST: Duration = Duration::from_secs(365 * 24 * 60 * 60);
+
+/// How long a `Retry-After` asks to wait: seconds, however many digits they have, or until a date; at most [`LONGEST`].
 fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     let value = value.trim();
-    if let Ok(seconds) = value.parse::<u64>() {
-        return Some(Duration::from_secs(seconds));
+    if !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Some(value.parse().map_or(LONGEST, Duration::from_secs).min(LONGEST));
     }
     let until = httpdate::parse_http_date(value).ok()?;
-    Some(until.duration_since(date).unwrap_or_default())
+    Some(until.duration_since(date).unwrap_or_default().min(LONGEST))
 }
 
 /// What the body of an error says, in any of the shapes that servers give it.
@@ -118,9 +121,10 @@ impl Complaint {
     }
 }
 
-/// A time as Gemini writes it: `34.07s`.
+/// A time as Gemini writes it: `34.07s`; at most [`LONGEST`].
 fn seconds(text: &str) -> Option<Duration> {
-    Duration::try_from_secs_f64(text.strip_suffix('s')?.parse().ok()?).ok()
+    let seconds: f64 = text.strip_suffix('s')?.parse().ok().filter(|seconds: &f64| !seconds.is_nan())?;
+    Duration::try_from_secs_f64(seconds.min(LONGEST.as_secs_f64())).ok()
 }
 
 /// On one line, without what a terminal would obey, and not too long.
@@ -206,6 +210,13 @@ mod tests {
         check("Tue, 01 Dec 2026 08:01:30 GMT", Some(90));
         check("Tue, 01 Dec 2026 07:00:00 GMT", Some(0));
         check("soon", None);
+        check("", None);
+        // More than a number of 64 bits holds is long all the same.
+        for much in ["99999999999", "18446744073709551616", "99999999999999999999999999"] {
+            check(much, Some(LONGEST.as_secs()));
+        }
+        assert_eq!(seconds("1e30s"), Some(LONGEST));
+        assert_eq!((seconds("-1s"), seconds("NaNs")), (None, None));
         check("-5", None);
         let body = "{\"error\":{\"code\":429,\"message\":\"later\",\"details\":[{\"@type\":\"a\"},{\"retryDelay\":\"34.5s\"}]}}";
         let Err(Fault::Passing { wait, .. }) = judged(429, body) else { panic!() };

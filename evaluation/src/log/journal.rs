@@ -2,9 +2,16 @@
 
 use crate::error::EvaluationError;
 use crate::log::event::Event;
+use crate::run::text::open_file;
 use std::fs::{File, OpenOptions};
-use std::io::Write;
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
+
+/// Bytes of a log at most: a long episode of a model that reasons at length has some hundred million.
+const MAX_LOG: u64 = 1 << 30;
+
+/// What to do about a log that is not what it should be.
+pub(crate) const NEXT_MOVE: &str = "the log is damaged or was changed: get it again, or remove it and have the episode played again by `arcade evaluate` with --resume";
 
 /// The open log of an episode. Every event is on its way to the disk when [`Journal::push`] returns.
 #[derive(Debug)]
@@ -91,16 +98,21 @@ pub fn read(path: &Path) -> Result<Vec<Event>, EvaluationError> {
 
 /// The events, and the bytes that they take.
 fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
-    let text = std::fs::read(path).map_err(EvaluationError::io("read", path))?;
-    let (mut events, mut sound) = (Vec::new(), 0);
-    for (number, line) in text.split_inclusive(|&byte| byte == b'\n').enumerate() {
-        let Some(whole) = line.strip_suffix(b"\n") else { break };
+    let mut file = BufReader::new(open_file(path, MAX_LOG)?.take(MAX_LOG));
+    let (mut events, mut sound, mut line) = (Vec::new(), 0, Vec::new());
+    loop {
+        line.clear();
+        let length = file.read_until(b'\n', &mut line).map_err(EvaluationError::io("read", path))?;
+        let Some(whole) = line.strip_suffix(b"\n") else { return Ok((events, sound)) };
         let event = serde_json::from_slice(whole).map_err(|error| {
-            let path = path.display();
-            EvaluationError::Malformed(format!("{path}:{}: not an event of an episode: {error}", number + 1))
+            let (path, number) = (path.display(), events.len() + 1);
+            // The parser sees one line only.
+            let why = error.to_string().replace(" at line 1 column", " at column");
+            EvaluationError::Malformed(format!(
+                "{path}: line {number} is not an event of an episode ({why}); {NEXT_MOVE}"
+            ))
         })?;
         events.push(event);
-        sound += line.len();
+        sound += length as u64;
     }
-    Ok((events, sound as u64))
 }

@@ -1,7 +1,7 @@
 //! All that is measured of an episode.
 
 use crate::error::EvaluationError;
-use crate::log::{Event, Status};
+use crate::log::Event;
 use crate::metrics::choices::{Choices, Spending};
 use crate::metrics::movement::Movement;
 use crate::metrics::replay::{Replayed, replay};
@@ -84,7 +84,7 @@ impl EpisodeMetrics {
             game: subject.id.clone(),
             level: *level,
             run: *run,
-            status: EpisodeStatus::of(log),
+            status: EpisodeStatus::of(&replayed, *max_steps, log),
             outcome: replayed.outcome,
             score: replayed.score,
             steps: replayed.actions.len() as u64,
@@ -124,10 +124,15 @@ impl EpisodeMetrics {
 }
 
 impl EpisodeStatus {
-    fn of(log: &[Event]) -> EpisodeStatus {
+    /// The status that follows from the steps. A last line that is missing, or says something else, changes nothing.
+    fn of(replayed: &Replayed, max_steps: u64, log: &[Event]) -> EpisodeStatus {
+        if replayed.outcome != Outcome::Ongoing {
+            return EpisodeStatus::Over;
+        }
+        if replayed.actions.len() as u64 >= max_steps {
+            return EpisodeStatus::StepLimit;
+        }
         match log.last() {
-            Some(Event::End { status: Status::Over, .. }) => EpisodeStatus::Over,
-            Some(Event::End { status: Status::StepLimit, .. }) => EpisodeStatus::StepLimit,
             Some(Event::Halt { reason, .. }) => EpisodeStatus::Halted(reason.clone()),
             _ => EpisodeStatus::Interrupted,
         }

@@ -4,6 +4,7 @@
 //!
 //! What cannot be known is `None`, never 0.
 
+mod answers;
 mod as_code;
 mod choices;
 mod episode;

@@ -1,7 +1,8 @@
 //! An episode played again from its log.
 
 use crate::error::EvaluationError;
-use crate::log::{Event, SCHEMA};
+use crate::log::{Event, NEXT_MOVE, SCHEMA, Status};
+use crate::metrics::answers::Answers;
 use crate::metrics::as_code::{AsCode, flags_as_code};
 use crate::metrics::meaningful::{Effect, meaningful};
 use crate::subject::{Subject, SubjectLevel};
@@ -28,22 +29,22 @@ pub struct Replayed {
     pub score: f64,
 }
 
-/// Plays the episode of a log again on its game, and compares every state hash, score, outcome and place of the avatar.
+/// Plays the episode of a log again on its game, and compares every state hash, score, outcome and place of the avatar. What follows
+/// from the game or from other lines has to agree with them: how a step came about with the answers before it, the last line with the
+/// state that the steps lead to, the number of steps with the limit.
 ///
 /// Cost: per step two forward-model calls, a copy of the state and O(sprites log sprites).
 ///
 /// # Errors
-/// The log is of another game, level or version of the suite, or leads elsewhere: the message names the step.
+/// The log is of another game, level or version of the suite, or contradicts itself or the game: the message names the line.
 pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
-    let Some(start @ Event::Start { level, run, .. }) = log.first() else {
+    let Some(start @ Event::Start { max_steps, .. }) = log.first() else {
         return Err(EvaluationError::Malformed(format!(
-            "{}: a log does not begin with the start of an episode; it is damaged",
+            "line 1 is not the start of an episode of {}; {NEXT_MOVE}",
             subject.id
         )));
     };
-    let complain =
-        |what: String| EvaluationError::Malformed(format!("{} level {level} run {run}: {what}", subject.id));
-    let (level, mut state) = begin(subject, start).map_err(complain)?;
+    let (level, mut state) = begin(subject, start).map_err(EvaluationError::Malformed)?;
     let mut replayed = Replayed {
         optimal_ticks: level.optimal_ticks,
         actions: Vec::new(),
@@ -58,9 +59,15 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
     let (mut effects, mut texts) = (Vec::new(), Vec::new());
     let mut seen = Seen::of(&subject.game, &state);
     let mut places = vec![seen.place()];
-    for event in &log[1..] {
+    let mut answers = Answers::default();
+    for (event, line) in log.iter().zip(1..).skip(1) {
+        let complain = |what: String| EvaluationError::Malformed(format!("line {line}: {what}; {NEXT_MOVE}"));
         match event {
+            Event::Start { .. } => return Err(complain("an episode starts a second time".to_owned())),
             Event::Step { action, .. } => {
+                if state.is_over() || replayed.actions.len() as u64 >= *max_steps {
+                    return Err(complain("there is a step after the end of the episode".to_owned()));
+                }
                 texts.push(code.text(&subject.game.observe(&state)));
                 let idle = (*action != Action::Nil).then(|| {
                     let mut idle = state.clone();
@@ -77,18 +84,16 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
                 replayed.cells.push(cell(&subject.game, &state));
                 (replayed.outcome, replayed.score) = (state.outcome(), state.score());
                 compare(event, &state, &replayed).map_err(complain)?;
+                answers.step(event).map_err(complain)?;
             }
-            Event::End { outcome, score, steps, .. } => {
-                let found = (replayed.outcome, replayed.score, replayed.actions.len() as u64);
-                if found != (*outcome, *score, *steps) {
-                    return Err(complain(format!(
-                        "it ends {:?} with score {} after {} steps, the log says {outcome:?} with {score} after {steps}; \
-                         the log is damaged",
-                        found.0, found.1, found.2
-                    )));
+            Event::End { .. } => {
+                compare_end(event, &replayed, *max_steps).map_err(complain)?;
+                if line < log.len() {
+                    return Err(complain("there are lines after the end of the episode".to_owned()));
                 }
             }
-            _ => {}
+            Event::Reply(reply) => answers.reply(reply, replayed.actions.len()).map_err(complain)?,
+            Event::Request { .. } | Event::Message { .. } | Event::Halt { .. } => answers.other(event),
         }
     }
     replayed.meaningful = meaningful(&effects, &places);
@@ -125,30 +130,73 @@ fn begin<'a>(subject: &'a Subject, start: &Event) -> Result<(&'a SubjectLevel, S
     }
     let state = subject.game.start(&found.level, *seed);
     if state.state_hash() != *hash || cell(&subject.game, &state) != *avatar {
-        return Err("it begins in another state than recorded; the log is damaged".to_owned());
+        return Err(format!("line 1: the level begins in another state than recorded; {NEXT_MOVE}"));
     }
     Ok((found, state))
 }
 
-/// Whether a step was recorded as it is replayed.
+/// Compares a step with its replay.
 fn compare(event: &Event, state: &State, replayed: &Replayed) -> Result<(), String> {
     let Event::Step { step, score, hash, outcome, avatar, .. } = event else { return Ok(()) };
     let number = replayed.actions.len() as u64 - 1;
     if *step != number {
-        return Err(format!("step {number} is recorded as step {step}; the log is damaged"));
+        return Err(format!("step {number} is recorded as step {step}"));
     }
+    let differs = |what: &str, found: String, recorded: String| {
+        Err(format!("step {step} leads to {what} {found}, the log says {recorded}"))
+    };
     if state.state_hash() != *hash {
-        let got = state.state_hash();
-        return Err(format!("step {step} leads to state {got}, the log says {hash}; the log is damaged"));
+        return differs("state", state.state_hash().to_string(), hash.to_string());
     }
-    let found = (replayed.score, replayed.outcome, replayed.cells.last().copied().flatten());
-    if found != (*score, *outcome, *avatar) {
+    if replayed.score != *score {
+        return differs("score", replayed.score.to_string(), score.to_string());
+    }
+    if replayed.outcome != *outcome {
+        return differs("an episode that is", in_words(replayed.outcome), in_words(*outcome));
+    }
+    let place = |at: Option<(i32, i32)>| {
+        at.map_or("nowhere".to_owned(), |(column, row)| format!("in column {column}, row {row}"))
+    };
+    match replayed.cells.last().copied().flatten() {
+        found if found != *avatar => differs("an avatar", place(found), place(*avatar)),
+        _ => Ok(()),
+    }
+}
+
+/// Compares the last line with what the steps lead to.
+fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(), String> {
+    let Event::End { status, outcome, score, steps } = event else { return Ok(()) };
+    let taken = replayed.actions.len() as u64;
+    let is_over = replayed.outcome != Outcome::Ongoing;
+    if (replayed.outcome, replayed.score, taken) != (*outcome, *score, *steps) {
         return Err(format!(
-            "step {step} leads to {found:?}, the log says {:?}; the log is damaged",
-            (score, outcome, avatar)
+            "the episode is {} with score {} after {taken} steps, the log says {} with score {score} after {steps}",
+            in_words(replayed.outcome),
+            replayed.score,
+            in_words(*outcome),
         ));
     }
-    Ok(())
+    match status {
+        Status::Over if !is_over => Err("the log says that the game is over, which it is not".to_owned()),
+        Status::StepLimit if is_over => {
+            Err("the log says that the limit of steps was met, but the game is over".to_owned())
+        }
+        Status::StepLimit if taken < max_steps => Err(format!(
+            "the log says that the limit of steps was met, but {taken} of {max_steps} were taken"
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// How an episode stands: `won`, `not over`.
+fn in_words(outcome: Outcome) -> String {
+    match outcome {
+        Outcome::Ongoing => "not over".to_owned(),
+        Outcome::Won => "won".to_owned(),
+        Outcome::Lost => "lost".to_owned(),
+        Outcome::Ended => "over without a winner".to_owned(),
+        Outcome::Stopped(limit) => format!("stopped ({limit})"),
+    }
 }
 
 fn cell(game: &Game, state: &State) -> Option<(i32, i32)> {

@@ -1,6 +1,6 @@
 //! How long decisions take: recorded beside the results, never part of them.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Runs from its start.
 pub(crate) struct Stopwatch(Instant);
@@ -9,6 +9,11 @@ impl Stopwatch {
     #[expect(clippy::disallowed_methods, reason = "times are recorded, and nothing is decided by them")]
     pub(crate) fn start() -> Stopwatch {
         Stopwatch(Instant::now())
+    }
+
+    /// Time since the start.
+    pub(crate) fn elapsed(&self) -> Duration {
+        self.0.elapsed()
     }
 
     /// Since the start, ms, to the microsecond.

@@ -8,6 +8,7 @@ use crate::subject::{Subject, SubjectLevel};
 use crate::turn::{Before, Turn, choices};
 use agents::{Planner, Player};
 use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
+use std::fmt::Display;
 
 /// Which episode to play.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +30,30 @@ impl Task<'_> {
     pub fn chance(&self) -> Seed {
         let game = self.seed.child(&self.subject.game.digest().to_string(), 0);
         game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
+    }
+
+    /// Compares the first line of a log with what was asked for; a replay compares the rest of it with the game.
+    pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
+        let Event::Start { game, level, run, seed, max_steps, .. } = start else { return Ok(()) };
+        let differs = |what: &str, found: &dyn Display, asked: &dyn Display| {
+            Err(format!("the log is of {what} {found}, but {asked} was asked for"))
+        };
+        if *game != self.subject.id {
+            return differs("game", game, &self.subject.id);
+        }
+        if *level != self.level.number {
+            return differs("level", level, &self.level.number);
+        }
+        if *run != self.run {
+            return differs("run", run, &self.run);
+        }
+        if *max_steps != self.max_steps {
+            return differs("an episode with `max_steps`", max_steps, &self.max_steps);
+        }
+        match *seed == self.chance() {
+            true => Ok(()),
+            false => Err("the log is of an episode with another `seed` than was asked for".to_owned()),
+        }
     }
 
     /// The file of its log, in `episodes/`.

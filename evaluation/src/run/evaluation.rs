@@ -4,12 +4,15 @@ use crate::error::EvaluationError;
 use crate::log::{Event, Journal};
 use crate::player::{Contestant, Halt};
 use crate::run::episode::{Left, Task, play};
-use crate::run::settings::{FORMAT, SETTINGS_FILE, Settings, SubjectEntry};
+use crate::run::settings::{FORMAT, MAX_SETTINGS, SETTINGS_FILE, Settings, SubjectEntry};
+use crate::run::text::read_text;
 use crate::subject::Subject;
 use engine::{Outcome, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -20,7 +23,7 @@ const LOCK_FILE: &str = ".lock";
 /// The settings while they are written.
 const PARTIAL_FILE: &str = "evaluation.json.partial";
 
-/// Episodes in a row that the surroundings may break off before the rest is left for later.
+/// Episodes in a row that environment failures may break off before the rest is left for later.
 const FAILURES_IN_A_ROW: u64 = 8;
 
 /// A results folder: `evaluation.json`, `games/` with the texts that were played, `episodes/` with a log each. It holds all
@@ -54,7 +57,7 @@ pub struct Tally {
     pub open: u64,
     /// Why the first of them was broken off.
     pub halted: Option<String>,
-    /// Whether that is the doing of network, server or a player's process, rather than of a cap or of the user.
+    /// Whether that is the doing of network, server, disk or a player's process, rather than of a cap or of the user.
     pub infrastructure: bool,
 }
 
@@ -62,12 +65,13 @@ impl Evaluation {
     /// A new results folder; it must be absent or empty, but for what an interrupted beginning has left there.
     ///
     /// # Errors
-    /// It is neither, or cannot be written.
+    /// It is neither, or cannot be written; more is asked for than an evaluation can have.
     pub fn create(
         folder: &Path,
         settings: Settings,
         subjects: Vec<Subject>,
     ) -> Result<Evaluation, EvaluationError> {
+        settings.check().map_err(EvaluationError::Malformed)?;
         fs::create_dir_all(folder).map_err(EvaluationError::io("make", folder))?;
         if !is_free(folder)? {
             return Err(EvaluationError::Malformed(format!(
@@ -92,7 +96,12 @@ impl Evaluation {
         fs::create_dir_all(&episodes).map_err(EvaluationError::io("make", &episodes))?;
         let text = serde_json::to_string_pretty(&settings).expect("settings are plain data");
         let (partial, path) = (folder.join(PARTIAL_FILE), folder.join(SETTINGS_FILE));
-        fs::write(&partial, text + "\n").map_err(EvaluationError::io("write", &partial))?;
+        let write = || {
+            let mut file = File::create(&partial)?;
+            file.write_all((text + "\n").as_bytes())?;
+            file.sync_all()
+        };
+        write().map_err(EvaluationError::io("write", &partial))?;
         fs::rename(&partial, &path).map_err(EvaluationError::io("write", &path))?;
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: Some(lock) })
     }
@@ -120,12 +129,12 @@ impl Evaluation {
     /// There is none, it is of a newer format, or damaged.
     pub fn open(folder: &Path) -> Result<Evaluation, EvaluationError> {
         let path = folder.join(SETTINGS_FILE);
-        let text = fs::read_to_string(&path).map_err(|error| match error.kind() {
-            std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => EvaluationError::Malformed(format!(
+        let text = read_text(&path, MAX_SETTINGS).map_err(|error| match error {
+            EvaluationError::Io { source, .. } if is_absent(&source) => EvaluationError::Malformed(format!(
                 "{}: no results of an evaluation here (no {SETTINGS_FILE}); `arcade evaluate --out DIR` writes such a folder",
                 folder.display()
             )),
-            _ => EvaluationError::io("read", &path)(error),
+            other => other,
         })?;
         let unreadable = |error: serde_json::Error| {
             EvaluationError::Malformed(format!(
@@ -146,6 +155,12 @@ impl Evaluation {
             let path = path.display();
             return Err(EvaluationError::Malformed(format!("{path}: {:?} is no name of a game", entry.id)));
         }
+        settings.check().map_err(|problem| {
+            let path = path.display();
+            EvaluationError::Malformed(format!(
+                "{path}: {problem}: it is damaged, get the results folder again"
+            ))
+        })?;
         let subjects = settings.games.iter().map(|entry| entry.read(folder)).collect::<Result<_, _>>()?;
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
     }
@@ -169,7 +184,35 @@ impl Evaluation {
         if path.exists() { crate::log::read(&path) } else { Ok(Vec::new()) }
     }
 
-    fn log_path(&self, task: &Task<'_>) -> PathBuf {
+    /// Checks that there are no logs but those of these episodes: with fewer runs or games in the settings than were played, results
+    /// would be passed over.
+    ///
+    /// # Errors
+    /// There is another one, or the folder cannot be listed.
+    pub(crate) fn check_logs(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
+        let folder = self.folder.join("episodes");
+        let names: BTreeSet<String> = tasks.iter().map(Task::file_name).collect();
+        let entries = match fs::read_dir(&folder) {
+            Err(error) if is_absent(&error) => return Ok(()),
+            entries => entries.map_err(EvaluationError::io("list", &folder))?,
+        };
+        let mut others = BTreeSet::new();
+        for entry in entries {
+            let name = entry.map_err(EvaluationError::io("list", &folder))?.file_name();
+            let name = name.to_string_lossy().into_owned();
+            if name.ends_with(".jsonl") && !names.contains(&name) {
+                others.insert(name);
+            }
+        }
+        others.first().map_or(Ok(()), |name| {
+            Err(EvaluationError::Malformed(format!(
+                "{}: there is no such episode in {SETTINGS_FILE}, which was changed or is damaged: get the results folder again",
+                folder.join(name).display()
+            )))
+        })
+    }
+
+    pub(crate) fn log_path(&self, task: &Task<'_>) -> PathBuf {
         self.folder.join("episodes").join(task.file_name())
     }
 
@@ -226,7 +269,10 @@ impl Evaluation {
             ended,
             won,
             open: episodes - ended,
-            infrastructure: matches!(halted, Some(Halt::Infrastructure(_) | Halt::Rejected(_))),
+            infrastructure: matches!(
+                halted,
+                Some(Halt::Infrastructure(_) | Halt::Rejected(_) | Halt::Log(_))
+            ),
             halted: halted.map(|halt| halt.to_string()),
         })
     }
@@ -297,6 +343,11 @@ fn difference(recorded: &Settings, asked: &Settings) -> Option<String> {
         "suite" | "semantics" => "version of arcade".to_owned(),
         other => other.to_owned(),
     })
+}
+
+/// Whether there is no such file.
+fn is_absent(error: &std::io::Error) -> bool {
+    matches!(error.kind(), std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory)
 }
 
 /// Whether an id from a results folder stays inside it.

@@ -4,7 +4,10 @@ pub(crate) mod clock;
 mod episode;
 mod evaluation;
 mod settings;
+pub(crate) mod text;
 
 pub use episode::{Left, Task, play};
 pub use evaluation::{Evaluation, Progress, Tally, tasks};
-pub use settings::{Entrant, FORMAT, LevelEntry, SETTINGS_FILE, Settings, SubjectEntry};
+pub use settings::{
+    Entrant, FORMAT, LevelEntry, MAX_DECISIONS, MAX_EPISODES, SETTINGS_FILE, Settings, SubjectEntry,
+};

@@ -1,15 +1,24 @@
 //! `evaluation.json`: what was asked, written before the first episode.
 
 use crate::error::EvaluationError;
+use crate::run::text::read_text;
 use crate::subject::{Subject, SubjectFacts, Unreadable};
-use engine::Digest;
+use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The version of the results folder.
 pub const FORMAT: u32 = 1;
 /// The file with the settings in a results folder.
 pub const SETTINGS_FILE: &str = "evaluation.json";
+
+/// Episodes of an evaluation at most, on all levels together.
+pub const MAX_EPISODES: u64 = 1_000_000;
+/// Decisions of an episode that may be asked for at most. No game takes as many ticks.
+pub const MAX_DECISIONS: u64 = 1_000_000;
+/// Bytes of [`SETTINGS_FILE`] at most.
+pub(crate) const MAX_SETTINGS: usize = 1 << 26;
 
 /// What was asked of an evaluation: all that decides its results, and nothing else. Resuming compares it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -75,6 +84,39 @@ pub struct LevelEntry {
     pub optimal_ticks: Option<usize>,
 }
 
+impl Settings {
+    /// Checks that what is asked for stays within limits, and names every game and level once. Whoever reads a results folder knows
+    /// then how much there can be.
+    ///
+    /// # Errors
+    /// It does not; in words, with the number that is too large.
+    pub fn check(&self) -> Result<(), String> {
+        let levels: u64 = self.games.iter().map(|game| game.levels.len() as u64).sum();
+        let episodes = self.runs.checked_mul(levels).filter(|&episodes| episodes <= MAX_EPISODES);
+        if self.runs == 0 || self.runs > MAX_EPISODES || episodes.is_none() {
+            let runs = self.runs;
+            return Err(format!(
+                "`runs` is {runs}, on {levels} levels; an evaluation has 1 to {MAX_EPISODES} episodes in all"
+            ));
+        }
+        if !(1..=MAX_DECISIONS).contains(&self.max_steps) {
+            let max_steps = self.max_steps;
+            return Err(format!("`max_steps` is {max_steps}; an episode has 1 to {MAX_DECISIONS} decisions"));
+        }
+        let mut ids = BTreeSet::new();
+        if let Some(twice) = self.games.iter().find(|game| !ids.insert(&game.id)) {
+            return Err(format!("the game `{}` is listed twice", twice.id));
+        }
+        for game in &self.games {
+            let mut numbers = BTreeSet::new();
+            if let Some(twice) = game.levels.iter().find(|level| !numbers.insert(level.number)) {
+                return Err(format!("level {} of `{}` is listed twice", twice.number, game.id));
+            }
+        }
+        Ok(())
+    }
+}
+
 impl SubjectEntry {
     pub(crate) fn of(subject: &Subject) -> SubjectEntry {
         let level = |level: &crate::SubjectLevel| LevelEntry {
@@ -96,13 +138,10 @@ impl SubjectEntry {
     /// They are missing, do not compile, or are not the ones that were played.
     pub(crate) fn read(&self, results: &Path) -> Result<Subject, EvaluationError> {
         let folder = results.join("games").join(&self.id);
-        let read = |name: &str| {
-            let path = folder.join(name);
-            std::fs::read_to_string(&path).map_err(EvaluationError::io("read", &path))
-        };
-        let source = read("game.vgdl")?;
+        let source = read_text(&folder.join("game.vgdl"), MAX_SOURCE)?;
         let level = |level: &LevelEntry| {
-            Ok((level.number, read(&format!("lvl{}.txt", level.number))?, level.optimal_ticks))
+            let text = read_text(&folder.join(format!("lvl{}.txt", level.number)), MAX_LEVEL_TEXT)?;
+            Ok((level.number, text, level.optimal_ticks))
         };
         let levels = self.levels.iter().map(level).collect::<Result<Vec<_>, EvaluationError>>()?;
         let changed = |what: &str| {

@@ -4,6 +4,8 @@
 //! whole path from the state to the prompt to the answer to the action, and other people's harnesses as well
 //! ([docs/serve-player.md](../../../docs/serve-player.md)). The same conversation always gets the same answer.
 
+mod bounds;
+mod origin;
 mod prompted;
 mod random;
 mod reflex;
@@ -11,6 +13,7 @@ mod replan;
 mod server;
 mod shown;
 
+pub use bounds::Bounds;
 pub use prompted::Prompted;
 pub use server::{Running, Server};
 

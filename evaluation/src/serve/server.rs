@@ -1,28 +1,34 @@
 //! OpenAI-compatible chat completions, answered by a player.
 
-use super::{PromptPlayer, prompt_tokens, seed, tokens};
+use super::bounds::{Bounds, Room};
+use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
 use crate::client::{ChatMessage, Role};
 use crate::error::EvaluationError;
 use axum::Router;
-use axum::body::Bytes;
-use axum::extract::{DefaultBodyLimit, State};
+use axum::body::{Body, Bytes, HttpBody};
+use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Json, Response};
 use axum::routing::{get, post};
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::thread::JoinHandle;
-use tokio::sync::oneshot;
+use std::time::Duration;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, oneshot};
 
-/// Bytes of a request at most: a long conversation with a picture.
-const MAX_REQUEST: usize = 32 << 20;
+/// The pause after a connection that the system would not open, because there are too many of all programs.
+const PAUSE: Duration = Duration::from_millis(100);
 
 /// A server that has its port and does not answer yet.
 #[derive(Debug)]
 pub struct Server {
     player: PromptPlayer,
+    bounds: Bounds,
     listener: TcpListener,
     address: SocketAddr,
 }
@@ -36,10 +42,15 @@ impl Server {
         let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).and_then(|listener| {
             listener.set_nonblocking(true)?;
             let address = listener.local_addr()?;
-            Ok(Server { player, listener, address })
+            Ok(Server { player, bounds: Bounds::default(), listener, address })
         });
         let place = format!("127.0.0.1:{port}");
         bound.map_err(EvaluationError::io("listen on", place.as_ref()))
+    }
+
+    /// The same within other limits.
+    pub fn within(self, bounds: Bounds) -> Server {
+        Server { bounds, ..self }
     }
 
     /// Where it listens.
@@ -76,13 +87,40 @@ impl Server {
         let place = self.address.to_string();
         let serve = || {
             let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-            let router = router(self.player);
-            runtime.block_on(async {
+            let router = router(self.player, self.bounds);
+            let answered = runtime.block_on(async {
                 let listener = tokio::net::TcpListener::from_std(self.listener)?;
-                axum::serve(listener, router).with_graceful_shutdown(stopped).await
-            })
+                tokio::select! {
+                    () = accept(listener, router, self.bounds) => {}
+                    () = stopped => {}
+                }
+                Ok(())
+            });
+            // A player that still thinks is not waited for.
+            runtime.shutdown_background();
+            answered
         };
         serve().map_err(EvaluationError::io("listen on", place.as_ref()))
+    }
+}
+
+/// Answers every connection, as many at a time as the bounds allow. What is beyond them waits in the system's own queue.
+async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
+    let places = Arc::new(Semaphore::new(bounds.connections));
+    loop {
+        let place = places.clone().acquire_owned().await.expect("it is never closed");
+        let Ok((stream, _)) = listener.accept().await else {
+            tokio::time::sleep(PAUSE).await;
+            continue;
+        };
+        let service = TowerToHyperService::new(router.clone());
+        tokio::spawn(async move {
+            let mut http = http1::Builder::new();
+            http.timer(TokioTimer::new()).header_read_timeout(bounds.head_time);
+            // A client that breaks off, or is too slow, is no fault of the server.
+            let _ = http.serve_connection(TokioIo::new(stream), service).await;
+            drop::<OwnedSemaphorePermit>(place);
+        });
     }
 }
 
@@ -110,7 +148,7 @@ impl Drop for Running {
     }
 }
 
-fn router(player: PromptPlayer) -> Router {
+fn router(player: PromptPlayer, bounds: Bounds) -> Router {
     let no_route = || async {
         refusal(StatusCode::NOT_FOUND, "unknown_url", "there is POST /v1/chat/completions and GET /v1/models")
     };
@@ -126,8 +164,15 @@ fn router(player: PromptPlayer) -> Router {
         .route("/v1/models", get(models))
         .fallback(no_route)
         .method_not_allowed_fallback(no_method)
-        .layer(DefaultBodyLimit::max(MAX_REQUEST))
-        .with_state(Arc::new(player))
+        .layer(axum::middleware::from_fn(origin::check))
+        .with_state(Arc::new(Serving { player, bounds, room: Room::new(bounds.bodies) }))
+}
+
+/// What an answer needs.
+struct Serving {
+    player: PromptPlayer,
+    bounds: Bounds,
+    room: Room,
 }
 
 /// What of a request matters; how to sample does not.
@@ -159,26 +204,61 @@ struct Part {
     text: Option<String>,
 }
 
-async fn models(State(player): State<Arc<PromptPlayer>>) -> Json<Value> {
+async fn models(State(serving): State<Arc<Serving>>) -> Json<Value> {
+    let id = serving.player.to_string();
     Json(json!({
         "object": "list",
-        "data": [{"id": player.to_string(), "object": "model", "created": 0, "owned_by": "infinite-arcade"}],
+        "data": [{"id": id, "object": "model", "created": 0, "owned_by": "infinite-arcade"}],
     }))
 }
 
-async fn complete(
-    State(player): State<Arc<PromptPlayer>>,
-    body: Result<Bytes, axum::extract::rejection::BytesRejection>,
-) -> Response {
-    let body = match body {
-        Ok(body) => body,
-        Err(error) => return refusal(error.status(), "unreadable_body", &error.body_text()),
+async fn complete(State(serving): State<Arc<Serving>>, body: Body) -> Response {
+    let (body, taken) = match read(&serving, body).await {
+        Ok(read) => read,
+        Err(refusal) => return *refusal,
     };
-    let answered = tokio::task::spawn_blocking(move || completion(&player, &body)).await;
-    match answered {
+    let answered = tokio::task::spawn_blocking(move || {
+        let answered = completion(&serving.player, &body);
+        drop((body, taken));
+        answered
+    });
+    match answered.await {
         Ok(Ok(document)) => Json(document).into_response(),
         Ok(Err(refusal)) => *refusal,
         Err(_) => refusal(StatusCode::INTERNAL_SERVER_ERROR, "player_failed", "the player has failed"),
+    }
+}
+
+/// Reads a body within the bounds: room for all that it says it has, or may have, is taken before.
+async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePermit), Box<Response>> {
+    let Bounds { body: most, bodies, body_time, .. } = serving.bounds;
+    let most = most.min(bodies);
+    let too_large = || {
+        let message = format!("a request has at most {most} bytes");
+        Box::new(refusal(StatusCode::PAYLOAD_TOO_LARGE, "unreadable_body", &message))
+    };
+    // An honest length, or none: what is sent has no more bytes than that.
+    let stated = HttpBody::size_hint(&body).upper();
+    let size = match stated.map(usize::try_from) {
+        Some(Ok(size)) if size <= most => size,
+        Some(_) => return Err(too_large()),
+        None => most,
+    };
+    let read = async {
+        let taken = serving.room.take(size).await;
+        (axum::body::to_bytes(body, size).await, taken)
+    };
+    match tokio::time::timeout(body_time, read).await {
+        Ok((Ok(bytes), taken)) => Ok((bytes, taken)),
+        Ok((Err(_), _)) if stated.is_none() => Err(too_large()),
+        Ok((Err(error), _)) => {
+            let message = format!("the request breaks off: {error}");
+            Err(Box::new(refusal(StatusCode::BAD_REQUEST, "unreadable_body", &message)))
+        }
+        Err(_) => {
+            let message = "the request was not sent in time, or too many others are; try again";
+            Err(Box::new(refusal(StatusCode::REQUEST_TIMEOUT, "request_timeout", message)))
+        }
     }
 }
 
@@ -234,7 +314,7 @@ fn message(message: Message) -> Result<ChatMessage, String> {
 }
 
 /// An error as the real interfaces tell it.
-fn refusal(status: StatusCode, code: &str, message: &str) -> Response {
+pub(super) fn refusal(status: StatusCode, code: &str, message: &str) -> Response {
     let kind = if status.is_server_error() { "server_error" } else { "invalid_request_error" };
     let error = json!({"error": {"message": message, "type": kind, "param": null, "code": code}});
     (status, Json(error)).into_response()

@@ -37,7 +37,7 @@ pub use power::{PowerRow, power, table as power_table};
 pub use read::PlayedLogs;
 pub use scores::{Estimate, Scores, StudyEpisode};
 pub use sweep::{Sweep, SweepRow};
-pub use table::{Table, TableCell};
+pub use table::{Table, TableCell, in_markdown};
 pub use taxonomy::TaxonomyRow;
 pub use times::TimeRow;
 

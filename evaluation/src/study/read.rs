@@ -1,9 +1,9 @@
 //! A study from results folders.
 
 use crate::error::EvaluationError;
-use crate::log::Event;
+use crate::log::{Event, NEXT_MOVE};
 use crate::metrics::EpisodeMetrics;
-use crate::run::Evaluation;
+use crate::run::{Evaluation, Task};
 use crate::study::{Player, Study, StudyGame};
 use crate::subject::Subject;
 use engine::Digest;
@@ -32,13 +32,11 @@ impl Study {
             evaluation.subjects.iter().try_for_each(|subject| names.add(subject, folder))?;
             seeds.insert(evaluation.settings.seed.clone());
             let tasks = evaluation.tasks();
-            let measured = tasks.par_iter().map(|task| {
-                let log = evaluation.events(task)?;
-                let metrics = (!log.is_empty()).then(|| EpisodeMetrics::of(task.subject, &log));
-                metrics.transpose().map_err(|error| within(folder, error))
-            });
-            let measured = measured.collect::<Result<Vec<Option<EpisodeMetrics>>, EvaluationError>>()?;
-            let open = measured.iter().filter(|metrics| metrics.is_none()).count();
+            evaluation.check_logs(&tasks)?;
+            // Of episodes that are only asked for, nothing is kept.
+            let measured = tasks.par_iter().filter_map(|task| measured(&evaluation, task).transpose());
+            let measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
+            let open = tasks.len() - measured.len();
             if open > 0 {
                 notes.push(format!(
                     "{open} of {} episodes of {} were not begun.",
@@ -46,8 +44,8 @@ impl Study {
                     player.label()
                 ));
             }
-            names.claim(&player, measured.iter().flatten(), folder)?;
-            results.push((player, measured.into_iter().flatten().collect()));
+            names.claim(&player, measured.iter(), folder)?;
+            results.push((player, measured));
         }
         let mut study = Study::new(results, names.games());
         study.notes.extend(notes);
@@ -73,7 +71,11 @@ impl Study {
                 if games.iter().all(|game| game.id != subject.id) {
                     games.push(StudyGame::from(*subject));
                 }
-                episodes.push(EpisodeMetrics::of(subject, log)?);
+                let metrics = EpisodeMetrics::of(subject, log);
+                episodes.push(
+                    metrics
+                        .map_err(|error| EvaluationError::Malformed(format!("{}: {error}", subject.id)))?,
+                );
             }
             measured.push((player, episodes));
         }
@@ -165,6 +167,15 @@ impl Names {
     }
 }
 
-fn within(folder: &Path, error: EvaluationError) -> EvaluationError {
-    EvaluationError::Malformed(format!("{}: {error}", folder.display()))
+/// The metrics of an episode; none if it was not begun.
+fn measured(evaluation: &Evaluation, task: &Task<'_>) -> Result<Option<EpisodeMetrics>, EvaluationError> {
+    let log = evaluation.events(task)?;
+    if log.is_empty() {
+        return Ok(None);
+    }
+    let place = evaluation.log_path(task);
+    let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", place.display()));
+    let metrics = EpisodeMetrics::of(task.subject, &log).map_err(|error| wrong(error.to_string()))?;
+    task.compare_start(&log[0]).map_err(|what| wrong(format!("line 1: {what}; {NEXT_MOVE}")))?;
+    Ok(Some(metrics))
 }

@@ -132,22 +132,26 @@ impl Table {
     /// assert_eq!(table.to_markdown(), "## Wins\n\n| player | win rate |\n|:--|--:|\n| mcts\\|100 | 0.50 |\n");
     /// ```
     pub fn to_markdown(&self) -> String {
-        let escape = |text: &str| text.replace('\\', "\\\\").replace('|', "\\|").replace(['\n', '\r'], " ");
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-        let mut text = format!("## {}\n\n", escape(&self.title));
-        text += &line(self.columns.iter().map(|column| escape(column)).collect());
+        let mut text = format!("## {}\n\n", in_markdown(&self.title));
+        text += &line(self.columns.iter().map(|column| in_markdown(column)).collect());
         let rule = (0..self.columns.len()).map(|column| if self.is_words(column) { ":--|" } else { "--:|" });
         text += &format!("|{}\n", rule.collect::<String>());
         for row in &self.rows {
-            text += &line(row.iter().map(|cell| escape(&cell.plain())).collect());
+            let cell = |cell: &TableCell| match cell {
+                TableCell::Text(words) => in_markdown(words),
+                figures => figures.plain(),
+            };
+            text += &line(row.iter().map(cell).collect());
         }
         if !self.note.is_empty() {
-            text += &format!("\n{}\n", self.note);
+            text += &format!("\n{}\n", in_markdown(&self.note));
         }
         text
     }
 
-    /// As CSV: numbers in full, nothing where nothing is known, three columns for an interval.
+    /// As CSV: numbers in full, nothing where nothing is known, three columns for an interval. Words that a spreadsheet would take for
+    /// a formula have an apostrophe before them.
     ///
     /// ```
     /// use evaluation::study::{Table, TableCell};
@@ -167,14 +171,14 @@ impl Table {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let header = self.columns.iter().zip(&wide).flat_map(|(column, wide)| {
             let ends = wide.then(|| [format!("{column} low"), format!("{column} high")]);
-            [column.clone()].into_iter().chain(ends.into_iter().flatten())
+            [in_csv(column)].into_iter().chain(ends.into_iter().flatten())
         });
         writer.write_record(header).expect("memory can be written");
         for row in &self.rows {
             let fields = row.iter().zip(&wide).flat_map(|(cell, wide)| {
                 let fields = match cell {
                     TableCell::Missing => [String::new(), String::new(), String::new()],
-                    TableCell::Text(text) => [text.clone(), String::new(), String::new()],
+                    TableCell::Text(text) => [in_csv(text), String::new(), String::new()],
                     TableCell::Count(count) => [count.to_string(), String::new(), String::new()],
                     TableCell::Number { value, .. } | TableCell::Probability(value) => {
                         [value.to_string(), String::new(), String::new()]
@@ -208,6 +212,40 @@ impl Table {
         }
         text + "\\end{table}\n"
     }
+}
+
+/// Text for Markdown, on one line: what would be taken for markup, HTML, a link or the end of a cell is escaped.
+///
+/// ```
+/// use evaluation::study::in_markdown;
+/// assert_eq!(in_markdown("gpt_5 <b>[a](b)</b> &lt; R & D"), "gpt_5 &lt;b&gt;\\[a\\](b)&lt;/b&gt; &amp;lt; R & D");
+/// ```
+pub fn in_markdown(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut characters = text.chars().peekable();
+    while let Some(character) = characters.next() {
+        let after = characters.peek().copied().unwrap_or(' ');
+        match character {
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '&' if after.is_ascii_alphabetic() || after == '#' => out += "&amp;",
+            '\\' | '`' | '*' | '[' | ']' | '|' | '~' => out.extend(['\\', character]),
+            // Within a word it is no markup.
+            '_' if !(before.is_alphanumeric() && after.is_alphanumeric()) => out += "\\_",
+            _ if character.is_control() => out.push(' '),
+            _ => out.push(character),
+        }
+        before = character;
+    }
+    out
+}
+
+/// Words for a field of CSV: what begins as a formula does has an apostrophe before it, so that a spreadsheet takes it for words
+/// (OWASP, *CSV Injection*).
+fn in_csv(text: &str) -> String {
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
+    if is_formula { format!("'{text}") } else { text.to_owned() }
 }
 
 /// Text with what LaTeX would take for commands escaped.
@@ -254,6 +292,27 @@ mod tests {
         let expect = "## 100 % & more\n\n| a_b | n | p |\n|:--|--:|--:|\n\
                       | x^2\\\\\\| | 0.08 [0.02, 0.25] | 0.0011 |\n| – | 3 | 4.1e-13 |\n\nOf $5.\n";
         assert_eq!(table().to_markdown(), expect);
+    }
+
+    #[test]
+    fn names_are_no_markup() {
+        let check = |name: &str, expect: &str| assert_eq!(in_markdown(name), expect);
+        check("<script>alert(1)</script>", "&lt;script&gt;alert(1)&lt;/script&gt;");
+        check("![x](javascript:y)", "!\\[x\\](javascript:y)");
+        check("_a_ mcts_guided `b` **c** ~~d~~", "\\_a\\_ mcts_guided \\`b\\` \\*\\*c\\*\\* \\~\\~d\\~\\~");
+        check("a\n# b\u{1b}[2J", "a # b \\[2J");
+    }
+
+    #[test]
+    fn names_are_no_formulas() {
+        let mut table = Table::new("a-table", "", "", &["player", "difference"]);
+        for name in ["=1+1", "+1", "-2+3", "@sum", "\tx", "a=1", "–"] {
+            table.push(vec![TableCell::text(name), TableCell::number(-0.5, 1)]);
+        }
+        assert_eq!(
+            table.to_csv(),
+            "player,difference\n'=1+1,-0.5\n'+1,-0.5\n'-2+3,-0.5\n'@sum,-0.5\n'\tx,-0.5\na=1,-0.5\n–,-0.5\n"
+        );
     }
 
     #[test]

@@ -163,7 +163,7 @@ fn faults() {
             *action = Nil;
         }
     };
-    check_fault(|log| at(log, 1, &alter), "hall level 0 run 2: step 1 leads to");
+    check_fault(|log| at(log, 1, &alter), "line 3: step 1 leads to");
     let gain = |event: &mut Event| {
         if let Event::Step { score, .. } = event {
             *score += 1.0;
@@ -171,13 +171,13 @@ fn faults() {
     };
     check_fault(|log| at(log, 3, &gain), "step 3 leads to");
     check_fault(|log| drop(log.remove(1)), "step 0 is recorded as step 1");
-    check_fault(|log| drop(log.remove(0)), "does not begin with the start");
+    check_fault(|log| drop(log.remove(0)), "line 1 is not the start of an episode");
     let win = |log: &mut Vec<Event>| {
         if let Some(Event::End { outcome, .. }) = log.last_mut() {
             *outcome = Outcome::Won;
         }
     };
-    check_fault(win, "the log says Won");
+    check_fault(win, "the log says won");
     let older = |log: &mut Vec<Event>| {
         if let Some(Event::Start { semantics, .. }) = log.first_mut() {
             *semantics -= 1;
@@ -206,6 +206,7 @@ fn answers() {
             latency_ms: 0.0,
         })
     };
+    use ReplyClass::{Invalid, Refused, Strict, Tolerant, Truncated};
     let subject = subject();
     let steps = log(&subject, 0, &[Right, Nil, Right, Nil, Nil], 5);
     let answered = |classes: &[(&[ReplyClass], Validity)]| {
@@ -214,7 +215,13 @@ fn answers() {
             for (attempt, class) in classes.iter().enumerate() {
                 let (step, attempt) = (step as u64, attempt as u32);
                 log.push(Event::Request { step, attempt, messages: Vec::new(), tokens: 90 });
-                log.push(reply(step, attempt, *class, Some(7)));
+                let mut answer = reply(step, attempt, *class, Some(7));
+                if let (Event::Reply(reply), Event::Step { action, .. }, Strict | Tolerant) =
+                    (&mut answer, event, class)
+                {
+                    reply.action = Some(*action);
+                }
+                log.push(answer);
             }
             let mut event = event.clone();
             if let Event::Step { validity, .. } = &mut event {
@@ -224,7 +231,6 @@ fn answers() {
         }
         log
     };
-    use ReplyClass::{Invalid, Refused, Strict, Tolerant, Truncated};
     let mut log = answered(&[
         (&[Strict], Validity::Valid),
         (&[Invalid, Invalid], Validity::Invalid),
@@ -232,6 +238,14 @@ fn answers() {
         (&[Refused], Validity::Refused),
         (&[Truncated], Validity::Truncated),
     ]);
+    // A step that says otherwise than its answers is not believed.
+    for (at, came) in [(3, Validity::Invalid), (8, Validity::Valid), (13, Validity::Invalid)] {
+        let mut forged = log.clone();
+        let Event::Step { validity, .. } = &mut forged[at] else { panic!("{:?}", forged[at]) };
+        *validity = came;
+        let error = EpisodeMetrics::of(&subject, &forged).unwrap_err().to_string();
+        assert!(error.contains(&format!("line {}: ", at + 1)) && error.contains("is recorded as"), "{error}");
+    }
     let found = EpisodeMetrics::of(&subject, &log).unwrap();
     assert_eq!(found.choices, Choices { valid: 1, tolerant: 1, invalid: 1, refused: 1, truncated: 1 });
     assert_eq!((found.spending.requests, found.spending.replies), (7, 7));

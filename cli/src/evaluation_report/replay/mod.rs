@@ -6,7 +6,7 @@ mod talk;
 use crate::failure::Failure;
 use crate::page::{Figure, words};
 use engine::{Action, Outcome, State};
-use evaluation::log::{Event, Status};
+use evaluation::log::Event;
 use evaluation::run::Task;
 use evaluation::{Evaluation, Validity};
 use frames::{Boards, Tiles};
@@ -217,7 +217,7 @@ impl Replay {
             }
             game.step(&mut state, *action);
         }
-        let result = result(&log, &state, steps.len());
+        let result = result(&log, &state, steps.len(), task.max_steps);
         show(&state, format!("the end: {result}"), Some("the end"))?;
         let data = Data { cell: CELL, prefix: &tiles.prefix, changes: &boards.changes, captions: &captions };
         let data = serde_json::to_string(&data).map_err(|error| Failure::environment(error, "a replay"))?;
@@ -291,14 +291,14 @@ fn failed(error: RenderError) -> Failure {
 }
 
 /// `won in 34 steps, score 5`.
-fn result(log: &[Event], state: &State, steps: usize) -> String {
-    let how = match (state.outcome(), log.last()) {
-        (Outcome::Won, _) => "won in",
-        (Outcome::Lost, _) => "lost after",
-        (_, Some(Event::End { status: Status::StepLimit, .. })) => "not over at the limit of",
-        (_, Some(Event::Halt { .. })) => "broken off after",
-        (_, Some(Event::End { .. })) => "over without a winner after",
-        _ => "interrupted after",
+fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String {
+    let how = match state.outcome() {
+        Outcome::Won => "won in",
+        Outcome::Lost => "lost after",
+        Outcome::Ended | Outcome::Stopped(_) => "over without a winner after",
+        Outcome::Ongoing if steps as u64 >= max_steps => "not over at the limit of",
+        Outcome::Ongoing if matches!(log.last(), Some(Event::Halt { .. })) => "broken off after",
+        Outcome::Ongoing => "interrupted after",
     };
     format!("{how} {}, score {}", words::many(steps as u64, "step"), words::short(state.score()))
 }

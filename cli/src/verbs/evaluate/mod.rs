@@ -6,6 +6,8 @@ mod subjects;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::interrupt;
+use crate::verbs::player_guard;
 use crate::verbs::release::in_pool;
 use agents::{Budget, PlannerSpec};
 use engine::{Outcome, SEMANTICS};
@@ -19,6 +21,7 @@ use human::Human;
 use indicatif::ProgressBar;
 use model::{ModelArgs, Prompters};
 use serde_json::json;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -28,17 +31,17 @@ use std::time::Duration;
 /// The results folder holds settings, games and a log for each episode; `arcade report` makes tables and a page of it.
 ///
 /// Exit status 0: all episodes have ended. 1: a cap was met before; raise it and --resume. 2: malformed. 3: network, server
-/// or disk failed; --resume goes on.
+/// or disk failed; --resume goes on. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume goes on.
 ///
 /// Example: arcade evaluate releases/starter --player mcts:100 --out results/mcts
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A snapshot's folder; or games, folders of games, corpus games by name, `corpus` for all of them
+    /// A snapshot's folder or .tar.zst; or games, folders of games, corpus games by name, `corpus` for all of them
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
     /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (see `arcade docs planners`), `replay:FILE`,
     /// `human`, `reflex` (see `arcade docs serve-player`); or a program of yours, `"cmd:python3 my_agent.py"` (see `arcade docs agents`)
-    #[arg(long, value_name = "NAME", required_unless_present = "model", conflicts_with = "model")]
+    #[arg(long, value_name = "NAME", conflicts_with = "model")]
     player: Option<String>,
     /// Only these of the games
     #[arg(long, value_name = "GAME", value_delimiter = ',')]
@@ -67,7 +70,7 @@ pub(crate) struct Args {
     /// Load games as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
-    /// Episodes at a time of players that are no models; all cores if not given. Changes no result
+    /// Episodes at a time of players that are no models, at most as many as there are; all cores if not given. Changes no result
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
     /// Only say what it would take
@@ -102,6 +105,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.runs == 0 || args.max_steps == 0 {
         return Err(Failure::malformed("--runs and --max-steps take a number, at least 1"));
     }
+    if args.jobs == Some(0) {
+        return Err(Failure::malformed("--jobs takes a number of episodes at a time, at least 1"));
+    }
     let asked = asked(args)?;
     let choice =
         subjects::Choice { games: &args.games, levels: &args.levels, as_reference: args.as_reference };
@@ -117,6 +123,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         max_steps: args.max_steps,
         games: Evaluation::entries(&subjects.games),
     };
+    settings.check().map_err(|problem| {
+        Failure::malformed(format!("{problem}; see --runs, --max-steps, --games and --levels"))
+    })?;
     if args.dry_run {
         return forecast(&asked, &settings, &subjects.games, console);
     }
@@ -129,9 +138,17 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let evaluation = evaluation.map_err(failure)?;
     ready.charge_past(&evaluation)?;
-    let bar = Bar::new(console, evaluation.tasks().len() as u64);
+    let hint = format!(
+        "interrupted: what was played is in {}; the same command with --resume goes on with it",
+        folder.display()
+    );
+    interrupt::watch(end_players, hint);
+    let episodes = evaluation.tasks().len();
+    let bar = Bar::new(console, episodes as u64);
     let contestant = |task: &Task<'_>| Ok::<_, Halt>(ready.contestant(task));
-    let tally = in_pool(ready.threads(args), || evaluation.run(contestant, &bar))?.map_err(failure)?;
+    let tally = in_pool(Some(ready.threads(args, episodes, console)), || evaluation.run(contestant, &bar));
+    interrupt::defer();
+    let tally = tally?.map_err(failure)?;
     bar.bar.finish_and_clear();
     told(console, &folder, &evaluation.settings.entrant, &tally, &ready)
 }
@@ -232,21 +249,41 @@ impl Ready {
         Ok(())
     }
 
-    /// Episodes at a time. Those of models wait most of the time.
-    fn threads(&self, args: &Args) -> Option<usize> {
-        match self {
-            Ready::Model(_) => Some(args.model.concurrency.get()),
-            Ready::Human(_) => Some(1),
-            _ => args.jobs,
+    /// Episodes at a time: never more than there are. Those of models wait most of the time.
+    fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
+        let asked = match self {
+            Ready::Model(_) => args.model.concurrency.get(),
+            Ready::Human(_) => 1,
+            _ => {
+                args.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get))
+            }
+        };
+        let episodes = episodes.max(1);
+        if args.jobs.is_some() && asked > episodes {
+            console.remark(format_args!(
+                "--jobs {asked}: there are {episodes} episodes, so {episodes} at a time"
+            ));
         }
+        asked.min(episodes)
     }
+}
+
+/// Ends the programs that play.
+fn end_players() {
+    #[cfg(unix)]
+    evaluation::player::process::end_all();
 }
 
 fn asked(args: &Args) -> Result<Asked, Failure> {
     if let Some(id) = &args.model.model {
         return Ok(Asked::Model(Box::new(model::Asked::new(id, &args.model)?)));
     }
-    let player = args.player.as_deref().unwrap_or_default();
+    let Some(player) = args.player.as_deref() else {
+        return Err(Failure::malformed(
+            "nobody plays: name a player with --player (`random`, `mcts:100`, \"cmd:python3 my_agent.py\"), or a language model with \
+             --model (`openai:ID`)",
+        ));
+    };
     if let Some(file) = player.strip_prefix("replay:") {
         let episode = crate::episodes::read(Path::new(file))?;
         return Ok(Asked::Replay(Replay::of(&episode)));
@@ -255,9 +292,10 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
         return Ok(Asked::Human(args.model.prompt.settings()?));
     }
     if let Some(command) = player.strip_prefix("cmd:") {
-        return process(command, args.model.timeout)
-            .map(|process| Asked::Process(Box::new(process)))
-            .map_err(Failure::malformed);
+        let process = process(command, args.model.timeout).map_err(Failure::malformed)?;
+        #[cfg(unix)]
+        process.find().map_err(Failure::malformed)?;
+        return Ok(Asked::Process(Box::new(process)));
     }
     if player == "reflex" || player.starts_with("planner:") {
         let player: PromptPlayer = player.parse().map_err(Failure::malformed)?;
@@ -270,7 +308,10 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
 /// A program as a player.
 fn process(command: &str, timeout: u64) -> Result<Process, String> {
     let timeout = Duration::from_secs(timeout.max(1));
-    Process::new(command, ProcessConfig { timeout, ..ProcessConfig::default() })
+    Process::new(
+        command,
+        ProcessConfig { timeout, guard: player_guard::command(), ..ProcessConfig::default() },
+    )
 }
 
 /// `results/` and who plays.
@@ -296,7 +337,7 @@ fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, read
     let spending = spent.map(
         |spent| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": spent.cost.dollars() }),
     );
-    console.document(&json!({ "results": folder, "entrant": entrant, "tally": tally, "spent": spending }))?;
+    console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
     let Tally { episodes, ended, won, open, halted, infrastructure } = tally;
     console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won", entrant.name));
     if let Some(spent) = spent {

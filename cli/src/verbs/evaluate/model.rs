@@ -359,11 +359,10 @@ impl Asked {
             let prompt = prompter.prompt(&first.turn(task), &[], &[]);
             let (fixed, turn) = (prompt.tokens.fixed(), prompt.tokens.total - prompt.tokens.fixed());
             let room = self.prompts.history_tokens.saturating_sub(fixed + turn);
-            let history = |step: u64| match self.prompts.mode {
+            let past = match self.prompts.mode {
                 Mode::ZeroShot => 0,
-                Mode::Contextual => room.min(step * (turn + answer)),
+                Mode::Contextual => history(task.max_steps, turn + answer, room),
             };
-            let past: u64 = (0..task.max_steps).map(history).sum();
             batches.push(Batch {
                 requests: task.max_steps,
                 stable_tokens: fixed,
@@ -383,6 +382,14 @@ impl Asked {
             forbidden: self.options.limits.forbid_estimate(&estimate),
         })
     }
+}
+
+/// Tokens of earlier turns in the prompts of so many steps: `turn` more with every step, up to `room`.
+fn history(steps: u64, turn: u64, room: u64) -> u64 {
+    let growing = if turn == 0 { 0 } else { steps.min(room / turn + 1) };
+    let most = if turn == 0 { 0 } else { room };
+    (turn * growing.saturating_mul(growing.saturating_sub(1)) / 2)
+        .saturating_add((steps - growing).saturating_mul(most))
 }
 
 impl Ready {
@@ -413,5 +420,20 @@ impl std::fmt::Display for Forecast {
             _ => write!(f, "cost: not known; --prices FILE gives prices")?,
         }
         self.forbidden.iter().try_for_each(|cap| write!(f, "\nthat exceeds {cap}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::history;
+
+    #[test]
+    fn earlier_turns_add_up_until_there_is_no_room() {
+        for (steps, turn, room) in
+            [(0, 7, 30), (1, 7, 30), (5, 7, 30), (12, 7, 28), (12, 7, 30), (9, 0, 30), (9, 40, 30)]
+        {
+            let added: u64 = (0..steps).map(|step| room.min(step * turn)).sum();
+            assert_eq!(history(steps, turn, room), added, "{steps} {turn} {room}");
+        }
     }
 }

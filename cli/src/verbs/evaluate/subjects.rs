@@ -7,10 +7,14 @@ use crate::input::{self, GameInput, Named, read_text};
 use crate::verbs::verify;
 use engine::{Digest, MAX_LEVEL_TEXT, MAX_SOURCE};
 use evaluation::{Subject, SubjectFacts, Unreadable};
+use snapshots::archive::{Archive, is_archive};
 use snapshots::card::Card;
-use snapshots::{MANIFEST_FILE, check_integrity};
+use snapshots::{Integrity, MANIFEST_FILE, check_integrity};
 use std::collections::BTreeSet;
 use std::path::Path;
+
+/// Names of games that a message lists.
+const LISTED: usize = 12;
 
 /// A card of a game with many levels has some hundred kilobytes.
 const MAX_CARD: usize = 1 << 24;
@@ -32,12 +36,12 @@ pub(crate) struct Choice<'a> {
 pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Failure> {
     let (mut snapshot, mut games): (_, Vec<Subject>) = (None, Vec::new());
     for name in names {
-        let folder = Path::new(name);
-        if folder.join(MANIFEST_FILE).exists() {
+        let place = Path::new(name);
+        if is_snapshot(place) {
             if names.len() > 1 {
                 return Err(Failure::malformed(format!("{name}: a snapshot is evaluated alone")));
             }
-            let (root, found) = of_snapshot(folder, choice)?;
+            let (root, found) = of_snapshot(place, choice)?;
             (snapshot, games) = (Some(root), found);
         } else {
             for input in input::games(name)? {
@@ -50,9 +54,8 @@ pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Fa
         return Err(Failure::malformed(format!("two games are called `{}`; name one of them", twice.id)));
     }
     if let Some(unknown) = choice.games.iter().find(|id| !ids.contains(*id)) {
-        let near = engine::nearest(unknown, ids.iter().map(|id| id.as_str()));
-        let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-        return Err(Failure::malformed(format!("--games: there is no `{unknown}` among them{help}")));
+        let help = help_with(unknown, &games);
+        return Err(Failure::malformed(format!("--games: there is no `{unknown}` among them; {help}")));
     }
     games.retain(|subject| choice.games.is_empty() || choice.games.contains(&subject.id));
     if games.iter().all(|subject| subject.levels.is_empty()) {
@@ -85,12 +88,70 @@ fn of_input(input: &GameInput, choice: &Choice<'_>) -> Result<Option<Subject>, F
     })
 }
 
-fn of_snapshot(folder: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subject>), Failure> {
-    let integrity = check_integrity(folder).map_err(verify::failure)?;
+/// What may be meant by a name that no game has: a similar id or title, one that it is a part of, or else what there is.
+fn help_with(unknown: &str, games: &[Subject]) -> String {
+    let names =
+        || games.iter().flat_map(|game| [(game.id.as_str(), game), (game.facts.title.as_str(), game)]);
+    let of = |name: &str| names().find(|(known, _)| *known == name).map(|(_, game)| game.id.as_str());
+    let part = |name: &str| name.to_lowercase().contains(&unknown.to_lowercase());
+    let near = engine::nearest(unknown, names().map(|(name, _)| name)).and_then(of);
+    let near = near.or_else(|| names().find(|(name, _)| part(name)).map(|(_, game)| game.id.as_str()));
+    if let Some(near) = near.filter(|_| !unknown.is_empty()) {
+        return format!("did you mean `{near}`?");
+    }
+    let listed: Vec<&str> = games.iter().map(|game| game.id.as_str()).take(LISTED).collect();
+    let more = games.len().saturating_sub(LISTED);
+    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+    format!("there are {}{more}", listed.join(", "))
+}
+
+/// Whether there is a release: a folder with a manifest, or an archive.
+fn is_snapshot(place: &Path) -> bool {
+    let is_file = place.metadata().is_ok_and(|found| found.is_file());
+    let is_called_archive = place.to_string_lossy().ends_with(".tar.zst");
+    match is_file {
+        true => is_called_archive || is_archive(place).unwrap_or(false),
+        false => place.join(MANIFEST_FILE).exists(),
+    }
+}
+
+/// The files of a release.
+enum Files<'a> {
+    Folder(&'a Path),
+    Archive(Box<Archive>),
+}
+
+impl<'a> Files<'a> {
+    /// Opens the release at `place`, with what is wrong with it.
+    fn open(place: &'a Path) -> Result<(Integrity, Files<'a>), Failure> {
+        if place.is_dir() {
+            return Ok((check_integrity(place).map_err(verify::failure)?, Files::Folder(place)));
+        }
+        let archive = Archive::open(place).map_err(verify::failure)?;
+        Ok((archive.integrity.clone(), Files::Archive(Box::new(archive))))
+    }
+
+    /// A text of the release, of at most `limit` bytes.
+    fn text(&self, path: &str, limit: usize) -> Result<String, Failure> {
+        let archive = match self {
+            Files::Folder(root) => return read_text(&root.join(path), limit),
+            Files::Archive(archive) => archive,
+        };
+        let wrong = |what: &str| Failure::malformed(format!("{path}, in the archive: {what}"));
+        let bytes = archive.file(path).ok_or_else(|| wrong("there is no such file"))?;
+        if bytes.len() > limit {
+            return Err(wrong(&format!("larger than {limit} bytes, the limit for such a file")));
+        }
+        String::from_utf8(bytes.to_vec()).map_err(|_| wrong("not a text file"))
+    }
+}
+
+fn of_snapshot(place: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subject>), Failure> {
+    let (integrity, files) = Files::open(place)?;
     if let Some(problem) = integrity.problems.first() {
-        let folder = folder.display();
+        let place = place.display();
         return Err(Failure::malformed(format!(
-            "{folder}: does not verify: {problem}; `arcade verify` tells all"
+            "{place}: does not verify: {problem}; `arcade verify` tells all"
         )));
     }
     let manifest = &integrity.manifest;
@@ -100,14 +161,15 @@ fn of_snapshot(folder: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subjec
     });
     let mut games = Vec::new();
     for id in ids {
-        let game = folder.join("games").join(id);
-        let card = read_text(&game.join("card.json"), MAX_CARD)?;
+        let path = |file: &str| format!("games/{id}/{file}");
+        let shown = |file: &str| place.join(path(file)).display().to_string();
+        let card = files.text(&path("card.json"), MAX_CARD)?;
         let card: Card = serde_json::from_str(&card)
-            .map_err(|error| Failure::malformed(format!("{}: not a card: {error}", game.display())))?;
-        let source = read_text(&game.join("game.vgdl"), MAX_SOURCE)?;
+            .map_err(|error| Failure::malformed(format!("{}: not a card: {error}", shown("card.json"))))?;
+        let source = files.text(&path("game.vgdl"), MAX_SOURCE)?;
         let mut levels = Vec::new();
         for (number, level) in card.levels.iter().enumerate().filter(|(number, _)| choice.wants(*number)) {
-            let text = read_text(&game.join(&level.file), MAX_LEVEL_TEXT)?;
+            let text = files.text(&path(&level.file), MAX_LEVEL_TEXT)?;
             levels.push((number, text, level.optimal_ticks));
         }
         let facts = SubjectFacts { title: card.title.clone(), ..SubjectFacts::default() };
@@ -116,7 +178,7 @@ fn of_snapshot(folder: &Path, choice: &Choice<'_>) -> Result<(Digest, Vec<Subjec
             let file = level.map_or("game.vgdl", |number| &card.levels[number].file);
             let text =
                 levels.iter().find(|(number, ..)| Some(*number) == level).map_or(&source, |level| &level.1);
-            let named = Named { name: game.join(file).display().to_string(), text: text.clone() };
+            let named = Named { name: shown(file), text: text.clone() };
             diagnostics::failure(&named, &problems.0)
         })?);
     }

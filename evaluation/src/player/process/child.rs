@@ -1,5 +1,8 @@
 //! A child process that is spoken to in lines.
 
+#[cfg(unix)]
+use super::running::running;
+use crate::run::clock::Stopwatch;
 use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -20,10 +23,14 @@ const MAX_LAST_WORDS: usize = 2000;
 const AHEAD: usize = 16;
 
 /// How long a process that has been told of the end may take to leave.
-const LEAVING: Duration = Duration::from_secs(2);
+pub(super) const LEAVING: Duration = Duration::from_secs(2);
 
 /// How long the threads may take to hand over what a dead process has said.
 const SETTLING: Duration = Duration::from_millis(500);
+
+/// Looks, until a guard has killed what it guards and has left, and the pause between them: ten seconds at most.
+const LOOKS: u32 = 2000;
+const PAUSE: Duration = Duration::from_millis(5);
 
 /// What every process inherits of the environment, as far as it is set: where programs, libraries and their caches are, and
 /// the language. No key of a provider is among them.
@@ -45,7 +52,9 @@ const ENVIRONMENT: &[&str] = &[
 /// folder.
 #[derive(Debug)]
 pub(super) struct Talker {
+    /// The process, or its guard.
     child: Child,
+    is_guarded: bool,
     /// None once nothing more will be said.
     says: Option<Sender<Vec<u8>>>,
     hears: Receiver<Heard>,
@@ -71,15 +80,33 @@ pub(super) enum Silence {
     Closed,
     /// A line longer than [`MAX_LINE`].
     Flood,
+    /// Nothing but answers to earlier questions, and too many of them.
+    Stale,
 }
 
 impl Talker {
-    /// Starts a program. Words of the command that name files from here are made absolute, because the process is somewhere
-    /// else.
-    pub(super) fn start(words: &[String], inherited: &[String]) -> std::io::Result<Talker> {
-        let folder = tempfile::Builder::new().prefix("arcade-player-").tempdir()?;
+    /// Starts a program, behind a guard if there is a command for one. Words of the command that name files from here are made
+    /// absolute, because the process is somewhere else.
+    ///
+    /// # Errors
+    /// It cannot be started; of kind `Interrupted`: this program is about to end.
+    pub(super) fn start(
+        words: &[String],
+        inherited: &[String],
+        guard: &[OsString],
+    ) -> std::io::Result<Talker> {
+        let place = std::path::absolute(std::env::temp_dir())?;
+        let folder = tempfile::Builder::new().prefix("arcade-player-").tempdir_in(place)?;
         let (program, arguments) = words.split_first().expect("a command has a first word");
-        let mut command = Command::new(resolved(program, program.contains(std::path::is_separator)));
+        let own = resolved(program, program.contains(std::path::is_separator));
+        let mut command = match guard.split_first() {
+            None => Command::new(own),
+            Some((guard, before)) => {
+                let mut command = Command::new(guard);
+                command.args(before).arg(folder.path()).arg("--").arg(own);
+                command
+            }
+        };
         command
             .args(arguments.iter().map(|word| resolved(word, true)))
             .current_dir(folder.path())
@@ -92,7 +119,7 @@ impl Talker {
         command.env("TMPDIR", folder.path());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let mut child = command.spawn()?;
+        let mut child = spawn(&mut command, !guard.is_empty())?;
 
         let (says, lines) = channel();
         let (heard, hears) = sync_channel(AHEAD);
@@ -103,7 +130,15 @@ impl Talker {
         thread::spawn(move || write(stdin, &lines));
         thread::spawn(move || read(stdout, &heard));
         thread::spawn(move || words.send(tail(stderr)));
-        Ok(Talker { child, says: Some(says), hears, last_words, _folder: folder, ended: false })
+        Ok(Talker {
+            child,
+            is_guarded: !guard.is_empty(),
+            says: Some(says),
+            hears,
+            last_words,
+            _folder: folder,
+            ended: false,
+        })
     }
 
     /// Says a line, without waiting until it is read.
@@ -125,11 +160,12 @@ impl Talker {
         }
     }
 
-    /// Says no more, and gives the process a moment to leave by itself.
+    /// Says no more, and gives the process a moment to leave by itself, whatever it says meanwhile.
     pub(super) fn let_go(mut self) {
         self.says = None;
-        for _ in 0..2 * AHEAD {
-            if self.hear(LEAVING).is_err() {
+        let told = Stopwatch::start();
+        while let Some(left) = LEAVING.checked_sub(told.elapsed()) {
+            if self.hear(left).is_err() {
                 return;
             }
         }
@@ -146,18 +182,37 @@ impl Talker {
         (status, self.last_words.recv_timeout(SETTLING).unwrap_or_default())
     }
 
-    /// What is left of it is killed, and none of it stays behind as a zombie.
+    /// Kills what is left of it, and leaves no zombie behind.
     fn end(&mut self) -> Option<ExitStatus> {
         if std::mem::replace(&mut self.ended, true) {
             return None;
         }
-        // Before the process is waited for, nobody else can have its number.
         #[cfg(unix)]
-        if let Some(group) = rustix::process::Pid::from_raw(self.child.id().cast_signed()) {
-            let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
-        }
+        let _held = self.end_group();
         let _ = self.child.kill();
         self.child.wait().ok()
+    }
+
+    /// Has the guard end what it guards, and kills what is left of the group. Before the process is waited for, nobody else can
+    /// have its number: so whoever ends all players waits until then.
+    #[cfg(unix)]
+    fn end_group(&self) -> Option<std::sync::MutexGuard<'static, super::running::Running>> {
+        use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
+        let id = Pid::from_child(&self.child);
+        if self.is_guarded {
+            let _ = kill_process(id, Signal::TERM);
+            let how = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+            for _ in 0..LOOKS {
+                if !matches!(waitid(WaitId::Pid(id), how), Ok(None)) {
+                    break;
+                }
+                thread::sleep(PAUSE);
+            }
+        }
+        let mut running = running();
+        running.remove(self.child.id());
+        let _ = kill_process_group(id, Signal::KILL);
+        Some(running)
     }
 
     /// The folder in which it runs.
@@ -176,6 +231,25 @@ impl Talker {
 impl Drop for Talker {
     fn drop(&mut self) {
         self.end();
+    }
+}
+
+/// Starts a process and notes it among those that run, in one go.
+fn spawn(command: &mut Command, is_guarded: bool) -> std::io::Result<Child> {
+    #[cfg(unix)]
+    {
+        let mut running = running();
+        if running.is_over() {
+            return Err(std::io::ErrorKind::Interrupted.into());
+        }
+        let child = command.spawn()?;
+        running.insert(child.id(), is_guarded);
+        Ok(child)
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = is_guarded;
+        command.spawn()
     }
 }
 

@@ -4,15 +4,26 @@
 //! seed, not the way to a witness. It runs in an empty folder of its own, with little of the environment.
 
 mod child;
+#[cfg(unix)]
+mod guard;
 mod message;
+#[cfg(unix)]
+mod program;
+#[cfg(unix)]
+mod running;
 
+#[cfg(unix)]
+pub use guard::guard;
 pub use message::PROTOCOL;
+#[cfg(unix)]
+pub use running::end_all;
 
 use crate::client::{Finish, Usage};
 use crate::encoding;
 use crate::legend::{Legend, LegendOptions};
 use crate::log::{Event, Journal, Reply, ReplyClass};
 use crate::player::{Agent, Choice, Halt, Validity};
+use crate::run::clock::Stopwatch;
 use crate::turn::Turn;
 use child::{Silence, Talker};
 use engine::Action;
@@ -20,6 +31,7 @@ use engine::describe::Guide;
 use message::{Message, Past, Seen};
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::time::Duration;
 
 /// Characters of a wrong answer that are recorded.
@@ -28,6 +40,9 @@ const MAX_RECORDED: usize = 500;
 /// How often a wrong answer is asked again.
 const ASKED_AGAIN: u32 = 1;
 
+/// Bytes of answers to earlier turns that may come before the answer to a question, 1 MiB.
+const MAX_STALE: usize = 1 << 20;
+
 /// How agents are run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProcessConfig {
@@ -35,11 +50,14 @@ pub struct ProcessConfig {
     pub timeout: Duration,
     /// Names of environment variables that the process inherits beyond the usual ones.
     pub inherited: Vec<String>,
+    /// The command of a guard, a program that calls [`guard`](guard()) with its further arguments: the folder, `--`, and the words of
+    /// the command. If it is empty, the process is started directly, and outlives a program that is killed.
+    pub guard: Vec<OsString>,
 }
 
 impl Default for ProcessConfig {
     fn default() -> ProcessConfig {
-        ProcessConfig { timeout: Duration::from_secs(300), inherited: Vec::new() }
+        ProcessConfig { timeout: Duration::from_secs(300), inherited: Vec::new(), guard: Vec::new() }
     }
 }
 
@@ -71,6 +89,15 @@ impl Process {
         Ok(Process { command: command.to_owned(), words, config, running: None })
     }
 
+    /// Looks for the program of the command line, and for the script that an interpreter is to run, before anything depends on them.
+    ///
+    /// # Errors
+    /// The program cannot be started, as far as can be seen; in words, with the name that is likely meant.
+    #[cfg(unix)]
+    pub fn find(&self) -> Result<(), String> {
+        program::find(&self.words).map_err(|problem| format!("`cmd:{}`: {problem}", self.command))
+    }
+
     /// The command line.
     pub fn command(&self) -> &str {
         &self.command
@@ -81,8 +108,10 @@ impl Process {
         let running = match self.running.take() {
             Some(running) => running,
             None => {
-                let talker = Talker::start(&self.words, &self.config.inherited).map_err(|error| {
-                    Halt::Rejected(format!("`{}` cannot be started: {error}", self.command))
+                let started = Talker::start(&self.words, &self.config.inherited, &self.config.guard);
+                let talker = started.map_err(|error| match error.kind() {
+                    std::io::ErrorKind::Interrupted => Halt::Interrupted,
+                    _ => self.not_started(&error.to_string()),
                 })?;
                 let shown = Shown::of(turn);
                 talker.say(line(&shown.hello(turn)));
@@ -90,6 +119,10 @@ impl Process {
             }
         };
         Ok(self.running.insert(running))
+    }
+
+    fn not_started(&self, why: &str) -> Halt {
+        Halt::Rejected(format!("`{}` cannot be started: {why}", self.command))
     }
 
     /// The player has failed: it is killed, and its last words are told.
@@ -105,8 +138,22 @@ impl Process {
                 let limit = child::MAX_LINE / 1024;
                 format!("has written a line of more than {limit} KiB at step {number}")
             }
+            Silence::Stale => {
+                let limit = MAX_STALE / 1024;
+                format!("has written more than {limit} KiB of answers to earlier steps at step {number}")
+            }
         };
         let (status, words) = self.running.take().map_or((None, String::new()), |it| it.talker.kill());
+        #[cfg(unix)]
+        if running::running().is_over() {
+            return Halt::Interrupted;
+        }
+        #[cfg(unix)]
+        if status.and_then(|status| status.code()) == Some(guard::NOT_STARTED)
+            && let Some(why) = words.strip_prefix(guard::NOT_STARTED_BECAUSE)
+        {
+            return self.not_started(why);
+        }
         let status = status.map_or_else(String::new, |status| format!(" ({status})"));
         let words =
             if words.is_empty() { ", and said nothing" } else { "; its last words: " }.to_owned() + &words;
@@ -210,12 +257,18 @@ struct Addressed {
 }
 
 /// The next answer. One that says it is for an earlier turn is passed over, so that an agent that says so cannot get out of
-/// step.
+/// step; the time for the answer goes on meanwhile.
 fn hear(talker: &Talker, timeout: Duration, turn: u64) -> Result<Vec<u8>, Silence> {
+    let (asked, mut stale) = (Stopwatch::start(), 0);
     loop {
-        let answer = talker.hear(timeout)?;
+        let left = timeout.checked_sub(asked.elapsed()).ok_or(Silence::TimedOut)?;
+        let answer = talker.hear(left)?;
         if !serde_json::from_slice::<Addressed>(&answer).is_ok_and(|addressed| addressed.turn < turn) {
             return Ok(answer);
+        }
+        stale += answer.len() + 1;
+        if stale > MAX_STALE {
+            return Err(Silence::Stale);
         }
     }
 }

@@ -192,6 +192,26 @@ fn late_answers_are_passed_over() {
     assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Right));
 }
 
+/// Answers to earlier turns neither start the clock anew nor take up memory for ever.
+#[test]
+fn late_answers_do_not_put_off_the_end_of_the_time() {
+    let begin = "read hello; read turn; echo '{\"turn\":0,\"action\":\"up\"}'; read turn; ";
+    let mut slow = Board::with(
+        &format!(
+            "{begin} for n in 1 2 3 4 5 6 7 8 9 10; do echo '{{\"turn\":0,\"action\":\"up\"}}'; sleep 0.3; done; \
+             echo '{{\"turn\":1,\"action\":\"up\"}}'; exec sleep 600"
+        ),
+        Duration::from_millis(900),
+    );
+    slow.decide().unwrap();
+    let message = slow.failure();
+    assert!(message.contains("has not answered at step 1 within 0.9 s"), "{message}");
+    let mut endless = Board::of(&format!("{begin} exec yes '{{\"turn\":0,\"action\":\"up\"}}'"));
+    endless.decide().unwrap();
+    let message = endless.failure();
+    assert!(message.contains("more than 1024 KiB of answers to earlier steps at step 1"), "{message}");
+}
+
 #[test]
 fn a_process_that_fails_is_told_with_its_last_words() {
     let check = |script: &str, timeout: Duration, expected: &[&str]| {

@@ -1,0 +1,71 @@
+//! Ctrl-C and its like: work that can be taken up again says so before the program ends.
+//!
+//! A verb whose work is kept on the disk calls [`watch`] before it starts, and [`defer`] when it is done. The first of SIGINT, SIGTERM,
+//! SIGHUP and SIGQUIT then ends the program with status 128 + signal, as shells call it, after a word about `--resume`; another one
+//! meanwhile ends it at once. A signal that was ignored when the program started, as `nohup` has it, stays ignored. SIGKILL cannot be
+//! caught: what is on the disk has to be enough to go on with at any moment.
+
+#[cfg(unix)]
+mod unix {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    use std::io::{IsTerminal, Write};
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::thread;
+
+    /// Whether the program is about to end by a signal.
+    static ENDING: AtomicBool = AtomicBool::new(false);
+
+    /// Has the signals caught from here on. `last` is done first, and may take some seconds; then `hint` is written to standard error.
+    pub(crate) fn watch(last: impl FnOnce() + Send + 'static, hint: String) {
+        let ignored = ignored();
+        let caught =
+            [SIGINT, SIGTERM, SIGHUP, SIGQUIT].into_iter().filter(|signal| !ignored.contains(signal));
+        // Without it, a signal ends the program as it always does.
+        let Ok(mut signals) = Signals::new(caught) else { return };
+        thread::spawn(move || {
+            let mut first = Some((last, hint));
+            for signal in signals.forever() {
+                let status = 128 + signal;
+                ENDING.store(true, Ordering::SeqCst);
+                let Some((last, hint)) = first.take() else { std::process::exit(status) };
+                thread::spawn(move || {
+                    last();
+                    let mut stderr = std::io::stderr();
+                    // A progress bar may stand on the line.
+                    let gap = if stderr.is_terminal() { "\n" } else { "" };
+                    let _ = writeln!(stderr, "{gap}{hint}");
+                    std::process::exit(status)
+                });
+            }
+        });
+    }
+
+    /// Waits for the end, if the program is about to end by a signal: nothing more is to be said or written.
+    pub(crate) fn defer() {
+        while ENDING.load(Ordering::SeqCst) {
+            thread::park();
+        }
+    }
+
+    /// The signals that are ignored already; where the system does not tell, those that shells let programs in the background ignore.
+    fn ignored() -> Vec<i32> {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        match mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()) {
+            Some(mask) => (1..=64).filter(|signal| mask & (1 << (signal - 1)) != 0).collect(),
+            None => vec![SIGHUP, SIGQUIT],
+        }
+    }
+}
+
+#[cfg(unix)]
+pub(crate) use unix::{defer, watch};
+
+/// Elsewhere, the system ends the program without a word.
+#[cfg(not(unix))]
+pub(crate) fn watch(_: impl FnOnce() + Send + 'static, _: String) {}
+
+/// Elsewhere, there is nothing to wait for.
+#[cfg(not(unix))]
+pub(crate) fn defer() {}

@@ -1,0 +1,40 @@
+//! `arcade player-guard`: stands between `arcade evaluate` and a player's program. Not for people.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// Runs the program of a player, and ends it when `arcade evaluate` is gone.
+#[derive(clap::Args)]
+#[command(hide = true)]
+pub(crate) struct Args {
+    /// The folder in which the program runs, removed in the end
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    /// The program and its arguments
+    #[arg(value_name = "COMMAND", required = true, last = true)]
+    command: Vec<OsString>,
+}
+
+/// The command of a guard: this very program, even if its file is replaced meanwhile. Empty where there is none.
+pub(crate) fn command() -> Vec<OsString> {
+    let own = PathBuf::from("/proc/self/exe");
+    let program = if own.exists() { Some(own) } else { std::env::current_exe().ok() };
+    match program.filter(|_| cfg!(unix)) {
+        Some(program) => vec![program.into(), "player-guard".into()],
+        None => Vec::new(),
+    }
+}
+
+/// Never returns.
+pub(crate) fn run(args: &Args) -> ! {
+    #[cfg(unix)]
+    {
+        let (program, arguments) = args.command.split_first().expect("there is one at least");
+        std::process::exit(evaluation::player::process::guard(&args.folder, program, arguments))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = (&args.folder, &args.command);
+        std::process::exit(i32::from(crate::failure::MALFORMED))
+    }
+}

@@ -1,0 +1,244 @@
+//! The guard of a player: a process between `arcade` and a program of somebody else, which ends the program when `arcade` is gone.
+//!
+//! `arcade` can be killed in ways that no handler sees, and a program can start processes that leave its group (`setsid`). The guard
+//! relays what `arcade` says. When that stream closes, because the episode is over or because `arcade` no longer exists, the guard
+//! kills the program with everything that it has started, and removes the folder in which it ran. Standard output and standard error
+//! of the program lead to `arcade` directly.
+//!
+//! On Linux the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`): a process that outlives its parent stays below
+//! the guard, in whatever group or session it is, and is found there. On other systems, what has left the group of the program gets
+//! away. A control group would find no more: what asks a service outside (`systemd-run`, `docker`) to start something leaves both.
+
+use super::child::LEAVING;
+use rustix::io::Errno;
+use rustix::process::{Pid, Signal, WaitOptions, getpid, kill_process, kill_process_group, wait};
+use signal_hook::consts::{SIGCHLD, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+use signal_hook::iterator::Signals;
+use std::ffi::OsString;
+use std::io::{Read, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::Duration;
+
+/// The exit status of a guard whose program could not be started.
+pub(super) const NOT_STARTED: i32 = 126;
+
+/// How the last words of such a guard begin; the reason follows.
+pub(super) const NOT_STARTED_BECAUSE: &str = "arcade player-guard: not started: ";
+
+/// Rounds in which everything that is found is killed, until nothing is found.
+const ROUNDS: u32 = 1000;
+
+/// The pause after a round.
+const PAUSE: Duration = Duration::from_millis(5);
+
+/// An occurrence that the guard waits for.
+enum Event {
+    /// A signal has arrived: `SIGCHLD`, or a request to end.
+    Signal(i32),
+    /// Nothing more will be said to the program.
+    InputEnded,
+    /// The time for leaving by itself is over.
+    TimeUp,
+}
+
+/// Runs a program until it has ended with everything that it has started, or until it has to end: two seconds after standard input
+/// has closed, or at once on `SIGTERM`, `SIGINT`, `SIGHUP` or `SIGQUIT`. Removes `folder` in the end.
+///
+/// Returns the exit status of the program, 128 and the signal that ended it, or 126 if it could not be started. A guard that has to
+/// kill its program ends by `SIGKILL` itself, with its process group, which it should be the leader of.
+pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
+    let (tell, events) = channel();
+    let started = Signals::new([SIGCHLD, SIGTERM, SIGINT, SIGHUP, SIGQUIT]).and_then(|signals| {
+        // Where the system has no such thing, the group has to do.
+        #[cfg(target_os = "linux")]
+        let _ = rustix::process::set_child_subreaper(Some(getpid()));
+        let child = Command::new(program).args(arguments).stdin(Stdio::piped()).spawn()?;
+        Ok((signals, child))
+    });
+    let (mut signals, mut child) = match started {
+        Ok(started) => started,
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "{NOT_STARTED_BECAUSE}{error}");
+            let _ = std::fs::remove_dir_all(folder);
+            return NOT_STARTED;
+        }
+    };
+    release_output();
+    relay(child.stdin.take().expect("it is piped"), tell.clone());
+    let told = tell.clone();
+    thread::spawn(move || signals.forever().all(|signal| told.send(Event::Signal(signal)).is_ok()));
+    let mut program = Program { child, status: None };
+    let is_heard = program.attend(&events, &tell);
+    program.kill();
+    let _ = std::fs::remove_dir_all(folder);
+    match program.status {
+        Some(status) if is_heard => status,
+        _ => {
+            let _ = kill_process_group(rustix::process::getpgrp(), Signal::KILL);
+            unreachable!("SIGKILL ends every process")
+        }
+    }
+}
+
+/// The program, and its exit status once it has one.
+struct Program {
+    child: Child,
+    status: Option<i32>,
+}
+
+impl Program {
+    fn pid(&self) -> Pid {
+        Pid::from_child(&self.child)
+    }
+
+    /// Waits until all is over or has to end. Returns whether somebody may want to know the exit status.
+    fn attend(&mut self, events: &Receiver<Event>, tell: &Sender<Event>) -> bool {
+        loop {
+            match events.recv().expect("this thread can tell itself") {
+                Event::Signal(SIGCHLD) => {
+                    if !self.bury() {
+                        return true;
+                    }
+                }
+                Event::Signal(_) => {
+                    // Having left by itself, it has a status of its own.
+                    self.bury();
+                    return true;
+                }
+                Event::InputEnded => {
+                    let tell = tell.clone();
+                    thread::spawn(move || {
+                        thread::sleep(LEAVING);
+                        tell.send(Event::TimeUp)
+                    });
+                }
+                Event::TimeUp => return false,
+            }
+        }
+    }
+
+    /// Kills everything that is left, and waits until it is gone, up to [`ROUNDS`].
+    fn kill(&mut self) {
+        let had_left = self.status;
+        for _ in 0..ROUNDS {
+            for pid in descendants() {
+                let _ = kill_process(pid, Signal::KILL);
+            }
+            if had_left.is_none() && self.status.is_none() {
+                let _ = kill_process(self.pid(), Signal::KILL);
+            }
+            if !self.bury() {
+                break;
+            }
+            thread::sleep(PAUSE);
+        }
+        self.status = had_left;
+    }
+
+    /// Takes the exit status of every process that has ended. Returns whether any is left.
+    fn bury(&mut self) -> bool {
+        loop {
+            match wait(WaitOptions::NOHANG) {
+                Ok(Some((pid, ended))) if pid == self.pid() => {
+                    let signal = ended.terminating_signal().map(|signal| 128 + signal);
+                    self.status = ended.exit_status().or(signal);
+                }
+                Ok(Some(_)) | Err(Errno::INTR) => {}
+                Ok(None) => return true,
+                Err(_) => return false,
+            }
+        }
+    }
+}
+
+/// Lets go of standard output and standard error, so that they close when the program closes them.
+fn release_output() {
+    if let Ok(nowhere) = std::fs::File::options().write(true).open("/dev/null") {
+        let _ = rustix::stdio::dup2_stdout(&nowhere);
+        let _ = rustix::stdio::dup2_stderr(&nowhere);
+    }
+}
+
+/// Passes standard input on to the program. Reading never waits for writing, so that its end is noticed while the program reads
+/// nothing; what is read ahead is what `arcade` has said without waiting for an answer.
+fn relay(mut to: ChildStdin, tell: Sender<Event>) {
+    let (pass, passed) = channel::<Vec<u8>>();
+    thread::spawn(move || {
+        let mut bytes = vec![0; 1 << 16];
+        let mut from = std::io::stdin().lock();
+        while let Ok(length @ 1..) = from.read(&mut bytes) {
+            // A program that reads no more may still speak.
+            let _ = pass.send(bytes[..length].to_vec());
+        }
+        drop(pass);
+        tell.send(Event::InputEnded)
+    });
+    thread::spawn(move || passed.iter().try_for_each(|bytes| to.write_all(&bytes)));
+}
+
+/// All descendants of this process, by the table of processes. Cost: O(processes).
+#[cfg(target_os = "linux")]
+fn descendants() -> Vec<Pid> {
+    let mut children: std::collections::BTreeMap<i32, Vec<i32>> = std::collections::BTreeMap::new();
+    for entry in std::fs::read_dir("/proc").into_iter().flatten().flatten() {
+        let Some(pid) = entry.file_name().to_str().and_then(|name| name.parse().ok()) else { continue };
+        if let Some(parent) = std::fs::read(entry.path().join("stat")).ok().and_then(|stat| parent(&stat)) {
+            children.entry(parent).or_default().push(pid);
+        }
+    }
+    let mut found = vec![getpid().as_raw_pid()];
+    let mut at = 0;
+    while let Some(next) = found.get(at) {
+        found.extend(children.remove(next).unwrap_or_default());
+        at += 1;
+    }
+    found.into_iter().skip(1).filter_map(Pid::from_raw).collect()
+}
+
+/// The parent that a line of `/proc/<pid>/stat` names: the second field after the name, which stands in brackets and may hold any
+/// byte.
+#[cfg(target_os = "linux")]
+fn parent(stat: &[u8]) -> Option<i32> {
+    let end = stat.iter().rposition(|&byte| byte == b')')?;
+    let rest = std::str::from_utf8(&stat[end + 1..]).ok()?;
+    rest.split_whitespace().nth(1)?.parse().ok()
+}
+
+/// Without a reaper, descendants are not known.
+#[cfg(not(target_os = "linux"))]
+fn descendants() -> Vec<Pid> {
+    Vec::new()
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parents_are_read_whatever_a_process_is_called() {
+        assert_eq!(parent(b"17 (sh) S 4 17 17 0"), Some(4));
+        assert_eq!(parent(b"17 (a) S 9 (b)\xff) R 4 17"), Some(4));
+        assert_eq!(parent(b"17 (sh"), None);
+        assert_eq!(parent(b""), None);
+    }
+
+    #[test]
+    fn children_are_found() {
+        let mut child = Command::new("sh").args(["-c", "sleep 600 & wait"]).spawn().unwrap();
+        // The shell may not have started its own child yet.
+        let found = (0..500).find_map(|_| {
+            thread::sleep(Duration::from_millis(10));
+            let all = descendants();
+            let grandchild = |pid: &&Pid| **pid != Pid::from_child(&child);
+            let own = all.contains(&Pid::from_child(&child));
+            all.iter().find(grandchild).filter(|_| own).copied()
+        });
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let grandchild = found.expect("a child and its child");
+        kill_process(grandchild, Signal::KILL).unwrap();
+    }
+}

@@ -1,0 +1,134 @@
+//! Looking for the program of a command before it is started: a misspelt name is told before a results folder is made for it.
+
+use std::ffi::OsStr;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+
+/// Endings of the names of scripts, which interpreters take as their first argument.
+const SCRIPTS: [&str; 9] = ["py", "sh", "js", "mjs", "ts", "rb", "pl", "lua", "jl"];
+
+/// Looks for the program that the first word names, and for the script that the second word names if it looks like one.
+pub(super) fn find(words: &[String]) -> Result<(), String> {
+    let path = std::env::var_os("PATH");
+    find_in(words, path.as_deref(), Path::new(""))
+}
+
+/// The same with the folders of `PATH`, from another folder than this.
+fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), String> {
+    let program = words.first().expect("a command has a first word");
+    match program.contains(std::path::is_separator) {
+        true => check(program, &here.join(program), true)?,
+        // Without PATH, it is up to the system where programs are.
+        false => path.map_or(Ok(()), |path| in_path(program, path, here))?,
+    }
+    match words.get(1) {
+        Some(script) if is_script(script) => check(script, &here.join(script), false),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a word looks like a script: `agent.py`, but neither a flag nor an assignment.
+fn is_script(word: &str) -> bool {
+    let ending = Path::new(word).extension().and_then(OsStr::to_str);
+    ending.is_some_and(|ending| SCRIPTS.contains(&ending)) && !word.starts_with('-') && !word.contains('=')
+}
+
+/// Checks the file that a word names.
+fn check(word: &str, path: &Path, is_program: bool) -> Result<(), String> {
+    let found = match path.metadata() {
+        Ok(found) => found,
+        Err(error) if error.kind() == std::io::ErrorKind::PermissionDenied => {
+            return Err(format!("`{word}` may not be read; check the permissions of its folder"));
+        }
+        Err(_) => {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let names = names(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+            let wrong = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let near = engine::nearest(&wrong, names.iter().map(String::as_str)).map(|near| {
+                let shown = Path::new(word).with_file_name(near);
+                format!("; did you mean `{}`?", shown.display())
+            });
+            return Err(format!("there is no file `{word}`{}", near.unwrap_or_default()));
+        }
+    };
+    if found.is_dir() {
+        return Err(format!("`{word}` is a folder, not a program"));
+    }
+    match is_program && found.permissions().mode() & 0o111 == 0 {
+        true => Err(format!("`{word}` may not be executed; `chmod +x {word}` allows it")),
+        false => Ok(()),
+    }
+}
+
+/// Looks for a program in the folders of `PATH`.
+fn in_path(program: &str, path: &OsStr, here: &Path) -> Result<(), String> {
+    let folders: Vec<PathBuf> = std::env::split_paths(path).map(|folder| here.join(folder)).collect();
+    let is_program = |path: &PathBuf| {
+        path.metadata().is_ok_and(|found| found.is_file() && found.permissions().mode() & 0o111 != 0)
+    };
+    if folders.iter().any(|folder| is_program(&folder.join(program))) {
+        return Ok(());
+    }
+    if here.join(program).is_file() {
+        return Err(format!(
+            "there is no program `{program}` in PATH; write `./{program}` for the file that is here"
+        ));
+    }
+    let programs = |folder: &PathBuf| {
+        let names = names(folder).into_iter();
+        names.filter(|name| is_program(&folder.join(name))).collect::<Vec<String>>()
+    };
+    let names: Vec<String> = folders.iter().flat_map(programs).collect();
+    let near = engine::nearest(program, names.iter().map(String::as_str));
+    let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    Err(format!("there is no program `{program}` in PATH{near}"))
+}
+
+/// The names in a folder, sorted; none if it cannot be read.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    names.sort();
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn what_cannot_be_started_is_told_with_what_is_meant() {
+        let home = tempfile::tempdir().unwrap();
+        let bin = home.path().join("bin");
+        fs::create_dir(&bin).unwrap();
+        for (name, mode) in
+            [("bin/python3", 0o755), ("bin/notes", 0o644), ("agent.py", 0o644), ("run.sh", 0o755)]
+        {
+            let path = home.path().join(name);
+            fs::write(&path, "").unwrap();
+            fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
+        }
+        let check = |command: &str, expect: Option<&str>| {
+            let words: Vec<String> = command.split(' ').map(str::to_owned).collect();
+            let found = find_in(&words, Some(bin.as_os_str()), home.path()).err();
+            assert_eq!(found.as_deref(), expect, "{command}");
+        };
+        check("python3 agent.py --fast", None);
+        check("python3 -u agnet.py", None);
+        check("python3 X=1.py", None);
+        check("./run.sh", None);
+        check("pyhton3 agent.py", Some("there is no program `pyhton3` in PATH; did you mean `python3`?"));
+        check("python3 agnet.py", Some("there is no file `agnet.py`; did you mean `agent.py`?"));
+        check("python3 other.py", Some("there is no file `other.py`"));
+        check("./rum.sh", Some("there is no file `./rum.sh`; did you mean `./run.sh`?"));
+        check("./agent.py", Some("`./agent.py` may not be executed; `chmod +x ./agent.py` allows it"));
+        check("./bin", Some("`./bin` is a folder, not a program"));
+        check("notes", Some("there is no program `notes` in PATH"));
+        check(
+            "run.sh",
+            Some("there is no program `run.sh` in PATH; write `./run.sh` for the file that is here"),
+        );
+        check("xyzzy-none", Some("there is no program `xyzzy-none` in PATH"));
+    }
+}

@@ -1,0 +1,38 @@
+//! Files of a results folder, which may come from somebody else: nothing is read that is not a file, and none without a limit.
+
+use crate::error::EvaluationError;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Opens a regular file of at most `limit` bytes. What is no file, such as a pipe, is not opened: that could wait for ever.
+///
+/// # Errors
+/// It is none, is larger, or cannot be read.
+pub(crate) fn open_file(path: &Path, limit: u64) -> Result<File, EvaluationError> {
+    let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", path.display()));
+    let found = path.metadata().map_err(EvaluationError::io("read", path))?;
+    if !found.is_file() {
+        return Err(wrong("not a file; get the results folder again".to_owned()));
+    }
+    if found.len() > limit {
+        return Err(wrong(format!("larger than {limit} bytes, the limit for such a file")));
+    }
+    File::open(path).map_err(EvaluationError::io("read", path))
+}
+
+/// Reads a text of at most `limit` bytes.
+///
+/// # Errors
+/// As for [`open_file`]; it is no text.
+pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, EvaluationError> {
+    let mut bytes = Vec::new();
+    let mut file = open_file(path, limit as u64)?.take(limit as u64 + 1);
+    file.read_to_end(&mut bytes).map_err(EvaluationError::io("read", path))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let (path, at) = (path.display(), error.utf8_error().valid_up_to());
+        EvaluationError::Malformed(format!(
+            "{path}: not a text file (byte {at} is not UTF-8); get the results folder again"
+        ))
+    })
+}

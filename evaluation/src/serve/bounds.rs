@@ -1,0 +1,52 @@
+//! How much a server takes from strangers: connections, time, memory.
+
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+
+/// Bytes that a permit stands for.
+const UNIT: usize = 1024;
+
+/// The limits of a server. Beyond them it waits or refuses, and takes no more memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bounds {
+    /// Connections at a time; others wait until one is closed.
+    pub connections: usize,
+    /// Bytes of a request at most.
+    pub body: usize,
+    /// Bytes of all requests at a time.
+    pub bodies: usize,
+    /// How long a client may take to send the head of a request, also of the next one on the same connection.
+    pub head_time: Duration,
+    /// How long a client may take to send the body of a request, and to wait for room for it.
+    pub body_time: Duration,
+}
+
+impl Default for Bounds {
+    fn default() -> Bounds {
+        Bounds {
+            connections: 64,
+            // A long conversation with a picture.
+            body: 32 << 20,
+            bodies: 128 << 20,
+            head_time: Duration::from_secs(20),
+            body_time: Duration::from_secs(60),
+        }
+    }
+}
+
+/// The room for bodies that are being read or answered.
+#[derive(Clone, Debug)]
+pub(super) struct Room(Arc<Semaphore>);
+
+impl Room {
+    pub(super) fn new(bytes: usize) -> Room {
+        Room(Arc::new(Semaphore::new(bytes / UNIT)))
+    }
+
+    /// Waits until there is room for so many bytes, which are taken until the permit is dropped.
+    pub(super) async fn take(&self, bytes: usize) -> OwnedSemaphorePermit {
+        let units = u32::try_from(bytes.div_ceil(UNIT)).expect("no body is that large");
+        self.0.clone().acquire_many_owned(units).await.expect("it is never closed")
+    }
+}
