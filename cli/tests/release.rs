@@ -73,7 +73,7 @@ fn what_a_release_before_has_is_not_minted_again() {
 #[test]
 fn any_flipped_byte_is_named() {
     let (folder, root) = copy();
-    for (name, content) in files(&root) {
+    for (name, content) in files(&root).into_iter().filter(|(name, _)| !name.starts_with("papers/")) {
         for place in [0, content.len() / 3, content.len() / 2, content.len() - 1] {
             let mut altered = content.clone();
             altered[place] ^= 1;
@@ -148,6 +148,44 @@ fn a_killed_mint_leaves_nothing_that_verifies() {
         }
     }
 }
+/// What goes along with a release may be changed and added to; nothing else may, under no pretext.
+#[test]
+fn papers_go_along_with_a_release() {
+    let (folder, root) = copy();
+    let papers: Vec<String> =
+        files(&root).into_keys().filter_map(|name| Some(name.strip_prefix("papers/")?.to_owned())).collect();
+    assert_eq!(papers, ["CHANGELOG.md", "CITATION.cff", "DATASHEET.md", "LICENSE"]);
+    let digest = |out: &str| {
+        let output =
+            run(folder.path(), &["--json", "export", "tiny", "--format", "archive", "--out", out], 0);
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()["digest"].clone()
+    };
+    let before = digest("before.tar.zst");
+    fs::write(root.join("papers/LICENSE"), "CC0-1.0").unwrap();
+    fs::write(root.join("papers/doi.txt"), "10.5281/zenodo.0").unwrap();
+    fs::create_dir_all(root.join(".git/objects")).unwrap();
+    fs::write(root.join(".git/a file"), "x").unwrap();
+    fs::write(root.join(".DS_Store"), "x").unwrap();
+    let said = text(&run(folder.path(), &["verify", "tiny"], 0).stdout);
+    assert!(said.contains("papers: 5 files, not covered by the root\nignored: .DS_Store, .git\n"), "{said}");
+    assert!(text(&run(folder.path(), &["regenerate", "tiny"], 0).stdout).starts_with("identical"));
+    let chained = run(folder.path(), &["verify", "tiny", "--chain", "."], 0);
+    assert!(text(&chained.stdout).contains("is the first release"), "{}", text(&chained.stdout));
+    // The same release gives the same archive, whatever goes along with it.
+    assert_eq!(digest("after.tar.zst"), before);
+
+    fs::write(root.join("games/.DS_Store"), "x").unwrap();
+    let said = text(&run(folder.path(), &["verify", "tiny"], 1).stdout);
+    assert!(said.contains("games/.DS_Store: extra"), "{said}");
+    fs::remove_file(root.join("games/.DS_Store")).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/etc/hostname", root.join("papers/host")).unwrap();
+        let said = text(&run(folder.path(), &["verify", "tiny"], 1).stdout);
+        assert!(said.contains("papers/host: a symbolic link"), "{said}");
+    }
+}
+
 
 /// A folder that is complete but was never published is no release.
 #[test]

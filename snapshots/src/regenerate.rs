@@ -4,6 +4,7 @@ use crate::corpus::Corpus;
 use crate::folder::{self, Limits};
 use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
 use crate::mint::{MintError, Minted, Plan, Shelf, Sink, lay_out};
+use crate::papers;
 use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::{SECRET_FILE, Secret, read_secret};
 use crate::{Digest, SnapshotError};
@@ -144,7 +145,7 @@ struct Comparison<'a> {
 
 impl Comparison<'_> {
     fn of(root: &Path) -> Result<Comparison<'_>, SnapshotError> {
-        let listing = folder::list(root, &Limits::SNAPSHOT)?;
+        let (listing, _) = papers::list(root)?;
         let mut there: BTreeSet<String> = listing.entries.into_iter().map(|entry| entry.path).collect();
         there.remove(MANIFEST_FILE);
         Ok(Comparison {

@@ -4,6 +4,7 @@ use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::{Draft, SnapshotError};
+use crate::papers::{PAPERS_LIMITS, PASSED_OVER};
 use engine::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -74,7 +75,8 @@ pub enum RevealError {
 }
 
 /// Joins the two parts of a sealed release, `public` and `held`, in a draft: the files of both, if they are exactly those under
-/// the root of the public manifest, and the secret is the one committed to. Returns that manifest.
+/// the root of the public manifest, and the secret is the one committed to; and the papers.
+/// Returns that manifest.
 ///
 /// Cost: one pass over the files, in pieces; memory in proportion to the manifest.
 ///
@@ -86,7 +88,7 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
     let manifest = integrity.manifest;
     let Some(commitment) = manifest.commitment else { return Err(RevealError::Open(manifest.name)) };
     let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
-    let listing = folder::list(held, &Limits::SNAPSHOT)?;
+    let listing = folder::list_but(held, &Limits::SNAPSHOT, &PASSED_OVER)?;
     problems.extend(listing.problems.iter().map(|problem| format!("{HELD}{problem}")));
     let there: BTreeSet<String> =
         listing.entries.iter().map(|entry| format!("{HELD}{}", entry.path)).collect();
@@ -127,3 +129,6 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
     draft.write(MANIFEST_FILE, &manifest.to_bytes()?)?;
     Ok(manifest)
 }
+    for paper in &integrity.beside.papers {
+        draft.write(&paper.path, &folder::read(public, &paper.path, PAPERS_LIMITS.file_bytes)?)?;
+    }

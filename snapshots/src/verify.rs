@@ -43,6 +43,10 @@ pub struct Verification {
     pub levels: usize,
     /// What was found out about the witnesses.
     pub witnesses: Witnesses,
+    /// Papers beside the release, which its root does not cover.
+    pub papers: usize,
+    /// What other programs left beside the release, by name; not looked at.
+    pub ignored: Vec<String>,
     /// All that is wrong, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,
     /// The manifest as stated.
@@ -101,6 +105,8 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
         witnesses: match same_semantics {
             _ if held => Witnesses::Held,
             true => Witnesses::Replayed(games.iter().map(|game| game.replayed).sum()),
+        papers: integrity.beside.papers.len(),
+        ignored: integrity.beside.ignored,
             false => Witnesses::NotReplayed { semantics: manifest.semantics },
         },
         name: manifest.name.clone(),

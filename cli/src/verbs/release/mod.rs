@@ -150,6 +150,10 @@ impl Finished<'_> {
         let manifest = minted.manifest.to_bytes().map_err(failure)?;
         let path = if is_sealed { format!("public/{MANIFEST_FILE}") } else { MANIFEST_FILE.to_owned() };
         draft.write(&path, &manifest).map_err(failure)?;
+        for (path, text) in minted.papers() {
+            let path = if is_sealed { format!("public/{path}") } else { path };
+            draft.write(&path, text.as_bytes()).map_err(failure)?;
+        }
         draft.commit().map_err(failure)?;
         console.document(&json!({
             "out": self.out,
