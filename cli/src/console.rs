@@ -96,6 +96,11 @@ impl Stopwatch {
     }
 }
 
+/// A remark on what is done otherwise than was asked for: said even when quiet.
+pub(crate) fn warn(text: impl Display) {
+    let _ = writeln!(std::io::stderr(), "note: {}", shown(&text.to_string()));
+}
+
 /// Writes to standard output. A reader that has left (`arcade … | head`) ends the program quietly.
 fn out(text: std::fmt::Arguments<'_>) {
     let mut stdout = std::io::stdout().lock();

@@ -12,6 +12,7 @@ mod input;
 mod level_report;
 mod page;
 mod play;
+mod threads;
 mod verbs;
 
 use clap::{Parser, Subcommand};
@@ -65,6 +66,7 @@ fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
+    threads::set_up();
     let console = Console::new(cli.json, cli.quiet);
     let answer = match cli.verb {
         Verb::Release(args) => verbs::release::run(&args, &console),

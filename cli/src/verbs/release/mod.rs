@@ -7,6 +7,7 @@ use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::input;
+pub(crate) use crate::threads::in_pool;
 use crate::verbs::verify::failure;
 pub(crate) use bars::Bars;
 pub(crate) use sealed::read as read_secret_file;
@@ -220,16 +221,6 @@ pub(crate) fn mint_failure(error: MintError) -> Failure {
         MintError::Snapshot(error) => failure(error),
         other => Failure::Malformed(other.into()),
     }
-}
-
-/// Runs on so many threads.
-pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-    if jobs == Some(0) {
-        return Err(Failure::malformed("--jobs takes a number of threads, at least 1"));
-    }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).build();
-    let pool = pool.map_err(|error| Failure::surroundings(error, "threads cannot be started"))?;
-    Ok(pool.install(work))
 }
 
 /// What was minted, for a person.
