@@ -12,6 +12,7 @@ mod input;
 mod level_report;
 mod page;
 mod play;
+mod shell;
 mod threads;
 mod verbs;
 

@@ -24,6 +24,33 @@ fn copy() -> (TempDir, PathBuf) {
     (folder, root)
 }
 
+/// A folder with a name that is not Unicode, where there are such.
+fn unusual() -> PathBuf {
+    #[cfg(target_os = "linux")]
+    {
+        PathBuf::from(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(b"one\xff"))
+    }
+    #[cfg(not(target_os = "linux"))]
+    {
+        PathBuf::from("one")
+    }
+}
+
+/// Every answer that names a place can be given, whatever the place is called.
+#[test]
+fn places_may_be_called_anything() {
+    let home = tempfile::tempdir().unwrap();
+    let out = unusual();
+    let answer = |arguments: &[&str]| -> serde_json::Value {
+        let output =
+            arcade(home.path()).args(arguments).arg("--json").arg("--out").arg(&out).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    assert_eq!(answer(&["release", "tiny", "--dry-run"])["out"], out.display().to_string());
+    assert_eq!(answer(&["release", "tiny", "--commit"])["secret"], out.display().to_string());
+}
+
 #[test]
 fn a_release_verifies_and_regenerates() {
     let folder = TINY.path();
@@ -37,8 +64,13 @@ fn a_release_verifies_and_regenerates() {
 #[test]
 fn the_number_of_threads_changes_no_byte() {
     let folder = tempfile::tempdir().unwrap();
-    run(folder.path(), &["release", "tiny", "--out", "one", "--jobs", "1"], 0);
-    assert_eq!(files(&folder.path().join("one")), files(&TINY.path().join("tiny")));
+    let out = unusual();
+    let mut mint = arcade(folder.path());
+    let output = mint.args(["--json", "release", "tiny", "--jobs", "1", "--out"]).arg(&out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(answer["out"], out.display().to_string());
+    assert_eq!(files(&folder.path().join(out)), files(&TINY.path().join("tiny")));
 }
 
 /// If this digest moves without a change of `seeds/tiny.toml`, GENERATION (or SEMANTICS) must be bumped.
@@ -116,38 +148,6 @@ fn a_file_removed_added_or_linked_is_named() {
     assert!(text(&output.stdout).contains("games/stowaway.txt"), "{}", text(&output.stdout));
 }
 
-#[test]
-fn a_place_that_is_taken_is_refused_before_minting() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("mine")).unwrap();
-    fs::write(folder.path().join("mine/thesis.txt"), "x").unwrap();
-    let output = run(folder.path(), &["release", "tiny", "--out", "mine"], 2);
-    assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
-    assert_eq!(fs::read(folder.path().join("mine/thesis.txt")).unwrap(), b"x");
-}
-
-/// Killed at any moment, a mint leaves nothing that verifies.
-#[cfg(unix)]
-#[test]
-fn a_killed_mint_leaves_nothing_that_verifies() {
-    for milliseconds in [1, 20, 100, 400] {
-        let folder = tempfile::tempdir().unwrap();
-        let mut child = arcade(folder.path())
-            .args(["release", "starter", "--out", "out", "--jobs", "1"])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(milliseconds));
-        child.kill().unwrap();
-        child.wait().unwrap();
-        assert!(!folder.path().join("out").exists());
-        for place in ["out", "out.partial", "out.partial/tree"] {
-            let output = arcade(folder.path()).args(["verify", place]).output().unwrap();
-            assert_ne!(output.status.code(), Some(0), "{place} after {milliseconds} ms");
-        }
-    }
-}
 /// What goes along with a release may be changed and added to; nothing else may, under no pretext.
 #[test]
 fn papers_go_along_with_a_release() {
@@ -186,6 +186,42 @@ fn papers_go_along_with_a_release() {
     }
 }
 
+#[test]
+fn a_place_that_is_taken_is_refused_before_minting() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("mine")).unwrap();
+    fs::write(folder.path().join("mine/thesis.txt"), "x").unwrap();
+    let output = run(folder.path(), &["release", "tiny", "--out", "mine"], 2);
+    assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
+    assert_eq!(fs::read(folder.path().join("mine/thesis.txt")).unwrap(), b"x");
+    // A plan writes nothing.
+    let output = run(folder.path(), &["release", "tiny", "--out", "mine", "--dry-run"], 0);
+    let said = text(&output.stdout);
+    assert!(said.contains("would mint 2 new games") && said.contains("which is taken"), "{said}");
+}
+
+/// Killed at any moment, a mint leaves nothing that verifies.
+#[cfg(unix)]
+#[test]
+fn a_killed_mint_leaves_nothing_that_verifies() {
+    for milliseconds in [1, 20, 100, 400] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut child = arcade(folder.path())
+            .args(["release", "starter", "--out", "out", "--jobs", "1"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert!(!folder.path().join("out").exists());
+        for place in ["out", "out.partial", "out.partial/tree"] {
+            let output = arcade(folder.path()).args(["verify", place]).output().unwrap();
+            assert_ne!(output.status.code(), Some(0), "{place} after {milliseconds} ms");
+        }
+    }
+}
 
 /// A folder that is complete but was never published is no release.
 #[test]

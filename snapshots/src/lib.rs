@@ -88,8 +88,8 @@ pub use path::{MAX_PATH, PathProblem, check_path};
 pub use problem::{Flaw, Problem};
 pub use recipe::{Board, CorpusPart, GeneratedPart, Known, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
 pub use regenerate::{RegenerateError, Regenerated, Regeneration};
-pub use sealed::{HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
+pub use sealed::{COVERING, HELD, RevealError, SECRET_FILE, Secret, read_secret, reveal};
 pub use verify::{Verification, Witnesses, verify};
-pub use witness::Witness;
+pub use witness::{Step, Witness};
 
 use engine::Digest;

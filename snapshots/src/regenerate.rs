@@ -6,7 +6,7 @@ use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
 use crate::mint::{MintError, Minted, Plan, Shelf, Sink, lay_out};
 use crate::papers;
 use crate::recipe::{Recipe, RecipeError};
-use crate::sealed::{SECRET_FILE, Secret, read_secret};
+use crate::sealed::{SECRET_FILE, Secret, read_revealed};
 use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -92,7 +92,7 @@ impl Regeneration {
         }
         let secret = match manifest.kind {
             Kind::Open => None,
-            Kind::Sealed if root.join(SECRET_FILE).exists() => Some(read_secret(root, SECRET_FILE)?),
+            Kind::Sealed if root.join(SECRET_FILE).exists() => Some(read_revealed(root, SECRET_FILE)?),
             Kind::Sealed => return Err(RegenerateError::Sealed),
         };
         let recipe: Recipe =

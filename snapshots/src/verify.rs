@@ -4,7 +4,7 @@ use crate::card::Card;
 use crate::contents::Contents;
 use crate::manifest::{Kind, Manifest};
 use crate::mint::RELEASE_CARD_FILE;
-use crate::sealed::{HELD, SECRET_FILE, Secret, held_witness};
+use crate::sealed::{HELD, SECRET_FILE, STRANGER, Secret, held_witness};
 use crate::witness::Witness;
 use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
 use engine::{Game, Outcome};
@@ -72,18 +72,23 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     let secret = if is_sealed && problems.is_empty() { contents.find(SECRET_FILE)? } else { None };
     let held = is_sealed && secret.is_none();
     let mut games = Vec::new();
-    let committed = |secret: Vec<u8>| {
-        serde_json::from_slice(&secret)
-            .is_ok_and(|secret: Secret| Some(secret.commitment()) == manifest.commitment)
+    let secret = match secret.map(|bytes| serde_json::from_slice::<Secret>(&bytes)).transpose() {
+        Ok(secret) => secret,
+        Err(error) => {
+            problems.push(format!("{SECRET_FILE}: not a secret: {error}"));
+            None
+        }
     };
-    if secret.is_some_and(|secret| !committed(secret)) {
-        problems.push(format!("{SECRET_FILE}: its seed and nonce are not those of the commitment"));
+    if let Some(secret) = &secret {
+        problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
     }
     if problems.is_empty() {
         let folders = game_folders(&manifest, &mut problems);
         let checked: Vec<GameCheck> = folders
             .into_par_iter()
-            .map(|(folder, files)| check_game(&contents, &manifest, &folder, &files, same_semantics))
+            .map(|(folder, files)| {
+                check_game(&contents, &manifest, &folder, &files, same_semantics, secret.as_ref())
+            })
             .collect::<Result<_, _>>()?;
         games = checked;
         problems.extend(games.iter_mut().flat_map(|game| std::mem::take(&mut game.problems)));
@@ -100,13 +105,13 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     Ok(Verification {
         root: manifest.root,
         files: manifest.items.len(),
+        papers: integrity.beside.papers.len(),
+        ignored: integrity.beside.ignored,
         games: games.len(),
         levels,
         witnesses: match same_semantics {
             _ if held => Witnesses::Held,
             true => Witnesses::Replayed(games.iter().map(|game| game.replayed).sum()),
-        papers: integrity.beside.papers.len(),
-        ignored: integrity.beside.ignored,
             false => Witnesses::NotReplayed { semantics: manifest.semantics },
         },
         name: manifest.name.clone(),
@@ -198,6 +203,7 @@ fn check_game(
     folder: &str,
     files: &[String],
     replay: bool,
+    secret: Option<&Secret>,
 ) -> Result<GameCheck, SnapshotError> {
     let mut check = GameCheck { levels: 0, replayed: 0, held: Vec::new(), problems: Vec::new() };
     let path = |file: &str| format!("games/{folder}/{file}");
@@ -279,6 +285,9 @@ fn check_game(
         match witness.map(|text| serde_json::from_str::<Witness>(&text)) {
             Some(Ok(witness)) if witness.canary != manifest.canary => {
                 wrong(&witness_file, "its canary is not the release's".to_owned());
+            }
+            Some(Ok(witness)) if secret.is_some_and(|secret| !secret.leads_to(&witness)) => {
+                wrong(&witness_file, STRANGER.to_owned());
             }
             Some(Ok(witness)) if replay => match witness.episode.replay(&game, &level) {
                 Ok(end) if end.outcome() == Outcome::Won => {
