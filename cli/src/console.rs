@@ -171,6 +171,11 @@ impl Stopwatch {
     }
 }
 
+/// A remark on what is done otherwise than was asked for: said even when quiet.
+pub(crate) fn warn(text: impl Display) {
+    let _ = writeln!(io::stderr(), "note: {}", shown(&text.to_string()));
+}
+
 /// Text as a terminal may see it. It may quote what a stranger wrote, so that control characters are spelt out, but for
 /// the colours of our own diagnostics, which have some where standard error is a terminal.
 fn shown(text: &str) -> Cow<'_, str> {

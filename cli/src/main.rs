@@ -15,6 +15,7 @@ mod manual;
 mod page;
 mod paths;
 mod play;
+mod shell;
 mod threads;
 mod usage;
 mod verbs;

@@ -1,5 +1,6 @@
 //! How many threads work. No byte of any output depends on it.
 
+use crate::console;
 use crate::failure::Failure;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::thread::available_parallelism;
@@ -17,6 +18,9 @@ pub(crate) fn start() -> Result<(), Failure> {
 pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     if jobs == Some(0) {
         return Err(Failure::malformed("--jobs takes a number of threads, at least 1"));
+    }
+    if let Some(jobs) = jobs.filter(|&jobs| jobs > MOST) {
+        console::warn(format_args!("--jobs {jobs} is more than any work here can use: {MOST} threads"));
     }
     let pool: Result<ThreadPool, _> =
         ThreadPoolBuilder::new().num_threads(jobs.map_or_else(usual, |jobs| jobs.min(MOST))).build();

@@ -24,6 +24,33 @@ fn copy() -> (TempDir, PathBuf) {
     (folder, root)
 }
 
+/// A folder with a name that is not Unicode, where there are such.
+fn unusual() -> PathBuf {
+    #[cfg(target_os = "linux")]
+    {
+        PathBuf::from(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(b"one\xff"))
+    }
+    #[cfg(not(target_os = "linux"))]
+    {
+        PathBuf::from("one")
+    }
+}
+
+/// Every answer that names a place can be given, whatever the place is called.
+#[test]
+fn places_may_be_called_anything() {
+    let home = tempfile::tempdir().unwrap();
+    let out = unusual();
+    let answer = |arguments: &[&str]| -> serde_json::Value {
+        let output =
+            arcade(home.path()).args(arguments).arg("--json").arg("--out").arg(&out).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    assert_eq!(answer(&["release", "tiny", "--dry-run"])["out"], out.display().to_string());
+    assert_eq!(answer(&["release", "tiny", "--commit"])["secret"], out.display().to_string());
+}
+
 #[test]
 fn a_release_verifies_and_regenerates() {
     let folder = TINY.path();
@@ -37,8 +64,13 @@ fn a_release_verifies_and_regenerates() {
 #[test]
 fn the_number_of_threads_changes_no_byte() {
     let folder = tempfile::tempdir().unwrap();
-    run(folder.path(), &["release", "tiny", "--out", "one", "--jobs", "1"], 0);
-    assert_eq!(files(&folder.path().join("one")), files(&TINY.path().join("tiny")));
+    let out = unusual();
+    let mut mint = arcade(folder.path());
+    let output = mint.args(["--json", "release", "tiny", "--jobs", "1", "--out"]).arg(&out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(answer["out"], out.display().to_string());
+    assert_eq!(files(&folder.path().join(out)), files(&TINY.path().join("tiny")));
 }
 
 /// If this digest moves without a change of `seeds/tiny.toml`, GENERATION (or SEMANTICS) must be bumped.
@@ -105,7 +137,7 @@ fn what_a_release_before_has_is_not_minted_again() {
 #[test]
 fn any_flipped_byte_is_named() {
     let (folder, root) = copy();
-    for (name, content) in files(&root) {
+    for (name, content) in files(&root).into_iter().filter(|(name, _)| !name.starts_with("papers/")) {
         for place in [0, content.len() / 3, content.len() / 2, content.len() - 1] {
             let mut altered = content.clone();
             altered[place] ^= 1;
@@ -148,6 +180,44 @@ fn a_file_removed_added_or_linked_is_named() {
     assert!(text(&output.stdout).contains("games/stowaway.txt"), "{}", text(&output.stdout));
 }
 
+/// What goes along with a release may be changed and added to; nothing else may, under no pretext.
+#[test]
+fn papers_go_along_with_a_release() {
+    let (folder, root) = copy();
+    let papers: Vec<String> =
+        files(&root).into_keys().filter_map(|name| Some(name.strip_prefix("papers/")?.to_owned())).collect();
+    assert_eq!(papers, ["CHANGELOG.md", "CITATION.cff", "DATASHEET.md", "LICENSE"]);
+    let digest = |out: &str| {
+        let output =
+            run(folder.path(), &["--json", "export", "tiny", "--format", "archive", "--out", out], 0);
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()["digest"].clone()
+    };
+    let before = digest("before.tar.zst");
+    fs::write(root.join("papers/LICENSE"), "CC0-1.0").unwrap();
+    fs::write(root.join("papers/doi.txt"), "10.5281/zenodo.0").unwrap();
+    fs::create_dir_all(root.join(".git/objects")).unwrap();
+    fs::write(root.join(".git/a file"), "x").unwrap();
+    fs::write(root.join(".DS_Store"), "x").unwrap();
+    let said = text(&run(folder.path(), &["verify", "tiny"], 0).stdout);
+    assert!(said.contains("papers: 5 files, not covered by the root\nignored: .DS_Store, .git\n"), "{said}");
+    assert!(text(&run(folder.path(), &["regenerate", "tiny"], 0).stdout).starts_with("identical"));
+    let chained = run(folder.path(), &["verify", "tiny", "--chain", "."], 0);
+    assert!(text(&chained.stdout).contains("is the first release"), "{}", text(&chained.stdout));
+    // The same release gives the same archive, whatever goes along with it.
+    assert_eq!(digest("after.tar.zst"), before);
+
+    fs::write(root.join("games/.DS_Store"), "x").unwrap();
+    let said = text(&run(folder.path(), &["verify", "tiny"], 1).stdout);
+    assert!(said.contains("games/.DS_Store: extra"), "{said}");
+    fs::remove_file(root.join("games/.DS_Store")).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/etc/hostname", root.join("papers/host")).unwrap();
+        let said = text(&run(folder.path(), &["verify", "tiny"], 1).stdout);
+        assert!(said.contains("papers/host: a symbolic link"), "{said}");
+    }
+}
+
 #[test]
 fn a_place_that_is_taken_is_refused_before_minting() {
     let folder = tempfile::tempdir().unwrap();
@@ -156,6 +226,10 @@ fn a_place_that_is_taken_is_refused_before_minting() {
     let output = run(folder.path(), &["release", "tiny", "--out", "mine"], 2);
     assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
     assert_eq!(fs::read(folder.path().join("mine/thesis.txt")).unwrap(), b"x");
+    // A plan writes nothing.
+    let output = run(folder.path(), &["release", "tiny", "--out", "mine", "--dry-run"], 0);
+    let said = text(&output.stdout);
+    assert!(said.contains("would mint 2 new games") && said.contains("which is taken"), "{said}");
 }
 
 /// Killed at any moment, a mint leaves nothing that verifies.

@@ -3,6 +3,8 @@
 mod arcade;
 
 use arcade::{copy_tree, files, run, text};
+use engine::Digest;
+use snapshots::Secret;
 use std::fs;
 use std::path::Path;
 
@@ -31,6 +33,15 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     let secret = minted(folder);
     let again = run(folder, &["release", "sealed.toml", "--commit"], 2);
     assert!(text(&again.stderr).contains("never overwritten"), "{}", text(&again.stderr));
+    // Nor may anything be changed that was committed to.
+    let committed = fs::read_to_string(folder.join("sealed.toml")).unwrap();
+    fs::write(folder.join("changed.toml"), committed.replace("candidates = 2.0", "candidates = 3.0"))
+        .unwrap();
+    let changed =
+        run(folder, &["release", "changed.toml", "--secret", "sealed.secret.json", "--out", "x"], 2);
+    let said = text(&changed.stderr);
+    assert!(said.contains("the recipe is not the one that was committed to"), "{said}");
+    assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
     let without = run(folder, &["release", "sealed.toml", "--out", "x"], 2);
     assert!(text(&without.stderr).contains("--secret FILE"), "{}", text(&without.stderr));
 
@@ -55,7 +66,21 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     assert!(text(&output.stdout).contains("held back"), "{}", text(&output.stdout));
     let output = run(folder, &["regenerate", "out/public"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
-    run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "revealed"], 0);
+    // The mistakes that are easily made are named.
+    for (arguments, words) in [
+        (vec!["release", "--reveal", "out/held", "--out", "x"], "needs the public folder"),
+        (vec!["release", "out", "--reveal", "out/held", "--out", "x"], "did you mean out/public?"),
+        (vec!["release", "out/public", "--reveal", "out", "--out", "x"], "did you mean out/held?"),
+        (vec!["release", "out/public", "--reveal", "out/public", "--out", "x"], "is not the held part"),
+        (vec!["release", "out/public", "--reveal", "out/held"], "--reveal needs --out"),
+    ] {
+        let said = text(&run(folder, &arguments, 2).stderr);
+        assert!(said.contains(words), "{said}");
+    }
+    fs::write(folder.join("out/public/papers/doi.txt"), "10.5281/zenodo.0").unwrap();
+    let output = run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "revealed"], 0);
+    assert!(text(&output.stdout).contains("arcade regenerate revealed"), "{}", text(&output.stdout));
+    assert_eq!(files(&folder.join("revealed/papers")), files(&folder.join("out/public/papers")));
     let archived = run(folder, &["export", "out/public", "--format", "archive", "--out", "x.tar.zst"], 2);
     assert!(text(&archived.stderr).contains("pack it when it is revealed"), "{}", text(&archived.stderr));
     let solved = ["export", "out/public", "--format", "jsonl", "--solutions", "--out", "none"];
@@ -107,6 +132,103 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     fs::remove_file(folder.join("copy/held").join(witness)).unwrap();
     let output = run(folder, &["release", "copy/public", "--reveal", "copy/held", "--out", "x"], 1);
     assert!(text(&output.stdout).contains("missing"), "{}", text(&output.stdout));
+}
+
+/// A seed that somebody thought up can be guessed.
+#[test]
+fn a_secret_that_was_made_up_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
+    let drawn = Secret {
+        name: "sealed".to_owned(),
+        seed: Digest::of(b"seed").to_string(),
+        nonce: Digest::of(b"nonce"),
+        recipe: Some(Digest::of(b"recipe")),
+    };
+    let other = |change: &dyn Fn(&mut Secret)| {
+        let mut secret = drawn.clone();
+        change(&mut secret);
+        secret
+    };
+    for made_up in [
+        other(&|secret| secret.seed = "hunter2".to_owned()),
+        other(&|secret| secret.seed = "5".repeat(64)),
+        other(&|secret| secret.nonce = secret.seed.parse().unwrap()),
+    ] {
+        fs::write(folder.join("my secret.json"), serde_json::to_vec(&made_up).unwrap()).unwrap();
+        // As `arcade` before this one took it.
+        fs::write(folder.join("sealed.toml"), recipe(&made_up.commitment().to_string())).unwrap();
+        for verb in
+            [vec!["release", "sealed.toml", "--out", "x"], vec!["release", "sealed.toml", "--dry-run"]]
+        {
+            let said = text(&run(folder, &[&verb[..], &["--secret", "my secret.json"]].concat(), 2).stderr);
+            assert!(
+                said.contains("my secret.json") && said.contains("arcade release RECIPE --commit"),
+                "{said}"
+            );
+        }
+    }
+}
+
+/// The command that `--commit` proposes works, also where names have blanks; what it cannot work for is refused at once.
+#[test]
+fn what_commit_proposes_works() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let said = text(&run(folder, &["release", "sealed", "--commit"], 2).stderr);
+    assert!(said.contains("no recipe named `sealed`"), "{said}");
+    fs::create_dir(folder.join("my recipes")).unwrap();
+    let path = folder.join("my recipes/sealed.toml");
+    fs::write(&path, recipe(&"0".repeat(64))).unwrap();
+    let said = text(&run(folder, &["release", "sealed", "--commit"], 2).stderr);
+    assert!(!said.contains("to read your file"), "{said}");
+    let said = text(&run(folder, &["release", "my recipes/sealed", "--commit"], 2).stderr);
+    assert!(said.contains("name it: 'my recipes/sealed.toml'"), "{said}");
+
+    let output =
+        run(folder, &["release", "my recipes/sealed.toml", "--commit", "--out", "my secret.json"], 0);
+    let said = text(&output.stdout);
+    let line = |words: &str| said.lines().find_map(|line| line.trim().strip_prefix(words)).unwrap().trim();
+    let commitment = line("commitment =").trim_matches('"').to_owned();
+    fs::write(&path, recipe(&commitment)).unwrap();
+    let command = shlex::split(line("mint it with:")).unwrap();
+    let arguments: Vec<&str> = command.iter().skip(1).map(String::as_str).collect();
+    let output = run(folder, &[&arguments[..], &["--dry-run"]].concat(), 0);
+    assert!(text(&output.stdout).contains("would mint 1 new games"), "{}", text(&output.stdout));
+    assert!(!text(&output.stdout).contains("corpus games"), "{}", text(&output.stdout));
+
+    // What the binary carries cannot be changed.
+    let said = text(&run(folder, &["release", "tiny", "--commit"], 0).stdout);
+    assert!(said.contains("arcade recipes show tiny > tiny.toml"), "{said}");
+    assert!(said.contains("arcade release tiny.toml --secret tiny.secret.json"), "{said}");
+}
+
+/// A shard holds winning episodes, as the part does that is held back.
+#[cfg(unix)]
+#[test]
+fn shards_of_a_sealed_release_are_their_owners() {
+    use std::os::unix::fs::PermissionsExt;
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
+    let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    fs::write(folder.join("sealed.toml"), recipe(answer["commitment"].as_str().unwrap())).unwrap();
+    let secret = ["--secret", "sealed.secret.json"];
+    for (shard, out) in [("1/2", "one"), ("2/2", "two")] {
+        run(folder, &[&["release", "sealed.toml", "--shard", shard, "--out", out][..], &secret].concat(), 0);
+        let shard = folder.join(out);
+        let lots = files(&shard).into_keys().map(|name| shard.join(name));
+        let places: Vec<_> = lots.chain([shard.clone(), shard.join("lots")]).collect();
+        assert_eq!(places.len(), 4, "{places:?}");
+        for place in places {
+            let mode = fs::metadata(&place).unwrap().permissions().mode();
+            assert_eq!(mode & 0o077, 0, "{}: {mode:o}", place.display());
+        }
+    }
+    run(folder, &[&["merge", "one", "two", "--out", "out"][..], &secret].concat(), 0);
+    run(folder, &["verify", "out/public"], 0);
 }
 
 /// Else seed and witnesses would be published in the belief that they are held back.

@@ -22,7 +22,10 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     recipe(folder);
-    run(folder, &["release", "slices.toml", "--out", "whole"], 0);
+    let output = run(folder, &["release", "slices.toml", "--out", "the whole"], 0);
+    // What is proposed can be pasted.
+    assert!(text(&output.stdout).contains("arcade verify 'the whole'"), "{}", text(&output.stdout));
+    fs::rename(folder.join("the whole"), folder.join("whole")).unwrap();
     for shard in ["3/3", "1/3", "2/3"] {
         run(
             folder,
@@ -94,6 +97,18 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     assert!(lots() > 0 && !folder.join("out").exists());
     let said = text(&run(folder, &[mint, &["--out", "out"]].concat(), 2).stderr);
     assert!(said.contains("go on with --resume"), "{said}");
+    if mint[0] == "release" {
+        let plan = |resume: &[&str]| {
+            let output = run(folder, &[mint, &["--out", "out", "--dry-run", "--json"], resume].concat(), 0);
+            serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+        };
+        let (whole, left) = (plan(&[]), plan(&["--resume"]));
+        let minutes = |plan: &serde_json::Value| plan["core_minutes"].as_f64().unwrap();
+        assert!(minutes(&left) < minutes(&whole), "{left} {whole}");
+        assert_eq!(left["lots_made"], lots());
+        let said = text(&run(folder, &[mint, &["--out", "out", "--dry-run", "--resume"]].concat(), 0).stdout);
+        assert!(said.contains(&format!("of which {} are made", lots())), "{said}");
+    }
     for milliseconds in [1, 30, 300] {
         let mut child = start(&["--resume"]);
         std::thread::sleep(Duration::from_millis(milliseconds));
@@ -120,6 +135,23 @@ fn a_killed_mint_goes_on() {
         assert_eq!(files(&folder.join("out")), files(&folder.join("alone")));
         fs::remove_dir_all(folder.join("out")).unwrap();
     }
+}
+
+/// A disk without room ends a mint with the command that goes on with it.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_says_how_to_go_on() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    recipe(folder);
+    // Files of at most a kilobyte or so: no lot has room.
+    let script = "trap '' XFSZ; ulimit -f 2; exec \"$0\" release slices.toml --out 'my release'";
+    let binary = env!("CARGO_BIN_EXE_arcade");
+    let output =
+        std::process::Command::new("sh").args(["-c", script, binary]).current_dir(folder).output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("go on with: arcade release slices.toml --out 'my release' --resume"), "{said}");
 }
 
 /// What is made is kept when only the choice is asked for otherwise.

@@ -26,6 +26,7 @@ use crate::error::SnapshotError;
 use crate::folder;
 use crate::integrity::{Integrity, check_integrity, manifest_problems};
 use crate::manifest::{Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::papers::Beside;
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
 use engine::Digest;
@@ -236,7 +237,13 @@ impl Archive {
         }
         problems.sort_unstable();
         let (digest, unpacked) = inside.digest();
-        Ok(Archive { integrity: Integrity { manifest, problems }, digest, unpacked, manifest_bytes, files })
+        Ok(Archive {
+            integrity: Integrity { manifest, problems, beside: Beside::default() },
+            digest,
+            unpacked,
+            manifest_bytes,
+            files,
+        })
     }
 
     /// The content of the item at `path`; none if there is no such item or the archive ends before it.

@@ -40,6 +40,8 @@ pub use abandoned::Abandoned;
 pub struct Draft {
     out: PathBuf,
     partial: PathBuf,
+    /// Whether everything in it is for its owner alone, and stays so when it is published.
+    is_secret: bool,
     /// Closing it frees the lock, after `drop` has removed the folder.
     _lock: File,
 }
@@ -68,16 +70,13 @@ impl Draft {
     /// # Errors
     /// As for `create`, but for what was interrupted.
     pub fn resume(out: &Path) -> Result<Draft, SnapshotError> {
-        let name = out.file_name().ok_or_else(|| SnapshotError::Nameless { path: out.to_path_buf() })?;
-        let mut partial_name = OsString::from(name);
-        partial_name.push(".partial");
+        let partial = partial_of(out).ok_or_else(|| SnapshotError::Nameless { path: out.to_path_buf() })?;
         check_vacant(out)?;
-        let partial = out.with_file_name(partial_name);
         let parent = parent_of(out);
         create_folder(parent)?;
 
         let lock = lock::acquire(&partial)?;
-        let draft = Draft { out: out.to_path_buf(), partial, _lock: lock };
+        let draft = Draft { out: out.to_path_buf(), partial, is_secret: false, _lock: lock };
         // Whoever held the lock before may have published in the meantime.
         check_vacant(out)?;
         let tree = draft.tree();
@@ -99,7 +98,7 @@ impl Draft {
             return Err(SnapshotError::TooLarge { path, limit });
         }
         let parent = parent_of(&path);
-        let is_secret = relative.starts_with(HELD);
+        let is_secret = self.is_secret || relative.starts_with(HELD);
         create_folders(parent, is_secret).map_err(SnapshotError::io("create", parent))?;
         let write = || {
             let mut options = File::options();
@@ -183,6 +182,27 @@ impl Draft {
         Ok(())
     }
 
+    /// Keeps everything to its owner, in the making and when it is published: for shards of sealed releases. To be called
+    /// before the first file is written.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn keep_secret(&mut self) -> Result<(), SnapshotError> {
+        self.keep_private()?;
+        #[cfg(unix)]
+        {
+            let (tree, owner) = (self.tree(), std::os::unix::fs::PermissionsExt::from_mode(0o700));
+            fs::set_permissions(&tree, owner).map_err(SnapshotError::io("protect", &tree))?;
+        }
+        self.is_secret = true;
+        Ok(())
+    }
+
+    /// Where a draft of the folder `out` keeps its [`lots`](Draft::lots), whether or not there is one.
+    pub fn lots_of(out: &Path) -> Option<PathBuf> {
+        Some(partial_of(out)?.join(LOTS))
+    }
+
     /// A folder beside the draft, not created yet, whose content outlives a draft that is dropped or killed, and is removed
     /// with one that is committed.
     pub fn lots(&self) -> PathBuf {
@@ -208,6 +228,13 @@ impl Drop for Draft {
         // Nothing can be done here about a failure, and the next draft replaces what stays.
         drop(removed);
     }
+}
+
+/// Where the work on the folder `out` lies; none if that has no name of its own.
+fn partial_of(out: &Path) -> Option<PathBuf> {
+    let mut name = OsString::from(out.file_name()?);
+    name.push(".partial");
+    Some(out.with_file_name(name))
 }
 
 /// With all folders above; those of secrets for their owner alone.
@@ -395,6 +422,24 @@ pub(crate) mod tests {
         assert_eq!(names(&out), ["a"]);
         assert_eq!(fs::read(out.join("a")).expect("readable"), b"one");
         assert_eq!(names(home.path()), ["new"]);
+    }
+
+    /// Everything of a secret draft is its owner's, from the first folder to what is published.
+    #[cfg(unix)]
+    #[test]
+    fn secrets_are_for_their_owner() {
+        use std::os::unix::fs::PermissionsExt;
+        let (home, out) = home();
+        let mut draft = Draft::create(&out).expect("vacant");
+        draft.keep_secret().expect("protected");
+        draft.write("lots/a.json", b"one").expect("written");
+        let mode = |path: &Path| fs::metadata(path).expect("there").permissions().mode() & 0o777;
+        assert_eq!(mode(&home.path().join("new.partial")), 0o700);
+        draft.commit().expect("published");
+        assert_eq!(
+            (mode(&out), mode(&out.join("lots")), mode(&out.join("lots/a.json"))),
+            (0o700, 0o700, 0o600)
+        );
     }
 
     /// The process that [`a_killed_run`] kills. Run by itself it finds no orders in its folder, and is done.

@@ -68,6 +68,16 @@ pub enum SnapshotError {
         /// What is wrong with it.
         source: serde_json::Error,
     },
+    /// A secret that somebody made up.
+    #[error(
+        "`{}` is not a secret that can be trusted: {what}; draw one with `arcade release RECIPE --commit`", .path.display()
+    )]
+    WeakSecret {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
     /// Another process is writing there.
     #[error("another arcade is writing `{}`: wait for it or choose another --out", .path.display())]
     Busy {

@@ -53,6 +53,8 @@ pub struct Listing {
     pub entries: Vec<Entry>,
     /// Everything else, sorted.
     pub problems: Vec<Problem>,
+    /// Names at the top that were passed over, sorted.
+    pub passed_over: Vec<String>,
     /// Whether all of the folder was looked at: false after [`Flaw::TooMany`], and then there are no entries.
     pub complete: bool,
 }
@@ -65,7 +67,12 @@ pub struct Listing {
 /// # Errors
 /// A folder cannot be read.
 pub fn list(root: &Path, limits: &Limits) -> Result<Listing, SnapshotError> {
-    let (mut entries, mut problems) = (Vec::new(), Vec::new());
+    list_but(root, limits, &[])
+}
+
+/// As [`list`], but what has one of these names at the top of the folder is not looked at, whatever it is.
+pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<Listing, SnapshotError> {
+    let (mut entries, mut problems, mut passed_over) = (Vec::new(), Vec::new(), Vec::new());
     let (mut files, mut folders, mut total) = (0, 0, 0_u64);
     let mut waiting = vec![String::new()];
     while let Some(folder) = waiting.pop() {
@@ -74,13 +81,17 @@ pub fn list(root: &Path, limits: &Limits) -> Result<Listing, SnapshotError> {
         for child in fs::read_dir(&place).map_err(SnapshotError::io("list", &place))? {
             let child = child.map_err(SnapshotError::io("list", &place))?;
             empty = false;
+            if let Some(name) = names.iter().find(|name| folder.is_empty() && child.file_name() == **name) {
+                passed_over.push((*name).to_owned());
+                continue;
+            }
             let found = child.metadata().map_err(SnapshotError::io("examine", &child.path()))?;
             let count = if found.is_dir() { &mut folders } else { &mut files };
             *count += 1;
             if *count > limits.files {
                 let flaw = Flaw::TooMany { limit: limits.files };
                 let problems = vec![Problem { path: ".".into(), flaw }];
-                return Ok(Listing { entries: Vec::new(), problems, complete: false });
+                return Ok(Listing { entries: Vec::new(), problems, passed_over, complete: false });
             }
             if found.is_file() {
                 total = total.saturating_add(found.len());
@@ -102,7 +113,8 @@ pub fn list(root: &Path, limits: &Limits) -> Result<Listing, SnapshotError> {
     }
     entries.sort_unstable_by(|a, b| a.path.cmp(&b.path));
     problems.sort_unstable();
-    Ok(Listing { entries, problems, complete: true })
+    passed_over.sort_unstable();
+    Ok(Listing { entries, problems, passed_over, complete: true })
 }
 
 /// The bytes of the file at `relative` below `root`, at most `limit` of them.

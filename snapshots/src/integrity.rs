@@ -6,8 +6,9 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use crate::error::SnapshotError;
-use crate::folder::{self, Limits};
+use crate::folder::{self, Listing};
 use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::papers::{self, Beside};
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
 
@@ -18,6 +19,8 @@ pub struct Integrity {
     pub manifest: Manifest,
     /// All that is wrong, sorted; empty if the folder is what the manifest says.
     pub problems: Vec<Problem>,
+    /// What is there besides, which the root does not cover; nothing in an archive.
+    pub beside: Beside,
 }
 
 impl Integrity {
@@ -39,9 +42,10 @@ pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| absent(error, root))?;
     let manifest = Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
     let mut problems = manifest_problems(&manifest, &bytes)?;
-    problems.extend(file_problems(root, &manifest)?);
+    let (listing, beside) = papers::list(root)?;
+    problems.extend(file_problems(root, &manifest, listing)?);
     problems.sort_unstable();
-    Ok(Integrity { manifest, problems })
+    Ok(Integrity { manifest, problems, beside })
 }
 
 /// What it means that there is no manifest to read.
@@ -77,8 +81,7 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-fn file_problems(root: &Path, manifest: &Manifest) -> Result<Vec<Problem>, SnapshotError> {
-    let listing = folder::list(root, &Limits::SNAPSHOT)?;
+fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<Vec<Problem>, SnapshotError> {
     let mut problems = listing.problems;
     if !listing.complete {
         return Ok(problems);
@@ -229,7 +232,7 @@ mod tests {
         let remove = |root: &Path| fs::remove_file(root.join("README.md")).expect("removed");
         check(remove, &[("README.md", Flaw::Missing)]);
         check(write("games/x/lvl1.txt", b"new"), &[("games/x/lvl1.txt", Flaw::Extra)]);
-        check(write(".DS_Store", b""), &[(".DS_Store", Flaw::Extra)]);
+        check(write("games/x/.DS_Store", b""), &[("games/x/.DS_Store", Flaw::Extra)]);
         check(write("MANIFEST", b""), &[("MANIFEST", Flaw::Extra)]);
         check(write("games/MANIFEST.json", b""), &[("games/MANIFEST.json", Flaw::Extra)]);
         let rename = |root: &Path| {
@@ -250,6 +253,31 @@ mod tests {
         check(folder, &[("games/z/empty", Flaw::EmptyFolder)]);
         let spaced = Flaw::Name(PathProblem::Character(' '));
         check(write("games/x/a b", b""), &[("games/x/a b", spaced)]);
+    }
+
+    /// Papers, and what other programs leave beside the tree, are told and no tampering.
+    #[test]
+    fn what_is_beside_the_tree() {
+        let release = release();
+        let root = &release.root;
+        for (path, content) in [("papers/LICENSE", "MIT"), (".git/objects/a b", ""), (".DS_Store", "")] {
+            fs::create_dir_all(root.join(path).parent().expect("below")).expect("created");
+            fs::write(root.join(path), content).expect("written");
+        }
+        let Integrity { problems, beside, .. } = check_integrity(root).expect("readable");
+        assert_eq!(problems, []);
+        assert_eq!(
+            beside.papers.iter().map(|entry| entry.path.as_str()).collect::<Vec<_>>(),
+            ["papers/LICENSE"]
+        );
+        assert_eq!(beside.ignored, [".DS_Store", ".git"]);
+        // A manifest that lists papers does not put them under the root's protection.
+        let mut files = FILES.to_vec();
+        files.push(("papers/LICENSE", b"MIT"));
+        let text = example(&files).to_bytes().expect("sound");
+        fs::write(root.join(MANIFEST_FILE), text).expect("written");
+        let problems = check_integrity(root).expect("readable").problems;
+        assert_eq!(problems, [Problem { path: "papers/LICENSE".into(), flaw: Flaw::Missing }]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A recipe: what a release is minted from, in a TOML file of `seeds/`.
 
-use crate::sealed::Secret;
+use crate::sealed::{self, Secret};
 use engine::{Digest, Game, Seed};
 use generators::levels::LevelConfig;
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub struct Recipe {
     /// The text that the seed comes from: public, so the release is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<String>,
-    /// BLAKE3(seed ‖ nonce) in its place: the release is sealed.
+    /// What a secret commits to, in its place: the release is sealed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commitment: Option<Digest>,
     /// Root digest of the release before.
@@ -233,8 +233,16 @@ pub enum RecipeError {
     #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
     Sealed,
     /// A secret that is not the one committed to.
-    #[error("the secret is not the one that the recipe's `commitment` was made from")]
+    #[error(
+        "the secret is not the one that the recipe's `commitment` was made from: give the file that `--commit` wrote with it"
+    )]
     OtherSecret,
+    /// The right secret, and another recipe.
+    #[error(
+        "the recipe is not the one that was committed to: something else than its `commitment` was changed after `--commit`; \
+         undo that, or commit again with `arcade release RECIPE --commit`"
+    )]
+    OtherRecipe,
     /// A secret for an open release.
     #[error(
         "the release is open: its recipe has a `seed`, so --secret is not for it; to seal it, put the secret's `commitment` in \
@@ -258,6 +266,28 @@ impl Recipe {
         let recipe: Recipe = toml::from_str(text).map_err(|error| RecipeError::Syntax(Box::new(error)))?;
         recipe.check()?;
         Ok(recipe)
+    }
+
+    /// Reads and checks a recipe that is to be committed to: whatever stands for `seed` or `commitment` in it is left out.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place or key.
+    pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
+        if text.len() > MAX_RECIPE {
+            return Err(RecipeError::TooLarge);
+        }
+        let syntax = |error| RecipeError::Syntax(Box::new(error));
+        let written: Recipe = toml::from_str(text).map_err(syntax)?;
+        let recipe = Recipe { seed: None, commitment: None, ..written };
+        Recipe { seed: Some("to be drawn".to_owned()), ..recipe.clone() }.check()?;
+        Ok(recipe)
+    }
+
+    /// Digest of what a commitment covers: all of the recipe but `seed`, `commitment` and `known`, which follows from
+    /// `parent`.
+    pub fn committed(&self) -> Digest {
+        let recipe = serde_json::to_value(self).expect("a recipe is plain data");
+        sealed::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
     }
 
     /// Checks the values.
@@ -397,16 +427,18 @@ impl Recipe {
     /// The seed that everything in the release comes from; `secret` is that of a sealed one.
     ///
     /// # Errors
-    /// A sealed release without its secret, or with another one; an open one with a secret.
+    /// A sealed release without its secret, with another one, or changed since it was committed to; an open one with a secret.
     pub fn root_seed(&self, secret: Option<&Secret>) -> Result<Seed, RecipeError> {
-        match (&self.seed, self.commitment, secret) {
-            (Some(_), _, Some(_)) => Err(RecipeError::Open),
-            (Some(seed), ..) => Ok(Seed::from_text(seed)),
-            (None, Some(commitment), Some(secret)) if secret.commitment() == commitment => {
-                Ok(Seed::from_text(&secret.seed))
-            }
-            (None, _, Some(_)) => Err(RecipeError::OtherSecret),
-            (None, _, None) => Err(RecipeError::Sealed),
+        let Some(secret) = secret else {
+            return self.seed.as_deref().map(Seed::from_text).ok_or(RecipeError::Sealed);
+        };
+        let Some(commitment) = self.commitment else { return Err(RecipeError::Open) };
+        if secret.commitment() != commitment {
+            Err(RecipeError::OtherSecret)
+        } else if secret.recipe != Some(self.committed()) {
+            Err(RecipeError::OtherRecipe)
+        } else {
+            Ok(secret.root_seed())
         }
     }
 
@@ -449,12 +481,49 @@ mod tests {
     fn the_example_in_the_docs() {
         let page = include_str!("../../docs/recipes.md");
         let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-        let recipe = Recipe::from_toml(&example.replace("parent = \"…\"", "#")).unwrap();
+        let recipe = Recipe::from_toml(example).unwrap();
         assert_eq!(recipe.taxonomy, Taxonomy::default());
         assert_eq!(recipe.criteria, Criteria::default());
         assert_eq!(recipe.board, Board::default());
         assert_eq!(recipe.generated, GeneratedPart { games: 12, ..GeneratedPart::default() });
         assert_eq!(recipe.corpus, CorpusPart { games: 6, ..CorpusPart::default() });
+    }
+
+    #[test]
+    fn a_secret_fits_one_recipe() {
+        let sealed = |text: &str| GOOD.replace("seed = 'x'\n", "").replace("games = 2", text);
+        let recipe = Recipe::to_commit(&sealed("games = 2")).unwrap();
+        let secret = Secret::draw("small", recipe.committed(), [7; 64]);
+        let minting = Recipe { commitment: Some(secret.commitment()), ..recipe.clone() };
+        minting.check().unwrap();
+        assert_eq!(minting.root_seed(Some(&secret)).unwrap(), secret.root_seed());
+        // What is in the place of the commitment, and what the parent tells, is not committed to.
+        assert_eq!(Recipe::to_commit(GOOD).unwrap().committed(), recipe.committed());
+        let known = Known { games: vec!["x".to_owned()], ..Known::default() };
+        assert_eq!(Recipe { known, ..minting.clone() }.committed(), recipe.committed());
+
+        let parent = Some(Digest::of(b"parent"));
+        for changed in [
+            Recipe { parent, ..minting.clone() },
+            Recipe { description: "another".to_owned(), ..minting.clone() },
+            Recipe { commitment: minting.commitment, ..Recipe::to_commit(&sealed("games = 3")).unwrap() },
+        ] {
+            let error = changed.root_seed(Some(&secret)).unwrap_err();
+            assert!(matches!(error, RecipeError::OtherRecipe), "{error}");
+        }
+        let other = Secret::draw("small", recipe.committed(), [8; 64]);
+        let error = minting.root_seed(Some(&other)).unwrap_err();
+        assert!(matches!(error, RecipeError::OtherSecret), "{error}");
+        assert!(matches!(minting.root_seed(None), Err(RecipeError::Sealed)));
+        let open = Recipe::from_toml(GOOD).unwrap();
+        assert!(matches!(open.root_seed(Some(&secret)), Err(RecipeError::Open)));
+    }
+
+    #[test]
+    fn what_is_committed_to_is_complete() {
+        assert!(Recipe::to_commit(&GOOD.replace("seed = 'x'\n", "")).is_ok());
+        let error = Recipe::to_commit(&GOOD.replace("= 2", "= 0")).unwrap_err().to_string();
+        assert!(error.contains("nothing to mint"), "{error}");
     }
 
     #[test]

@@ -4,8 +4,9 @@ use crate::corpus::Corpus;
 use crate::folder::{self, Limits};
 use crate::manifest::{Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
 use crate::mint::{MintError, Minted, Plan, Shelf, Sink, lay_out};
+use crate::papers;
 use crate::recipe::{Recipe, RecipeError};
-use crate::sealed::{SECRET_FILE, Secret, read_secret};
+use crate::sealed::{SECRET_FILE, Secret, read_revealed};
 use crate::version::{CURRENT, MintedBy};
 use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
@@ -95,7 +96,7 @@ impl Regeneration {
         }
         let secret = match manifest.kind {
             Kind::Open => None,
-            Kind::Sealed if root.join(SECRET_FILE).exists() => Some(read_secret(root, SECRET_FILE)?),
+            Kind::Sealed if root.join(SECRET_FILE).exists() => Some(read_revealed(root, SECRET_FILE)?),
             Kind::Sealed => return Err(RegenerateError::Sealed),
         };
         let recipe: Recipe =
@@ -148,7 +149,7 @@ struct Comparison<'a> {
 
 impl Comparison<'_> {
     fn of(root: &Path) -> Result<Comparison<'_>, SnapshotError> {
-        let listing = folder::list(root, &Limits::SNAPSHOT)?;
+        let (listing, _) = papers::list(root)?;
         let mut there: BTreeSet<String> = listing.entries.into_iter().map(|entry| entry.path).collect();
         there.remove(MANIFEST_FILE);
         Ok(Comparison {

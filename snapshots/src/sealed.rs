@@ -1,12 +1,18 @@
 //! Sealed releases: the seed is committed to before, and revealed later.
 
+use crate::canonical::{CanonicalError, canonical_digest};
 use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
+use crate::papers::{PAPERS_LIMITS, PASSED_OVER};
+use crate::witness::{Step, Witness};
 use crate::{Draft, SnapshotError};
-use engine::Digest;
+use engine::{Digest, Seed};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// The file of a sealed release that holds its secret, among those held back.
@@ -25,38 +31,158 @@ pub(crate) fn held_witness(game: &str, level: usize) -> String {
 pub struct Secret {
     /// Name of the release that it is meant for.
     pub name: String,
-    /// The text that the seed comes from.
+    /// The text that the seed comes from: 64 hexadecimal digits.
     pub seed: String,
-    /// What keeps the seed from being guessed: 64 hexadecimal digits.
+    /// Keeps the seed from being guessed: 64 hexadecimal digits.
     pub nonce: Digest,
+    /// Digest of the recipe that it was drawn for ([`Recipe::committed`](crate::Recipe::committed)); none in secrets of
+    /// generations before [`COVERING`], whose commitments cover seed and nonce alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recipe: Option<Digest>,
 }
 
+/// The first generation whose commitments cover the recipe, and whose seeds come from the nonce too.
+pub const COVERING: u32 = 12;
+
+/// Changing one of these texts changes every secret, or every commitment.
+const SEED_CONTEXT: &str = "infinite-arcade 2 seed of a secret";
+const NONCE_CONTEXT: &str = "infinite-arcade 2 nonce of a secret";
+const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
+
+/// Different bytes, and different steps from byte to byte, that 32 random bytes have at least. All but one in a billion
+/// drawn secrets have more; whatever repeats within 16 bytes has fewer.
+const DISTINCT: usize = 17;
+
 impl Secret {
-    /// A secret from 64 bytes of chance: half of them for the seed, half for the nonce.
-    pub fn draw(name: &str, chance: [u8; 64]) -> Secret {
+    /// A secret for a recipe from 64 bytes of chance: half of them for the seed, half for the nonce.
+    pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
         let (seed, nonce) = chance.split_at(32);
         // Hashed, so that even chance of little worth has the full length.
-        let seed = Digest::of(seed).to_string();
-        Secret { name: name.to_owned(), seed, nonce: Digest::of(nonce) }
+        let hashed = |context, half| Digest::from_bytes(blake3::derive_key(context, half));
+        Secret {
+            name: name.to_owned(),
+            seed: hashed(SEED_CONTEXT, seed).to_string(),
+            nonce: hashed(NONCE_CONTEXT, nonce),
+            recipe: Some(recipe),
+        }
     }
 
-    /// BLAKE3(seed ‖ nonce): the bytes of the seed's text, then the 32 bytes of the nonce.
+    /// Digest over seed, nonce and recipe, in a domain of its own; of a secret without recipe BLAKE3(seed ‖ nonce), as
+    /// releases before [`COVERING`] have it.
     pub fn commitment(&self) -> Digest {
-        Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat())
+        let Some(recipe) = self.recipe else {
+            return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
+        };
+        let mut hasher = blake3::Hasher::new_derive_key(COMMITMENT_CONTEXT);
+        hasher.update(&(self.seed.len() as u64).to_le_bytes());
+        hasher.update(self.seed.as_bytes());
+        hasher.update(self.nonce.as_bytes());
+        hasher.update(recipe.as_bytes());
+        Digest::from_bytes(*hasher.finalize().as_bytes())
     }
+
+    /// The seed that everything in the release comes from: a child of the seed's text by way of the nonce, so that whoever
+    /// guesses one of the two knows nothing.
+    pub fn root_seed(&self) -> Seed {
+        Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
+    }
+
+    /// Checks that seed and nonce look drawn, not made up.
+    ///
+    /// # Errors
+    /// The first thing that does not, in words.
+    pub fn check(&self) -> Result<(), String> {
+        let Ok(seed) = self.seed.parse::<Digest>() else {
+            return Err("its `seed` is not 64 lower-case hexadecimal digits".to_owned());
+        };
+        if self.recipe.is_none() {
+            return Err("it has no `recipe`, the digest of the recipe that it was drawn for".to_owned());
+        }
+        if seed == self.nonce {
+            return Err("its `seed` and `nonce` are the same".to_owned());
+        }
+        for (key, bytes) in [("seed", seed.as_bytes()), ("nonce", self.nonce.as_bytes())] {
+            let steps = bytes.windows(2).map(|pair| pair[1].wrapping_sub(pair[0]));
+            let (values, steps): (BTreeSet<u8>, BTreeSet<u8>) =
+                (bytes.iter().copied().collect(), steps.collect());
+            if values.len() < DISTINCT || steps.len() < DISTINCT || bytes.is_ascii() {
+                return Err(format!("its `{key}` has a pattern, and so was not drawn"));
+            }
+        }
+        Ok(())
+    }
+
+    /// What is wrong with the secret of a release that has this manifest, in words; none if it is the one committed to.
+    ///
+    /// # Errors
+    /// The manifest's recipe has no canonical JSON.
+    pub(crate) fn flaw(&self, manifest: &Manifest) -> Result<Option<String>, SnapshotError> {
+        if Some(self.commitment()) != manifest.commitment {
+            return Ok(Some("its seed and nonce are not those of the commitment".to_owned()));
+        }
+        let Some(recipe) = self.recipe else {
+            let flaw = format!("it names no recipe, as secrets since generation {COVERING} do");
+            return Ok((manifest.generation >= COVERING).then_some(flaw));
+        };
+        if recipe != committed(&manifest.recipe)? {
+            return Ok(Some("the manifest's recipe is not the one that was committed to".to_owned()));
+        }
+        Ok(self.check().err())
+    }
+
+    /// Whether the chance of a witness comes from this secret, by the path that the witness names. A secret of an earlier
+    /// generation cannot tell.
+    pub(crate) fn leads_to(&self, witness: &Witness) -> bool {
+        let step = |seed: Seed, (purpose, index): &Step| seed.child(purpose, *index);
+        self.recipe.is_none() || witness.path.iter().fold(self.root_seed(), step) == witness.episode.seed
+    }
+}
+
+/// Digest of what a commitment covers of a recipe: all but what it replaces (`seed`), itself, and what follows from the parent
+/// (`known`).
+///
+/// # Errors
+/// It has no canonical JSON.
+pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
+    let mut recipe = recipe.clone();
+    if let Some(keys) = recipe.as_object_mut() {
+        keys.retain(|key, _| !["seed", "commitment", "known"].contains(&key.as_str()));
+    }
+    canonical_digest(&recipe)
 }
 
 /// The largest file of a secret, in bytes.
 const SECRET_LIMIT: u64 = 4096;
 
-/// Reads a secret from a file below a folder.
+/// Reads a secret, as `--commit` writes it.
+///
+/// # Errors
+/// It cannot be read, is no secret, or one that was made up instead of drawn.
+pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
+    let io = |source| SnapshotError::io("read", file)(source);
+    let mut bytes = Vec::new();
+    File::open(file).and_then(|open| open.take(SECRET_LIMIT + 1).read_to_end(&mut bytes)).map_err(io)?;
+    let secret = parse(&bytes, file)?;
+    match secret.check() {
+        Ok(()) => Ok(secret),
+        Err(what) => Err(SnapshotError::WeakSecret { path: file.to_path_buf(), what }),
+    }
+}
+
+/// Reads the secret among the files of a release that was revealed, below the folder `root`.
 ///
 /// # Errors
 /// It cannot be read, or is no secret.
-pub fn read_secret(folder: &Path, file: &str) -> Result<Secret, SnapshotError> {
-    let bytes = folder::read(folder, file, SECRET_LIMIT)?;
-    serde_json::from_slice(&bytes)
-        .map_err(|source| SnapshotError::NotASecret { path: folder.join(file), source })
+pub(crate) fn read_revealed(root: &Path, file: &str) -> Result<Secret, SnapshotError> {
+    parse(&folder::read(root, file, SECRET_LIMIT)?, &folder::join(root, file))
+}
+
+fn parse(bytes: &[u8], file: &Path) -> Result<Secret, SnapshotError> {
+    let path = file.to_path_buf();
+    if bytes.len() as u64 > SECRET_LIMIT {
+        return Err(SnapshotError::TooLarge { path, limit: SECRET_LIMIT });
+    }
+    serde_json::from_slice(bytes).map_err(|source| SnapshotError::NotASecret { path, source })
 }
 
 /// Why a release is not revealed.
@@ -74,7 +200,8 @@ pub enum RevealError {
 }
 
 /// Joins the two parts of a sealed release, `public` and `held`, in a draft: the files of both, if they are exactly those under
-/// the root of the public manifest, and the secret is the one committed to. Returns that manifest.
+/// the root of the public manifest, the secret is the one committed to, and the witnesses were played under it; and the papers.
+/// Returns that manifest.
 ///
 /// Cost: one pass over the files, in pieces; memory in proportion to the manifest.
 ///
@@ -84,9 +211,11 @@ pub enum RevealError {
 pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, RevealError> {
     let integrity = check_integrity(public)?;
     let manifest = integrity.manifest;
-    let Some(commitment) = manifest.commitment else { return Err(RevealError::Open(manifest.name)) };
+    if manifest.commitment.is_none() {
+        return Err(RevealError::Open(manifest.name));
+    }
     let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
-    let listing = folder::list(held, &Limits::SNAPSHOT)?;
+    let listing = folder::list_but(held, &Limits::SNAPSHOT, &PASSED_OVER)?;
     problems.extend(listing.problems.iter().map(|problem| format!("{HELD}{problem}")));
     let there: BTreeSet<String> =
         listing.entries.iter().map(|entry| format!("{HELD}{}", entry.path)).collect();
@@ -117,13 +246,140 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
     }
     if problems.is_empty() {
         let file = SECRET_FILE.strip_prefix(HELD).expect("it is held");
-        if read_secret(held, file)?.commitment() != commitment {
-            problems.push(format!("{SECRET_FILE}: its seed and nonce are not those of the commitment"));
-        }
+        let secret = read_revealed(held, file)?;
+        problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
+        problems.extend(strangers(&secret, held, &awaited)?);
     }
     if !problems.is_empty() {
         return Err(RevealError::Problems(problems));
     }
+    for paper in &integrity.beside.papers {
+        draft.write(&paper.path, &folder::read(public, &paper.path, PAPERS_LIMITS.file_bytes)?)?;
+    }
     draft.write(MANIFEST_FILE, &manifest.to_bytes()?)?;
     Ok(manifest)
+}
+
+/// The witnesses among the held files whose chance does not come from the secret.
+fn strangers(secret: &Secret, held: &Path, files: &BTreeSet<&str>) -> Result<Vec<String>, SnapshotError> {
+    let mut problems = Vec::new();
+    for path in files.iter().filter(|path| **path != SECRET_FILE) {
+        let file = path.strip_prefix(HELD).expect("it is held");
+        let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
+        match serde_json::from_slice::<Witness>(&bytes) {
+            Ok(witness) if secret.leads_to(&witness) => {}
+            Ok(_) => problems.push(format!("{path}: {STRANGER}")),
+            Err(error) => problems.push(format!("{path}: not a witness: {error}")),
+        }
+    }
+    Ok(problems)
+}
+
+/// The fault of a witness that was not played under the release's secret.
+pub(crate) const STRANGER: &str = "its chance does not come from the release's secret";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn drawn() -> Secret {
+        Secret::draw("2027-01", Digest::of(b"recipe"), [7; 64])
+    }
+
+    #[test]
+    fn only_what_was_drawn_is_taken_for_a_secret() {
+        drawn().check().unwrap();
+        let check = |change: &dyn Fn(&mut Secret), expect: &str| {
+            let mut secret = drawn();
+            change(&mut secret);
+            let error = secret.check().unwrap_err();
+            assert!(error.contains(expect), "{error}");
+        };
+        let hex = |bytes: [u8; 32]| Digest::from_bytes(bytes);
+        let counted = hex(std::array::from_fn(|at| 131 + at as u8));
+        let twice = hex(std::array::from_fn(|at| ((at % 16) as u8).wrapping_mul(97) ^ 201));
+        let text = hex(*b"the quick brown fox jumps over a");
+        check(&|secret| secret.seed = "hunter2".to_owned(), "not 64 lower-case");
+        check(&|secret| secret.seed = secret.seed.to_uppercase(), "not 64 lower-case");
+        check(&|secret| secret.seed = "0".repeat(64), "`seed` has a pattern");
+        check(&|secret| secret.seed = "0123456789abcdef".repeat(4), "`seed` has a pattern");
+        for made_up in [counted, twice, text] {
+            check(&|secret| secret.seed = made_up.to_string(), "`seed` has a pattern");
+            check(&|secret| secret.nonce = made_up, "`nonce` has a pattern");
+        }
+        check(&|secret| secret.nonce = secret.seed.parse().unwrap(), "are the same");
+        check(&|secret| secret.recipe = None, "no `recipe`");
+    }
+
+    /// All that is drawn is taken.
+    #[test]
+    fn secrets_that_are_drawn_pass() {
+        for number in 0..20_000_u32 {
+            let mut chance = [0; 64];
+            chance[..4].copy_from_slice(&number.to_le_bytes());
+            chance[32..36].copy_from_slice(&number.to_le_bytes());
+            Secret::draw("x", Digest::of(b""), chance).check().unwrap();
+        }
+    }
+
+    #[test]
+    fn seed_nonce_and_recipe_are_all_committed_to() {
+        let secret = drawn();
+        let other = Digest::of(b"other");
+        for changed in [
+            Secret { seed: other.to_string(), ..secret.clone() },
+            Secret { nonce: other, ..secret.clone() },
+            Secret { recipe: Some(other), ..secret.clone() },
+            Secret { recipe: None, ..secret.clone() },
+        ] {
+            assert_ne!(changed.commitment(), secret.commitment(), "{changed:?}");
+        }
+        // The name is a label.
+        assert_eq!(Secret { name: "x".to_owned(), ..secret.clone() }.commitment(), secret.commitment());
+    }
+
+    /// Whoever guesses the seed has to guess the nonce too.
+    #[test]
+    fn games_come_from_the_nonce_too() {
+        let secret = drawn();
+        let other = Secret { nonce: Digest::of(b"other"), ..secret.clone() };
+        assert_ne!(secret.root_seed(), other.root_seed());
+        assert_ne!(secret.root_seed(), Seed::from_text(&secret.seed));
+    }
+
+    #[test]
+    fn the_whole_recipe_is_covered_but_what_follows_from_it() {
+        let recipe = json!({ "name": "a", "parent": null, "corpus": { "games": 1 } });
+        let digest = |change: &dyn Fn(&mut Value)| {
+            let mut changed = recipe.clone();
+            change(&mut changed);
+            committed(&changed).unwrap()
+        };
+        let same = digest(&|_| {});
+        for key in ["seed", "commitment", "known"] {
+            assert_eq!(digest(&|recipe| recipe[key] = json!("x")), same, "{key}");
+        }
+        assert_ne!(digest(&|recipe| recipe["parent"] = json!("x")), same);
+        assert_ne!(digest(&|recipe| recipe["corpus"]["games"] = json!(2)), same);
+        assert_ne!(digest(&|recipe| recipe["corpus"]["known"] = json!(2)), same);
+    }
+
+    /// The chance of a witness is found by its path, under one secret only.
+    #[test]
+    fn a_witness_belongs_to_one_secret() {
+        let secret = drawn();
+        let seed = secret.root_seed().child("search", 0).child("game", 3);
+        let text = json!({
+            "canary": "", "path": [["search", 0], ["game", 3]],
+            "episode": {
+                "game": Digest::of(b""), "level": Digest::of(b""), "seed": seed, "actions": [], "hashes": [],
+                "outcome": "won", "score": 0.0,
+            },
+        });
+        let witness: Witness = serde_json::from_value(text).unwrap();
+        assert!(secret.leads_to(&witness));
+        assert!(!Secret::draw("2027-01", Digest::of(b"recipe"), [8; 64]).leads_to(&witness));
+        assert!(!secret.leads_to(&Witness { path: Vec::new(), ..witness }));
+    }
 }

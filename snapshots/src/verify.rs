@@ -58,6 +58,10 @@ pub struct Verification {
     pub witnesses: Witnesses,
     /// Units of work that the replays took, see [`Bounds`]; at most the bound.
     pub work: u64,
+    /// Papers beside the release, which its root does not cover.
+    pub papers: usize,
+    /// What other programs left beside the release, by name; not looked at.
+    pub ignored: Vec<String>,
     /// All that is wrong, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,
     /// The manifest as stated.
@@ -90,20 +94,27 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     let is_sealed = manifest.kind == Kind::Sealed;
     let secret = if is_sealed && problems.is_empty() { contents.find(SECRET_FILE)? } else { None };
     let held = is_sealed && secret.is_none();
-    let committed = |secret: Vec<u8>| {
-        serde_json::from_slice(&secret)
-            .is_ok_and(|secret: Secret| Some(secret.commitment()) == manifest.commitment)
+    let secret = match secret.map(|bytes| serde_json::from_slice::<Secret>(&bytes)).transpose() {
+        Ok(secret) => secret,
+        Err(error) => {
+            problems.push(format!("{SECRET_FILE}: not a secret: {error}"));
+            None
+        }
     };
-    if secret.is_some_and(|secret| !committed(secret)) {
-        problems.push(format!("{SECRET_FILE}: its seed and nonce are not those of the commitment"));
+    if let Some(secret) = &secret {
+        problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
     }
     let mut games = Vec::new();
     let mut work = 0;
     if problems.is_empty() {
         let folders = namesakes(game_folders(&manifest, &mut problems));
         let meter = Meter::new(bounds.of(declared_levels(&manifest)));
-        let checker =
-            Checker { contents: &contents, manifest: &manifest, meter: same_semantics.then_some(&meter) };
+        let checker = Checker {
+            contents: &contents,
+            manifest: &manifest,
+            secret: secret.as_ref(),
+            meter: same_semantics.then_some(&meter),
+        };
         let checked: Vec<Vec<GameCheck>> =
             folders.par_iter().map(|folders| checker.namesakes(folders)).collect::<Result<_, _>>()?;
         games = checked.into_iter().flatten().collect();
@@ -129,6 +140,8 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     Ok(Verification {
         root: manifest.root,
         files: manifest.items.len(),
+        papers: integrity.beside.papers.len(),
+        ignored: integrity.beside.ignored,
         games: games.len(),
         levels,
         witnesses: match same_semantics {

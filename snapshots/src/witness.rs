@@ -11,4 +11,11 @@ pub struct Witness {
     pub canary: String,
     /// The episode; it replays to a win.
     pub episode: Episode,
+    /// How the episode's seed comes from the release's root seed, one [`Seed::child`](engine::Seed::child) after another: in
+    /// sealed releases, so that a revealed secret can be checked without minting. Empty in open ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub path: Vec<Step>,
 }
+
+/// A step from a seed to a child: purpose and index.
+pub type Step = (String, u64);

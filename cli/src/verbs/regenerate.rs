@@ -61,6 +61,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(draft) = draft {
         let manifest = result.minted.manifest.to_bytes().map_err(failure)?;
         draft.write(MANIFEST_FILE, &manifest).map_err(failure)?;
+        for (path, text) in result.minted.papers() {
+            draft.write(&path, text.as_bytes()).map_err(failure)?;
+        }
         draft.commit().map_err(failure)?;
     }
     let identical = result.differences.is_empty();

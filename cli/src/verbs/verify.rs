@@ -114,7 +114,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 fn say(verification: &Verification, args: &Args, console: &Console) {
-    let Verification { name, root, files, games, levels, witnesses, problems, .. } = verification;
+    let Verification { name, root, files, games, levels, witnesses, papers, ignored, problems, .. } =
+        verification;
     for problem in problems {
         console.say(one_line(problem));
     }
@@ -153,6 +154,12 @@ fn say(verification: &Verification, args: &Args, console: &Console) {
              it, or give it with --root"
         ),
     });
+    if *papers > 0 {
+        console.say(format_args!("papers: {papers} files, not covered by the root"));
+    }
+    if !ignored.is_empty() {
+        console.say(format_args!("ignored: {}", ignored.join(", ")));
+    }
 }
 
 fn say_chain(chain: &Chain, console: &Console) {

@@ -2,6 +2,7 @@
 
 use super::levels::{FoundLevel, FoundLevels};
 use crate::card::{Card, Origin};
+use crate::witness::Step;
 use engine::{Description, Episode, Game, syntax};
 use generators::GenerateError;
 use generators::games::GeneratedGame;
@@ -34,6 +35,8 @@ pub struct MadeGame {
     pub together: Vec<Judgement>,
     /// The episode that wins each level.
     pub witnesses: Vec<Episode>,
+    /// From the seed of the order to the one that the game's judges were given.
+    pub(crate) path: Vec<Step>,
 }
 
 impl Candidate {
@@ -76,7 +79,7 @@ impl Candidate {
             levels,
         };
         let FoundLevels { levels, together, .. } = found;
-        Some(MadeGame { text, game, card, levels, together, witnesses })
+        Some(MadeGame { text, game, card, levels, together, witnesses, path: Vec::new() })
     }
 }
 

@@ -7,6 +7,7 @@ use super::order::GameOrder;
 use crate::levels::Method;
 use crate::mint::Tally;
 use crate::striving::{Finalists, spread, strive};
+use crate::witness::Step;
 use engine::{Analysis, Game, Seed};
 use generators::games::{GameConfig, GameGenome, GameVariation, Kind};
 use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Variation};
@@ -156,8 +157,9 @@ impl Maker<'_> {
             for (at, genome) in (0..).zip(&proposed) {
                 let made = self.gate.judge(genome, attempt, seed.child("judges", at), &mut attempted.tally);
                 self.progress.looked();
-                if let Some(made) = made {
+                if let Some(mut made) = made {
                     self.progress.made(&made.card.title);
+                    made.path = path([("game", number.into()), ("attempt", attempt.into()), ("judges", at)]);
                     attempted.made = Some((made, attempt + 1));
                     return attempted;
                 }
@@ -237,9 +239,13 @@ impl Maker<'_> {
             let picked = spread(search.archive(), missing, &[], |_, _| false, &mut shown, GameGenome::key);
             let judge = |(cell, genome): &(usize, GameGenome)| {
                 let mut tally = Tally::default();
-                let seed = self.seed.child("judges", 0).child(&genome.key().to_string(), 0);
-                let made = self.gate.judge(genome, round, seed, &mut tally);
+                let key = genome.key().to_string();
+                let seed = self.seed.child("judges", 0).child(&key, 0);
+                let mut made = self.gate.judge(genome, round, seed, &mut tally);
                 self.progress.looked();
+                if let Some(made) = &mut made {
+                    made.path = path([("judges", 0), (&key, 0)]);
+                }
                 (*cell, made, tally)
             };
             let judged: Vec<_> = picked.par_iter().map(judge).collect();
@@ -260,6 +266,11 @@ impl Maker<'_> {
         }
         set
     }
+}
+
+/// Steps from seed to seed, with words of their own.
+fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
+    steps.into_iter().map(|(purpose, index)| (purpose.to_owned(), index)).collect()
 }
 
 /// The games of a set so far: no two are near, and none of the kinds is crowded.

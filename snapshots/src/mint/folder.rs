@@ -48,15 +48,18 @@ impl<'a, 'b> Folder<'a, 'b> {
 
     /// The files of a game.
     pub(super) fn game(&mut self, frozen: FrozenGame) -> Result<(), SnapshotError> {
-        let FrozenGame { text, mut card, levels, witnesses } = frozen;
+        let FrozenGame { text, mut card, levels, witnesses, paths } = frozen;
         let folder = format!("games/{}", card.id);
         card.canary = self.canary.clone();
         let text = marked(&syntax::parse(&text).0, &self.canary);
         self.file(format!("{folder}/game.vgdl"), text.as_bytes())?;
         self.file(format!("{folder}/card.json"), &json(&card)?)?;
-        for (number, (level, episode)) in levels.iter().zip(witnesses).enumerate() {
+        let won = levels.iter().zip(witnesses).zip(paths).enumerate();
+        for (number, ((level, episode), path)) in won {
             self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
-            let witness = Witness { canary: self.canary.clone(), episode };
+            // Of an open release the seed is known, and with it everything.
+            let path = if self.is_sealed { path } else { Vec::new() };
+            let witness = Witness { canary: self.canary.clone(), episode, path };
             let file = match self.is_sealed {
                 true => held_witness(&card.id, number),
                 false => format!("{folder}/witness/lvl{number}.json"),

@@ -2,8 +2,10 @@
 
 use super::tally::Tally;
 use crate::card::Card;
+use crate::games::FoundLevel;
 use crate::games::MadeGame;
-use engine::Episode;
+use crate::witness::Step;
+use engine::{Episode, Seed};
 use serde::{Deserialize, Serialize};
 
 /// The games of a lot: none, if nothing passed.
@@ -28,12 +30,67 @@ pub struct FrozenGame {
     pub levels: Vec<String>,
     /// The episode that wins each.
     pub witnesses: Vec<Episode>,
+    /// For each of these, the steps from the release's root seed to the episode's.
+    pub paths: Vec<Vec<Step>>,
 }
 
 impl FrozenGame {
-    pub(super) fn of(made: MadeGame) -> FrozenGame {
+    /// The game of a lot whose seed is at the end of `lot`, counted from the release's root.
+    pub(super) fn of(made: MadeGame, root: Seed, lot: &[Step]) -> FrozenGame {
+        let start: Vec<Step> = lot.iter().chain(&made.path).cloned().collect();
+        let won = made.levels.iter().zip(&made.witnesses);
+        let paths = won.map(|(found, witness)| path(root, &start, found, made.levels.len(), witness));
+        let paths = paths.map(Option::unwrap_or_default).collect();
         let MadeGame { text, card, levels, witnesses, .. } = made;
         let levels = levels.iter().map(|found| found.level.to_string()).collect();
-        FrozenGame { text, card, levels, witnesses }
+        FrozenGame { text, card, levels, witnesses, paths }
     }
 }
+
+/// The steps from the root seed to the episode that wins a level, of which `start` are known: which of `count` places it was made
+/// for, and which play of which judge won it. None if it was won in another way than those.
+fn path(
+    root: Seed,
+    start: &[Step],
+    found: &FoundLevel,
+    count: usize,
+    witness: &Episode,
+) -> Option<Vec<Step>> {
+    let step = |seed: Seed, (purpose, index): &Step| seed.child(purpose, *index);
+    let to = |steps: &[(&str, u64)]| -> Vec<Step> {
+        steps.iter().map(|&(purpose, index)| (purpose.to_owned(), index)).collect()
+    };
+    let find = |from: Seed, seed: Seed, mut ways: Box<dyn Iterator<Item = Vec<Step>>>| {
+        ways.find(|steps| steps.iter().fold(from, step) == seed)
+    };
+    let judges = start.iter().fold(root, step);
+    let candidate = found.candidate.into();
+    let places = (0..count as u64).map(move |place| to(&[("level", place), ("candidate", candidate)]));
+    let place = find(judges, found.seed, Box::new(places))?;
+    // Mostly the search for a win; where it found none, a win that another judge has seen.
+    let searched = (0..ROUNDS).flat_map(|round| (0..PLAYERS).map(move |player| (round, player)));
+    let searched = searched.map(move |(round, player)| {
+        to(&[("winnable", 0), ("round", round), ("play", player), ("chance", 0)])
+    });
+    let others = (0..PLAYS).flat_map(move |play| {
+        [
+            to(&[("skill", 0), ("chance", play)]),
+            to(&[("not-random", 0), ("random", play), ("chance", 0)]),
+            to(&[("not-idle", 0), ("idle", play)]),
+            to(&[("early-death", 0), ("chance", play)]),
+        ]
+    });
+    let proved = [to(&[("winnable", 0), ("systematic", 0)])].into_iter();
+    let asked = to(&[("judges", 0)]);
+    let won = find(
+        asked.iter().fold(found.seed, step),
+        witness.seed,
+        Box::new(proved.chain(searched).chain(others)),
+    )?;
+    Some(start.iter().cloned().chain(place).chain(asked).chain(won).collect())
+}
+
+/// Rounds and players of the search for a win ([`agents::solve`]), and plays of any other judge, at most.
+const ROUNDS: u64 = 20;
+const PLAYERS: u64 = 64;
+const PLAYS: u64 = 10_000;

@@ -178,7 +178,9 @@ pub fn lay_out(
     let mut folder = folder::Folder::new(plan, sink);
     for &taken in &taken {
         let Contender { lot: of, at, .. } = contenders[taken];
-        let game = lot(of)?.games.into_iter().nth(at);
+        // Without the way from the secret to its chance no witness could be checked when that is revealed.
+        let is_traced = |game: &FrozenGame| !(plan.is_sealed() && game.paths.iter().any(Vec::is_empty));
+        let game = lot(of)?.games.into_iter().nth(at).filter(is_traced);
         folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.lots()[of])))?)?;
     }
     let card = ReleaseCard::of(plan, &contenders, &taken, &folder.cards, tally);
@@ -265,6 +267,54 @@ mod tests {
             assert_eq!(origins, [&Origin::Corpus { name: "fetch".to_owned() }]);
         }
         assert!(first.contains(&Lot::Corpus(0)) && first.contains(&Lot::Corpus(1)), "{first:?}");
+    }
+
+    /// Else a sealed release could not show that its witnesses were played under its secret.
+    #[test]
+    fn every_way_of_making_games_leaves_a_way_from_the_seed_to_the_witness() {
+        let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n\
+            [generated]\ngames = 1\nlevels = 1\nleast_interactions = 3\nleast_mechanics = 1\n\
+            mix = { constructive = 1, search = 1, evolutionary = 1 }\ncandidates = 3.0\n[corpus]\ngames = 1\nlevels = 2\n\
+            [criteria]\nask = ['not-idle', 'not-random', 'winnable']\nbudget = 20000\n";
+        let recipe = Recipe::from_toml(text).unwrap();
+        let corpus = corpus(&[("fetch", FETCH)]);
+        let plan = Plan::new(&recipe, None, &corpus).unwrap();
+        let step = |seed: engine::Seed, (purpose, index): &crate::Step| seed.child(purpose, *index);
+        let mut kinds = std::collections::BTreeSet::new();
+        for &lot in plan.lots() {
+            for game in plan.make(lot).unwrap().games {
+                assert_eq!(game.paths.len(), game.witnesses.len());
+                for (path, witness) in game.paths.iter().zip(&game.witnesses) {
+                    assert_eq!(path.iter().fold(plan.seed, step), witness.seed, "{path:?}");
+                    kinds.insert(path[0].0.clone());
+                }
+            }
+        }
+        assert_eq!(kinds.into_iter().collect::<Vec<_>>(), ["archive", "constructive", "corpus", "search"]);
+    }
+
+    /// What a dry run says is what was measured, which the page tells; a quarter more or less.
+    #[test]
+    fn estimates_are_near_to_what_was_measured() {
+        let page = include_str!("../../../docs/recipes.md");
+        let (_, rows) = page.split_once("| recipe | measured, in seconds of one core |").unwrap();
+        let measured = |name: &str| -> f64 {
+            let row = rows.lines().find_map(|row| row.strip_prefix(&format!("| `{name}` | "))).unwrap();
+            row.split(' ').next().unwrap().parse().unwrap()
+        };
+        let names: Vec<String> = (0..28).map(|number| format!("game-{number}")).collect();
+        let games: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), FETCH)).collect();
+        let corpus = corpus(&games);
+        for (name, text) in [
+            ("tiny", include_str!("../../../seeds/tiny.toml")),
+            ("starter", include_str!("../../../seeds/starter.toml")),
+            ("medium", include_str!("../../../seeds/medium.toml")),
+        ] {
+            let recipe = Recipe::from_toml(text).unwrap();
+            let plan = Plan::new(&recipe, None, &corpus).unwrap();
+            let ratio = plan.seconds(plan.lots()) / measured(name);
+            assert!((0.75..=1.25).contains(&ratio), "{name}: {ratio} of what was measured");
+        }
     }
 
     #[test]

@@ -11,6 +11,7 @@ use crate::games::{Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGam
 use crate::levels::Method;
 use crate::recipe::Recipe;
 use crate::sealed::Secret;
+use crate::witness::Step;
 use crate::{Digest, SnapshotError, canary};
 use engine::{Game, Level, Sampler, Seed, syntax};
 use generators::games::Retold;
@@ -50,6 +51,13 @@ pub enum Lot {
 /// smaller, so that one keeps its games when a recipe asks for more candidates.
 const ISLAND: u32 = 4;
 
+/// Seconds of one core for each level that a lot is asked for: without `skill` as `starter` has it, with `skill` as `medium`.
+/// Those of archives and searches without `skill` are guessed.
+const ARCHIVE: (f64, f64) = (4.0, 6.25);
+const SEARCH: (f64, f64) = (4.0, 6.7);
+const CONSTRUCTIVE: (f64, f64) = (1.44, 3.77);
+const CORPUS: (f64, f64) = (0.57, 0.72);
+
 impl<'a> Plan<'a> {
     /// The lots of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of milliseconds.
     ///
@@ -73,6 +81,11 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
+    /// Name of the release.
+    pub fn name_of_release(&self) -> &str {
+        &self.recipe.name
+    }
+
     /// Whether seed and witnesses are held back.
     pub fn is_sealed(&self) -> bool {
         self.recipe.commitment.is_some()
@@ -91,20 +104,24 @@ impl<'a> Plan<'a> {
             .collect()
     }
 
-    /// What lots cost together, roughly, in seconds of one core: as was measured with the default players, of which more plays
-    /// cost more.
+    /// What lots cost together, roughly, in seconds of one core of the machine that docs/recipes.md tells of.
     pub fn seconds(&self, lots: &[Lot]) -> f64 {
-        let usual = Criteria::default().ladder_plays as f64;
-        let played = |criteria: &Criteria| match criteria.asks("skill") {
-            true => 0.15 + 0.85 * criteria.ladder_plays as f64 / usual,
-            false => 0.15,
+        let usual = Criteria::default();
+        let of = |(plain, skill): (f64, f64), levels: u32, criteria: &Criteria| {
+            // Decisions are about a third of what the other judges cost.
+            let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
+            let played = match criteria.asks("skill") {
+                true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
+                false => 0.0,
+            };
+            f64::from(levels) * (plain * thought + (skill - plain) * played)
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
         let cost = |lot: &Lot| match *lot {
-            Lot::Archive(_) => 7.0 * f64::from(ISLAND * new) * played(&self.recipe.criteria),
-            Lot::Search(_) => 6.0 * f64::from(new) * played(&self.recipe.criteria),
-            Lot::Constructive(_) => 5.5 * f64::from(new) * played(&self.recipe.criteria),
-            Lot::Corpus(_) => 3.0 * f64::from(old) * played(self.corpus_criteria()),
+            Lot::Archive(_) => of(ARCHIVE, ISLAND * new, &self.recipe.criteria),
+            Lot::Search(_) => of(SEARCH, new, &self.recipe.criteria),
+            Lot::Constructive(_) => of(CONSTRUCTIVE, new, &self.recipe.criteria),
+            Lot::Corpus(_) => of(CORPUS, old, self.corpus_criteria()),
         };
         lots.iter().map(cost).sum()
     }
@@ -190,16 +207,15 @@ impl<'a> Plan<'a> {
     /// The criteria are not sensible.
     pub fn make(&self, lot: Lot) -> Result<LotResult, MintError> {
         let part = &self.recipe.generated;
+        let steps = self.steps(lot);
+        let seed = steps.iter().fold(self.seed, |seed, (purpose, index)| seed.child(purpose, *index));
         let (games, tally) = match lot {
-            Lot::Corpus(at) => self.new_levels(at),
-            Lot::Constructive(number) => {
-                self.one(Method::Constructive, number, self.seed.child("constructive", 0))
-            }
-            Lot::Search(number) => self.one(Method::Search, number, self.seed.child("search", 0)),
-            Lot::Archive(number) => {
+            Lot::Corpus(at) => self.new_levels(at, seed),
+            Lot::Constructive(number) => self.one(Method::Constructive, number, seed),
+            Lot::Search(number) => self.one(Method::Search, number, seed),
+            Lot::Archive(_) => {
                 let order =
                     GameOrder { count: ISLAND, ..self.order(Method::Evolutionary, part.game_tries / 8) };
-                let seed = self.seed.child("archive", u64::from(number));
                 match make_games(&order, &self.forms, "", seed, &()) {
                     Ok(set) => (set.games, set.tally),
                     Err(GamesError::NoneAccepted { tally, .. }) => (Vec::new(), *tally),
@@ -207,7 +223,19 @@ impl<'a> Plan<'a> {
                 }
             }
         };
-        Ok(LotResult { games: games.into_iter().map(FrozenGame::of).collect(), tally })
+        let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps));
+        Ok(LotResult { games: games.collect(), tally })
+    }
+
+    /// From the root seed to that of a lot, or of the lots of its kind where each counts its own.
+    fn steps(&self, lot: Lot) -> Vec<Step> {
+        let step = |purpose: &str, index: u32| (purpose.to_owned(), u64::from(index));
+        match lot {
+            Lot::Corpus(at) => vec![step("corpus", 0), step(&self.corpus.games[at].name, 0)],
+            Lot::Constructive(_) => vec![step("constructive", 0)],
+            Lot::Search(_) => vec![step("search", 0)],
+            Lot::Archive(number) => vec![step("archive", number)],
+        }
     }
 
     /// What levels of corpus games must show.
@@ -240,10 +268,9 @@ impl<'a> Plan<'a> {
     }
 
     /// A corpus game in a fresh fiction, with new levels like its own.
-    fn new_levels(&self, at: usize) -> (Vec<MadeGame>, Tally) {
+    fn new_levels(&self, at: usize, seed: Seed) -> (Vec<MadeGame>, Tally) {
         let (recipe, known) = (self.recipe, &self.corpus.games[at]);
         let mut tally = Tally::default();
-        let seed = self.seed.child("corpus", 0).child(&known.name, 0);
         let Ok(retold) = Retold::of(&self.games[at], seed.child("fiction", 0)) else {
             tally.game_rejected("no fiction fits");
             return (Vec::new(), tally);
@@ -276,9 +303,12 @@ impl<'a> Plan<'a> {
                 panel: &panel,
                 seed: seed.child("levels", u64::from(number)),
             };
-            levels.find(&candidate.game, &mut tally)
+            Some((number, levels.find(&candidate.game, &mut tally)?))
         });
-        let made = found.and_then(|found| candidate.finish(found, ""));
+        let made = found.and_then(|(number, found)| {
+            let path = vec![("levels".to_owned(), u64::from(number))];
+            Some(MadeGame { path, ..candidate.finish(found, "")? })
+        });
         if made.is_some() {
             tally.game_accepted();
         }

@@ -52,6 +52,8 @@ pub struct LotFolder {
     plan: Digest,
     /// Whether the folder says so.
     is_marked: Mutex<bool>,
+    /// Whether lots are for their owner alone.
+    is_secret: bool,
 }
 
 /// Tells whose lots these are, so that those of another recipe are not thrown away.
@@ -84,7 +86,34 @@ impl LotFolder {
             Err(error) if error.kind() == ErrorKind::NotFound => false,
             Err(error) => return Err(SnapshotError::io("read", &whose)(error)),
         };
-        Ok(LotFolder { folder: folder.to_path_buf(), plan, is_marked: Mutex::new(is_marked) })
+        let is_marked = Mutex::new(is_marked);
+        Ok(LotFolder { folder: folder.to_path_buf(), plan, is_marked, is_secret: false })
+    }
+
+    /// Keeps the lots to their owner: for sealed releases.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn keep_secret(&mut self) -> Result<(), SnapshotError> {
+        #[cfg(unix)]
+        {
+            let owner = std::os::unix::fs::PermissionsExt::from_mode(0o700);
+            fs::set_permissions(&self.folder, owner).map_err(SnapshotError::io("protect", &self.folder))?;
+        }
+        self.is_secret = true;
+        Ok(())
+    }
+
+    /// Whether each of the lots with these names is in a folder, which may be absent and is left as it is.
+    ///
+    /// # Errors
+    /// The folder has lots of another plan, or the file system refuses.
+    pub fn there(folder: &Path, plan: Digest, names: &[String]) -> Result<Vec<bool>, SnapshotError> {
+        if !folder.exists() {
+            return Ok(vec![false; names.len()]);
+        }
+        let shelf = LotFolder::open(folder, plan)?;
+        names.iter().map(|name| Ok(shelf.get(name)?.is_some())).collect()
     }
 
     /// Before the first lot: says whose it is.
@@ -101,7 +130,13 @@ impl LotFolder {
     fn write(&self, path: &Path, text: &str) -> Result<(), SnapshotError> {
         let fresh = path.with_extension("new");
         let write = || {
-            let mut file = File::create(&fresh)?;
+            let mut options = File::options();
+            options.write(true).create(true).truncate(true);
+            #[cfg(unix)]
+            if self.is_secret {
+                std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+            }
+            let mut file = options.open(&fresh)?;
             file.write_all(text.as_bytes())?;
             file.sync_all()?;
             fs::rename(&fresh, path)
@@ -176,7 +211,7 @@ mod tests {
         let other = LotFolder::open(home.path(), Digest::of(b"other"));
         assert!(matches!(other, Err(SnapshotError::OtherPlan { .. })), "{other:?}");
         let (folder, is_marked) = (home.path().to_path_buf(), Mutex::new(true));
-        let other = LotFolder { folder, plan: Digest::of(b"other"), is_marked };
+        let other = LotFolder { folder, plan: Digest::of(b"other"), is_marked, is_secret: false };
         assert_eq!(other.get("a").unwrap(), None);
         let path = home.path().join("a.json");
         let text = fs::read_to_string(&path).unwrap();

@@ -5,7 +5,7 @@ use super::replay::{Meter, Replayed, replay};
 use crate::card::{Card, Origin};
 use crate::contents::Contents;
 use crate::manifest::{Kind, Manifest};
-use crate::sealed::held_witness;
+use crate::sealed::{STRANGER, Secret, held_witness};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
 use engine::Game;
@@ -37,6 +37,8 @@ pub(super) struct GameCheck {
 pub(super) struct Checker<'a> {
     pub(super) contents: &'a Contents,
     pub(super) manifest: &'a Manifest,
+    /// The secret of a sealed release that was revealed.
+    pub(super) secret: Option<&'a Secret>,
     /// None: the witnesses are of other semantics.
     pub(super) meter: Option<&'a Meter>,
 }
@@ -160,6 +162,9 @@ impl Checker<'_> {
             match witness.map(|text| serde_json::from_str::<Witness>(&text)) {
                 Some(Ok(witness)) if witness.canary != *canary => {
                     wrong(&witness_file, "its canary is not the release's".to_owned());
+                }
+                Some(Ok(witness)) if self.secret.is_some_and(|secret| !secret.leads_to(&witness)) => {
+                    wrong(&witness_file, STRANGER.to_owned());
                 }
                 Some(Ok(Witness { episode, .. })) => {
                     let told = (level_card.witness_ticks, level_card.witness_score);

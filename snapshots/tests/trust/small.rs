@@ -68,9 +68,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
     let mark = canary(&Digest::of(&json(&recipe)));
     let game = Game::from_source(GAME).expect("a game");
     let level = game.level(&tunnel(name)).expect("a level");
-    let (mut episode, mut state) = Episode::begin(&game, &level, Seed::from_text("small"));
-    while episode.play(&game, &mut state, Action::Right) == Outcome::Ongoing {}
-    assert_eq!(episode.outcome, Outcome::Won);
+    let episode = won(name, Seed::from_text("small"));
     let interval = wilson(0, 8, Z95);
     let never =
         Rate { wins: 0, plays: 8, interval: [interval.low, interval.high], calls: 0, mean_score: 0.0 };
@@ -144,7 +142,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
         (format!("games/{id}/card.json"), json(&card)),
         (format!("games/{id}/game.vgdl"), format!("# {mark}\n{GAME}").into_bytes()),
         (format!("games/{id}/lvl0.txt"), tunnel(name).into_bytes()),
-        (format!("games/{id}/witness/lvl0.json"), json(&Witness { canary: mark.clone(), episode })),
+        (format!("games/{id}/witness/lvl0.json"), json(&witness(&mark, episode, &[]))),
     ];
     let mut manifest = Manifest {
         format: FORMAT,
@@ -164,6 +162,22 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
     };
     manifest.seal_root().expect("distinct paths");
     Small { manifest, files }
+}
+
+/// The episode that wins the level of the release of this name, under this seed.
+pub(crate) fn won(name: &str, seed: Seed) -> Episode {
+    let game = Game::from_source(GAME).expect("a game");
+    let level = game.level(&tunnel(name)).expect("a level");
+    let (mut episode, mut state) = Episode::begin(&game, &level, seed);
+    while episode.play(&game, &mut state, Action::Right) == Outcome::Ongoing {}
+    assert_eq!(episode.outcome, Outcome::Won);
+    episode
+}
+
+/// A witness file.
+pub(crate) fn witness(mark: &str, episode: Episode, path: &[(&str, u64)]) -> Witness {
+    let path = path.iter().map(|&(purpose, index)| (purpose.to_owned(), index)).collect();
+    Witness { canary: mark.to_owned(), episode, path }
 }
 
 impl Small {
@@ -192,7 +206,7 @@ impl Small {
     }
 }
 
-fn json(value: &impl Serialize) -> Vec<u8> {
+pub(crate) fn json(value: &impl Serialize) -> Vec<u8> {
     to_canonical_json(value).expect("plain data").into_bytes()
 }
 

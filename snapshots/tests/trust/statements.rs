@@ -1,12 +1,16 @@
 //! What a release says of itself, by a forger who states the digests of what is there.
 
-use crate::small::{Small, home, small};
+use crate::small::{Small, home, json, small, witness, won};
 use engine::Digest;
 use serde_json::json;
 use snapshots::canonical::to_canonical_json;
 use snapshots::export::{Export, Format, export};
 use snapshots::released::Released;
-use snapshots::{Bounds, Kind, SECRET_FILE, Secret, Verification, Witnesses, canary, verify, verify_within};
+use snapshots::{
+    Bounds, COVERING, Draft, Kind, SECRET_FILE, Secret, Verification, Witnesses, canary, reveal, verify,
+    verify_within,
+};
+use std::fs;
 
 /// The file at the path that ends so, changed.
 fn change(release: &mut Small, end: &str, change: impl Fn(String) -> String) {
@@ -73,22 +77,73 @@ fn cards_tell_of_the_episode_that_wins() {
     );
 }
 
+/// A secret for the release `2026-12`, whose recipe says nothing but its name.
+fn secret(chance: u8) -> Secret {
+    let recipe = Digest::of(&json(&json!({ "name": "2026-12" })));
+    Secret::draw("2026-12", recipe, [chance; 64])
+}
+
 /// The same release sealed: its secret and witness are held back, or there.
 fn seal(release: &mut Small) {
-    let secret = Secret::draw("2026-12", [7; 64]);
+    seal_with(release, &secret(7), &secret(7));
+}
+
+/// Sealed with one secret, and its witness played under another.
+fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
     let mark = canary(&secret.commitment());
     let old = std::mem::replace(&mut release.manifest.canary, mark.clone());
     release.manifest.kind = Kind::Sealed;
     release.manifest.commitment = Some(secret.commitment());
     release.manifest.recipe = json!({ "name": "2026-12", "commitment": secret.commitment() });
+    let episode = won("2026-12", played.root_seed().child("search", 0).child("play", 3));
     for (path, content) in &mut release.files {
         *content = String::from_utf8(content.clone()).expect("a text").replace(&old, &mark).into_bytes();
+        if path.contains("/witness/") {
+            *content = json(&witness(&mark, episode.clone(), &[("search", 0), ("play", 3)]));
+        }
         if let Some((game, level)) = path.clone().split_once("/witness/") {
             *path = format!("held/{}/{level}", game.trim_start_matches("games/"));
         }
     }
-    let text = serde_json::to_vec(&secret).expect("plain data");
-    release.files.push((SECRET_FILE.to_owned(), text));
+    release.files.push((SECRET_FILE.to_owned(), json(secret)));
+}
+
+/// A secret that has nothing to do with the games, a recipe that was changed after it was committed to, a secret that was made
+/// up: each is told without minting again.
+#[test]
+fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
+    check(
+        |release| seal_with(release, &secret(7), &secret(8)),
+        &["lvl0.json: its chance does not come from the release's secret"],
+    );
+    check(
+        |release| {
+            seal(release);
+            release.manifest.recipe["corpus"] = json!({ "games": 3 });
+        },
+        &["held/secret.json: the manifest's recipe is not the one that was committed to"],
+    );
+    let made_up = Secret { seed: "hunter2".to_owned(), ..secret(7) };
+    check(
+        |release| seal_with(release, &made_up, &made_up),
+        &["held/secret.json: its `seed` is not 64 lower-case hexadecimal digits"],
+    );
+    let pair = Secret { recipe: None, ..secret(7) };
+    check(
+        |release| {
+            seal_with(release, &pair, &pair);
+            release.manifest.generation = COVERING;
+        },
+        &["held/secret.json: it names no recipe"],
+    );
+    // As releases of earlier generations were sealed.
+    check(
+        |release| {
+            seal_with(release, &pair, &secret(8));
+            release.manifest.generation = COVERING - 1;
+        },
+        &[],
+    );
 }
 
 #[test]
@@ -117,6 +172,33 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
         },
         &["its `commitment` is not that of its recipe"],
     );
+}
+
+/// What is told of a release that is there is told before it is: the two parts are joined only if they belong together.
+#[test]
+fn two_parts_that_do_not_belong_together_are_not_joined() {
+    let joined = |secret: &Secret, played: &Secret, change: &dyn Fn(&mut Small)| {
+        let home = home();
+        let mut release = small("2026-12", None);
+        seal_with(&mut release, secret, played);
+        change(&mut release);
+        release.files.sort();
+        release.seal();
+        let whole = release.write_in(&home);
+        let (held, out) = (home.path().join("held"), home.path().join("out"));
+        fs::rename(whole.join("held"), &held).expect("moved");
+        reveal(&whole, &held, &Draft::create(&out).expect("vacant")).map_err(|error| error.to_string())
+    };
+    assert!(joined(&secret(7), &secret(7), &|_| {}).is_ok());
+    let refused = |secret: &Secret, played: &Secret, change: &dyn Fn(&mut Small), words: &str| {
+        let error = joined(secret, played, change).expect_err(words);
+        assert!(error.contains(words), "{error}");
+    };
+    refused(&secret(7), &secret(8), &|_| {}, "its chance does not come from the release's secret");
+    let other = |release: &mut Small| release.manifest.recipe["board"] = json!({ "rows": [5, 6] });
+    refused(&secret(7), &secret(7), &other, "the manifest's recipe is not the one that was committed to");
+    let made_up = Secret { seed: "hunter2".to_owned(), ..secret(7) };
+    refused(&made_up, &made_up, &|_| {}, "is not 64 lower-case hexadecimal digits");
 }
 
 #[test]

@@ -193,7 +193,8 @@ fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     for (number, (level, episode)) in made.levels.iter().zip(&made.witnesses).enumerate() {
         let text = level.level.to_string();
         draft.write(&format!("{folder}/lvl{number}.txt"), text.as_bytes()).map_err(failure)?;
-        let witness = Witness { canary: made.card.canary.clone(), episode: episode.clone() };
+        let witness =
+            Witness { canary: made.card.canary.clone(), episode: episode.clone(), path: Vec::new() };
         draft.write(&format!("{folder}/witness/lvl{number}.json"), &pretty(&witness)?).map_err(failure)?;
     }
     Ok(())

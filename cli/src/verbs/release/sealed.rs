@@ -1,24 +1,34 @@
 //! Sealed releases: committing to a secret, and revealing it.
 
+use super::{find_recipe, follow_parent, is_file};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::shell;
 use crate::verbs::verify::failure;
 use serde_json::json;
-use snapshots::{Draft, Recipe, RevealError, Secret, read_secret};
+use snapshots::{Draft, MANIFEST_FILE, Recipe, RevealError, Secret, read_secret};
+use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Draws a secret and writes it to a file that only its owner reads.
-pub(super) fn commit(recipe: &str, out: Option<&Path>, console: &Console) -> Answer {
-    let name = Path::new(recipe).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let name = name.filter(|name| !name.is_empty()).ok_or_else(|| Failure::malformed("name the release"))?;
+/// Draws a secret for a recipe and writes it to a file that only its owner reads.
+pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, console: &Console) -> Answer {
+    let mut recipe = find_recipe(file, Recipe::to_commit)?;
+    if let Some(parent) = parent {
+        follow_parent(&mut recipe, parent)?;
+    }
+    let name = &recipe.name;
     let out = out.map_or_else(|| PathBuf::from(format!("{name}.secret.json")), Path::to_path_buf);
     let chance =
-        entropy().map_err(|error| Failure::environment(error, "no chance to be had from the system"))?;
-    let secret = Secret::draw(&name, chance);
+        entropy().map_err(|error| Failure::surroundings(error, "no chance to be had from the system"))?;
+    let secret = Secret::draw(name, recipe.committed(), chance);
+    secret
+        .check()
+        .map_err(|what| Failure::malformed(format!("the secret that was drawn: {what}; draw again")))?;
     let commitment = secret.commitment();
     let text = serde_json::to_string_pretty(&secret).expect("a secret is plain data");
+    let shown = out.display().to_string();
     let write = || {
         let mut options = OpenOptions::new();
         options.write(true).create_new(true);
@@ -28,20 +38,32 @@ pub(super) fn commit(recipe: &str, out: Option<&Path>, console: &Console) -> Ans
     };
     write().map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => Failure::malformed(format!(
-            "`{}` exists: a secret is never overwritten; choose another --out",
-            out.display()
+            "`{shown}` exists: a secret is never overwritten; choose another --out",
         )),
-        _ => Failure::environment(error, format!("cannot write `{}`", out.display())),
+        _ => Failure::surroundings(error, format!("cannot write `{shown}`")),
     })?;
-    console.document(&json!({ "name": name, "commitment": commitment, "secret": out }))?;
+    console.document(&json!({
+        "name": name, "commitment": commitment, "recipe": recipe.committed(), "secret": shown,
+    }))?;
+    // What the binary carries cannot be changed: it is copied to a file first.
+    let copy = (!is_file(file)).then(|| PathBuf::from(format!("{}.toml", file.display())));
+    if let Some(copy) = &copy {
+        let show = shell::command([OsStr::new("recipes"), OsStr::new("show"), file.as_os_str()]);
+        console.say(format_args!("copy the recipe:  {show} > {}", shell::quoted(copy)));
+    }
+    let recipe = copy.as_deref().unwrap_or(file);
+    let mut mint: Vec<&OsStr> = vec!["release".as_ref(), recipe.as_ref(), "--secret".as_ref(), out.as_ref()];
+    if let Some(parent) = parent {
+        mint.extend(["--parent".as_ref(), parent.as_os_str()]);
+    }
     console.say(format_args!(
-        "in the recipe of `{name}`, in the place of `seed`:\n\n    commitment = \"{commitment}\"\n"
+        "in {}, in the place of `seed`:\n\n    commitment = \"{commitment}\"\n",
+        recipe.display()
     ));
-    console.say(format_args!("mint it with:  arcade release {recipe} --secret {}", out.display()));
-    console.say(format_args!(
-        "keep {} to yourself, and keep it: without it the release cannot be minted",
-        out.display()
-    ));
+    console.say("change nothing else there: the whole recipe is committed to");
+    console.say(format_args!("mint it with:  {}", shell::command(mint)));
+    console
+        .say(format_args!("keep {shown} to yourself, and keep it: without it the release cannot be minted",));
     Ok(true)
 }
 
@@ -59,29 +81,54 @@ fn entropy() -> std::io::Result<[u8; 64]> {
 
 /// Reads a secret.
 pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
-    let parent = file.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
-    let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    read_secret(parent, &name).map_err(failure)
+    read_secret(file).map_err(failure)
 }
 
 /// Joins the two parts.
-pub(super) fn reveal(public: &Path, held: &Path, out: Option<&Path>, console: &Console) -> Answer {
-    let Some(out) = out else {
-        return Err(Failure::malformed("--reveal needs --out: a folder for the whole release"));
+pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, console: &Console) -> Answer {
+    let usage = "arcade release PUBLIC --reveal HELD --out DIR";
+    let Some(public) = public else {
+        let help =
+            format!("--reveal needs the public folder of the release besides what was held back: {usage}");
+        return Err(Failure::malformed(help));
     };
+    let Some(out) = out else {
+        return Err(Failure::malformed(format!(
+            "--reveal needs --out, a folder for the whole release: {usage}"
+        )));
+    };
+    // Both parts lie in one folder, so that this is named in their place.
+    for (folder, part, file) in [(public, "public", MANIFEST_FILE), (held, "held", "secret.json")] {
+        if folder.join(file).exists() {
+            continue;
+        }
+        let inside = folder.join(part);
+        let help = match inside.join(file).exists() {
+            true => format!("did you mean {}?", shell::quoted(&inside)),
+            false => format!("name the folder `{part}` that the release was minted into: {usage}"),
+        };
+        let folder = folder.display();
+        return Err(Failure::malformed(format!(
+            "`{folder}` is not the {part} part of a sealed release, as it has no {file}; {help}"
+        )));
+    }
     let draft = Draft::create(out).map_err(failure)?;
+    let place = out.display().to_string();
     match snapshots::reveal(public, held, &draft) {
         Ok(manifest) => {
             draft.commit().map_err(failure)?;
-            console
-                .document(&json!({ "revealed": true, "out": out, "root": manifest.root, "problems": [] }))?;
+            console.document(
+                &json!({ "revealed": true, "out": place, "root": manifest.root, "problems": [] }),
+            )?;
             console.say(format_args!(
-                "{}: revealed; seed, nonce and every file are those committed to",
+                "{}: revealed; seed, nonce, recipe and every file are those committed to",
                 manifest.name
             ));
-            console.say(format_args!("root {}\nin   {}", manifest.root, out.display()));
-            console.say(format_args!("check it:       arcade verify {}", out.display()));
-            console.say(format_args!("mint it again:  arcade regenerate {}", out.display()));
+            console.say(format_args!("root {}\nin   {place}", manifest.root));
+            let command = |verb: &str| shell::command([OsStr::new(verb), out.as_os_str()]);
+            console.say(format_args!("check it:       {}", command("verify")));
+            console.say(format_args!("mint it again:  {}", command("regenerate")));
+            console.say("that the games come from the seed is proved by minting them again, by nothing less");
             Ok(true)
         }
         Err(RevealError::Problems(problems)) => {
@@ -93,18 +140,6 @@ pub(super) fn reveal(public: &Path, held: &Path, out: Option<&Path>, console: &C
         Err(RevealError::Snapshot(error)) => Err(failure(error)),
         Err(other) => Err(Failure::Malformed(other.into())),
     }
-}
-
-/// What can be told of a sealed release without its secret.
-pub(super) fn outline(recipe: &Recipe, console: &Console) -> Answer {
-    console.document(&json!({ "recipe": recipe }))?;
-    let games = recipe.generated.games + recipe.corpus.games;
-    console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
-    console.say(format_args!(
-        "would mint {games} games with {} levels, sealed; give --secret FILE for the plan",
-        recipe.levels()
-    ));
-    Ok(true)
 }
 
 #[cfg(test)]

@@ -1,0 +1,28 @@
+//! Commands that messages propose, to be pasted into a shell.
+
+use std::ffi::OsStr;
+
+/// An argument as a shell takes it: quoted if it holds a blank or anything else that a shell reads as its own. What is not
+/// Unicode is shown approximately.
+pub(crate) fn quoted(argument: impl AsRef<OsStr>) -> String {
+    let text = argument.as_ref().to_string_lossy();
+    shlex::try_quote(&text).map_or_else(|_| text.replace('\0', ""), |quoted| quoted.into_owned())
+}
+
+/// A command line of these arguments, `arcade` first.
+pub(crate) fn command<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> String {
+    let arguments = arguments.into_iter().map(quoted);
+    ["arcade".to_owned()].into_iter().chain(arguments).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_shell_would_tear_apart_is_quoted() {
+        assert_eq!(command(["verify", "releases/tiny"]), "arcade verify releases/tiny");
+        let line = command(["verify", "my games/it's $HOME"]);
+        assert_eq!(shlex::split(&line).unwrap(), ["arcade", "verify", "my games/it's $HOME"]);
+    }
+}

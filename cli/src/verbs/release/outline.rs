@@ -1,0 +1,119 @@
+//! `arcade release --dry-run`: what would be minted, and what it would cost.
+
+use super::mint_failure;
+use crate::console::Console;
+use crate::failure::Answer;
+use crate::verbs::verify::failure;
+use serde_json::json;
+use snapshots::mint::{Lot, LotFolder, MintError, Plan};
+use snapshots::{Draft, Recipe, SnapshotError, check_vacant};
+use std::path::Path;
+
+/// What would be minted, or, with `resume`, what is left to be.
+pub(super) fn outline(
+    plan: &Plan<'_>,
+    lots: &[Lot],
+    recipe: &Recipe,
+    out: &Path,
+    resume: bool,
+    console: &Console,
+) -> Answer {
+    let (old, new) = (&recipe.corpus, &recipe.generated);
+    let names: Vec<String> = lots.iter().map(|&lot| plan.name(lot)).collect();
+    let made = made(plan, &names, out)?;
+    let left: Vec<Lot> = match resume {
+        true => lots.iter().zip(&made).filter(|(_, made)| !**made).map(|(&lot, _)| lot).collect(),
+        false => lots.to_vec(),
+    };
+    let seconds = plan.seconds(&left);
+    let range = spread(seconds);
+    let place = out.display().to_string();
+    let taken = check_vacant(out).err();
+    let there = made.iter().filter(|made| **made).count();
+    console.document(&json!({
+        "recipe": recipe, "out": place, "lots": names, "lots_made": there, "core_minutes": seconds / 60.0,
+        "core_seconds": [range.0, range.1], "out_is_taken": taken.is_some(),
+    }))?;
+    console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
+    if new.games > 0 {
+        console.say(format_args!("would mint {} new games of {} levels", new.games, new.levels));
+    }
+    if old.games > 0 {
+        let would = if new.games > 0 { "and" } else { "would mint" };
+        console.say(format_args!("{would} {} new levels for each of {} corpus games", old.levels, old.games));
+    }
+    if !recipe.difficulty.is_empty() {
+        let shares = plan.histogram().into_iter().map(|(label, levels)| format!("{label} {levels}"));
+        console
+            .say(format_args!("with levels of each difficulty: {}", shares.collect::<Vec<_>>().join(", ")));
+    }
+    let goals = recipe.goal_quotas().into_iter().map(|(goal, quota)| (goal.name(), quota));
+    let avatars = recipe.avatar_quotas().into_iter().map(|(avatar, quota)| (avatar.name(), quota));
+    let quotas: Vec<String> =
+        goals.chain(avatars).map(|(name, (least, most))| format!("{name} {least} to {most}")).collect();
+    if !quotas.is_empty() {
+        console.say(format_args!("with games of each kind: {}", quotas.join(", ")));
+    }
+    console.say(format_args!("chosen from the candidates of {} lots", lots.len()));
+    if resume {
+        console.say(format_args!("of which {there} are made and {} are left", left.len()));
+    }
+    console.say(format_args!(
+        "in {} of one core; up to twice that where the cores are busy with other work",
+        words(range)
+    ));
+    console.say(format_args!("into {place}"));
+    match taken {
+        Some(SnapshotError::Occupied { .. }) => {
+            console.say(format_args!("which is taken: minting needs another --out, or it removed"));
+        }
+        Some(other) => return Err(failure(other)),
+        None if there > 0 && !resume => {
+            console.say(format_args!(
+                "where an interrupted mint has made {there} of the lots: go on with it by --resume"
+            ));
+        }
+        None => {}
+    }
+    Ok(true)
+}
+
+/// Which of the lots an interrupted mint has made.
+fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crate::failure::Failure> {
+    let Some(folder) = Draft::lots_of(out) else { return Ok(vec![false; names.len()]) };
+    let digest = plan.digest().map_err(failure)?;
+    match LotFolder::there(&folder, digest, names) {
+        // A mint into this place would say so; a plan is no mint.
+        Err(SnapshotError::OtherPlan { .. }) => Ok(vec![false; names.len()]),
+        there => there.map_err(|error| mint_failure(MintError::Snapshot(error))),
+    }
+}
+
+/// The share by which a mint is cheaper or dearer than the estimate, at most, on a machine like the one that was measured.
+const SPREAD: f64 = 0.25;
+
+/// The least and the most that is to be expected.
+fn spread(seconds: f64) -> (f64, f64) {
+    (seconds * (1.0 - SPREAD), seconds * (1.0 + SPREAD))
+}
+
+/// A range of seconds in the unit that people use.
+fn words((least, most): (f64, f64)) -> String {
+    match most {
+        _ if most < 120.0 => format!("{least:.0} to {most:.0} seconds"),
+        _ if most < 7200.0 => format!("{:.0} to {:.0} minutes", least / 60.0, most / 60.0),
+        _ => format!("{:.1} to {:.1} hours", least / 3600.0, most / 3600.0),
+    }
+}
+
+/// What can be told of a sealed release without its secret.
+pub(super) fn without_secret(recipe: &Recipe, console: &Console) -> Answer {
+    console.document(&json!({ "recipe": recipe }))?;
+    let games = recipe.generated.games + recipe.corpus.games;
+    console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
+    console.say(format_args!(
+        "would mint {games} games with {} levels, sealed; give --secret FILE for the plan",
+        recipe.levels()
+    ));
+    Ok(true)
+}

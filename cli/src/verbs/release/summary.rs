@@ -1,0 +1,85 @@
+//! The answer of `arcade release` for people.
+
+use crate::shell;
+use snapshots::card::{Card, Origin};
+use snapshots::mint::Minted;
+use std::ffi::OsStr;
+use std::fmt::Write;
+use std::path::Path;
+
+/// What was minted, for a person.
+pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> String {
+    let Minted { manifest, cards, card } = minted;
+    let tally = &card.tally;
+    let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "{}: {} games, {levels} levels, every one with a winning episode\n",
+        manifest.name,
+        cards.len()
+    );
+    let width = cards.iter().map(|card| card.title.chars().count()).max().unwrap_or(0);
+    for card in cards {
+        let origin = match card.origin {
+            Origin::Generated { .. } => "new game",
+            Origin::Corpus { .. } => "new levels",
+        };
+        let ticks: Vec<String> = card.levels.iter().map(|level| level.witness_ticks.to_string()).collect();
+        let _ = writeln!(
+            text,
+            "  {:<width$}  {:<18} {origin:<11} won in {} ticks",
+            card.title,
+            card.kind,
+            ticks.join(", ")
+        );
+        let _ = writeln!(text, "  {:<width$}  {}", "", card.goal);
+    }
+    if let Some(board) = showpiece(minted, out) {
+        let _ = writeln!(text, "\n{board}");
+    }
+    for bin in card.planned.iter().filter(|_| !card.planned.is_empty()) {
+        let _ = writeln!(text, "{}: {} (planned {} to {})", bin.name, bin.there, bin.least, bin.most);
+    }
+    let _ = writeln!(
+        text,
+        "\n{}{} games and {} levels tried for {} and {levels}; {:.1} million forward-model calls",
+        seconds.map_or(String::new(), |seconds| format!("{seconds:.0} s; ")),
+        tally.games_tried,
+        tally.levels_tried,
+        cards.len(),
+        tally.calls as f64 / 1e6,
+    );
+    if !tally.rejections.is_empty() {
+        let _ = writeln!(text, "turned down: {}", tally.reasons());
+    }
+    let _ = writeln!(text, "\nroot {}\nin   {}", manifest.root, out.display());
+    match manifest.commitment {
+        None => {
+            let _ =
+                writeln!(text, "check it:       {}", shell::command([OsStr::new("verify"), out.as_os_str()]));
+            let _ = writeln!(
+                text,
+                "mint it again:  {}",
+                shell::command([OsStr::new("regenerate"), out.as_os_str()])
+            );
+        }
+        Some(_) => {
+            let (public, held) = (out.join("public"), out.join("held"));
+            let _ = writeln!(text, "publish now:    {}", public.display());
+            let _ = writeln!(text, "keep to yourself until it is revealed: {}", held.display());
+        }
+    }
+    text
+}
+
+/// One new level, as text: something to look at.
+fn showpiece(minted: &Minted, out: &Path) -> Option<String> {
+    let new = |card: &&Card| matches!(card.origin, Origin::Generated { .. });
+    let card = minted.cards.iter().find(new).or_else(|| minted.cards.first())?;
+    let last = card.levels.last()?;
+    let root = if minted.manifest.commitment.is_some() { out.join("public") } else { out.to_owned() };
+    let board = std::fs::read_to_string(root.join("games").join(&card.id).join(&last.file)).ok()?;
+    let rows: Vec<String> = board.lines().map(|row| format!("    {row}")).collect();
+    Some(format!("  {}, level {}:\n{}", card.title, card.levels.len() - 1, rows.join("\n")))
+}

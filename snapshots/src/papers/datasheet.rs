@@ -1,0 +1,136 @@
+//! The datasheet of a release: the facts of its card under the headings of *Datasheets for Datasets* (Gebru et al., 2021).
+
+use crate::card::Origin;
+use crate::figures::Quantiles;
+use crate::manifest::Kind;
+use crate::mint::{Minted, Rung};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// All of it, as Markdown.
+pub(super) fn datasheet(minted: &Minted) -> String {
+    let Minted { manifest, card, cards } = minted;
+    let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
+    let parent =
+        manifest.parent.map_or("none: the first of its chain".to_owned(), |root| format!("`{root}`"));
+    let kind = match manifest.kind {
+        Kind::Open => "open: its seed is public",
+        Kind::Sealed => "sealed: seed and winning episodes are held back until it is revealed",
+    };
+    let mut text = format!(
+        "# Datasheet of `{}`\n\n{}\n\n| | |\n|---|---|\n| root | `{}` |\n| kind | {kind} |\n| release before | {parent} |\n\
+         | made under | generation {}, semantics {} |\n| canary | `{}` |\n\n",
+        manifest.name,
+        description.trim(),
+        manifest.root,
+        manifest.generation,
+        manifest.semantics,
+        manifest.canary,
+    );
+    text += "## What is in it\n\n";
+    let _ = writeln!(
+        text,
+        "{} games with {} levels. New rules: {} games; hand-written rules in a new guise, with new levels: {}. For each level there \
+         is an episode that wins it, found by a program and replayed by `arcade verify`.\n",
+        card.games,
+        card.levels,
+        card.new_games,
+        card.games - card.new_games,
+    );
+    text += "| | |\n|---|---|\n";
+    let mut kinds: BTreeMap<String, u64> = BTreeMap::new();
+    cards.iter().for_each(|card| *kinds.entry(card.kind.clone()).or_default() += 1);
+    for (what, counts) in [
+        ("levels by difficulty", &card.difficulty),
+        ("games by kind", &kinds),
+        ("games by goal", &card.goals),
+        ("games by avatar", &card.avatars),
+        ("games by generator", &card.generators),
+    ] {
+        if !counts.is_empty() {
+            let _ = writeln!(text, "| {what} | {} |", counted(counts));
+        }
+    }
+    for (what, figures) in
+        [("rules of a game", &card.rules), ("ticks of a winning episode", &card.witness_ticks)]
+    {
+        if let Some(Quantiles { min, median, max, .. }) = figures {
+            let _ = writeln!(text, "| {what} | {min:.0} to {max:.0}, {median:.0} in the median |");
+        }
+    }
+    text.push('\n');
+    ladder(&mut text, &card.ladder);
+    made(&mut text, minted);
+    text += "## What it is for\n\n\
+        Measuring how well players, language models above all, understand and win games that they have not seen. It is no \
+        training set: a score on a release that a model was trained on says nothing.\n\n\
+        ## Known limits\n\n\
+        - All games are of one family: grid games in VGDL for one player, with a few dozen kinds of rules.\n\
+        - Games and levels were chosen by programs. How hard a level is was measured with planners, not with people, in few plays \
+        each: labels have errors, and are easier to reach for games that planners are good at.\n\
+        - Whatever is published may be in the training data of later models. Search for the canary; compare with a release that is \
+        newer than the model.\n";
+    text += match manifest.kind {
+        Kind::Open => "- The seed and the winning episodes are public from the start.\n",
+        Kind::Sealed => {
+            "- That games come from the seed that was committed to can be checked only after the release is revealed, and wholly \
+             only by minting it again.\n"
+        }
+    };
+    text += "\n## People\n\n\
+        No person's data is in it, and nobody was asked to play, write or label anything for it.\n\n\
+        ## Licence, citation, errata\n\n\
+        [LICENSE](LICENSE), [CITATION.cff](CITATION.cff), [CHANGELOG.md](CHANGELOG.md). None of the papers is covered by the root.\n";
+    text
+}
+
+/// `jumps 3, walks 12`.
+fn counted(counts: &BTreeMap<String, u64>) -> String {
+    let counts: Vec<String> =
+        counts.iter().map(|(name, count)| format!("{} {count}", name.replace('_', " "))).collect();
+    counts.join(", ")
+}
+
+fn ladder(text: &mut String, rungs: &[Rung]) {
+    if rungs.is_empty() {
+        *text += "Difficulty was not measured: the recipe does not ask for `skill`.\n\n";
+        return;
+    }
+    *text += "| player | wins | 95 %, games drawn again |\n|---|---|---|\n";
+    for Rung { rate, .. } in rungs {
+        let [low, high] = rate.interval.map(|bound| 100.0 * bound);
+        let held_out = if rate.held_out { ", held out" } else { "" };
+        let _ = writeln!(
+            text,
+            "| `{}`{held_out} | {:.0} % | {low:.0} to {high:.0} % |",
+            rate.player,
+            100.0 * rate.mean
+        );
+    }
+    text.push('\n');
+}
+
+fn made(text: &mut String, minted: &Minted) {
+    let tally = &minted.card.tally;
+    let from = minted.cards.iter().filter_map(|card| match &card.origin {
+        Origin::Corpus { name } => Some(name.as_str()),
+        Origin::Generated { .. } => None,
+    });
+    let corpus: Vec<&str> = from.collect();
+    *text += "## How it was made\n\n";
+    let _ = writeln!(
+        text,
+        "By the generators of Infinite Arcade from the recipe in `MANIFEST.json`, which gives the same bytes on any machine: \
+         `arcade regenerate`. {} games and {} levels were tried, with {:.1} million calls of the game engine.",
+        tally.games_tried,
+        tally.levels_tried,
+        tally.calls as f64 / 1e6,
+    );
+    if !tally.rejections.is_empty() {
+        let _ = writeln!(text, "Turned down: {}.", tally.reasons());
+    }
+    if !corpus.is_empty() {
+        let _ = writeln!(text, "Hand-written games that were taken up: {}.", corpus.join(", "));
+    }
+    text.push('\n');
+}
