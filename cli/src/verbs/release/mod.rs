@@ -128,7 +128,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let minted = mint(args, &plan, &lots, secret.as_ref(), draft, &out, console);
     minted.map_err(|failure| match failure {
         // What is made is there.
-        Failure::Surroundings(error) => Failure::Surroundings(anyhow::anyhow!(
+        Failure::Environment(error) => Failure::Environment(anyhow::anyhow!(
             "{error:#}\nwhat is minted so far is kept; when that is repaired, go on with: {}",
             args.resumed(&out)
         )),

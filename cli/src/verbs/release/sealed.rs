@@ -21,7 +21,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     let name = &recipe.name;
     let out = out.map_or_else(|| PathBuf::from(format!("{name}.secret.json")), Path::to_path_buf);
     let chance =
-        entropy().map_err(|error| Failure::surroundings(error, "no chance to be had from the system"))?;
+        entropy().map_err(|error| Failure::environment(error, "no chance to be had from the system"))?;
     let secret = Secret::draw(name, recipe.committed(), chance);
     secret
         .check()
@@ -40,7 +40,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         std::io::ErrorKind::AlreadyExists => Failure::malformed(format!(
             "`{shown}` exists: a secret is never overwritten; choose another --out",
         )),
-        _ => Failure::surroundings(error, format!("cannot write `{shown}`")),
+        _ => Failure::environment(error, format!("cannot write `{shown}`")),
     })?;
     console.document(&json!({
         "name": name, "commitment": commitment, "recipe": recipe.committed(), "secret": shown,
