@@ -71,8 +71,8 @@ fn what_a_release_before_has_is_not_minted_again() {
     // Another seed gives others; what it knows is what the parent holds.
     let recipe = fs::read_to_string(folder.join("next.toml")).unwrap().replacen("a coin", "another coin", 1);
     fs::write(folder.join("next.toml"), recipe).unwrap();
-    run(folder, &["release", "next.toml", "--parent", "tiny", "--out", "next"], 0);
-    let said = text(&run(folder, &["verify", "next", "--chain", "tiny"], 0).stdout);
+    run(folder, &["release", "next.toml", "--parent", "tiny", "--out", "later"], 0);
+    let said = text(&run(folder, &["verify", "later", "--chain", "tiny"], 0).stdout);
     assert!(said.contains("chain: sound; `next` and 1 before it"), "{said}");
 }
 

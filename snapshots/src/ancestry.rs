@@ -47,7 +47,7 @@ pub(crate) fn item(form: &GameForm, likeness: &Likeness, level: &engine::Level) 
     Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }
 
-/// What a release holds that none after it may hold again.
+/// The games and levels of a release that none after it may hold again.
 #[derive(Debug, Default)]
 pub(crate) struct Holdings {
     /// The rules of its generated games, without names, in the order of its items.
@@ -91,10 +91,10 @@ impl Holdings {
         Ok(found)
     }
 
-    /// What a release knows that follows the one with this manifest, which holds this.
+    /// The knowledge of a release that follows the one with this manifest, which holds this.
     ///
     /// # Errors
-    /// What that one knows itself is of another version.
+    /// The `known` of that one is of another version.
     pub(crate) fn known_after(&self, manifest: &Manifest) -> Result<Known, AncestryError> {
         // Of the recipe this part alone, so that recipes with keys of other versions can be followed.
         let mut known: Known = match manifest.recipe.get("known") {

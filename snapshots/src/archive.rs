@@ -175,7 +175,7 @@ impl Archive {
         Archive::read(path, true)
     }
 
-    /// What is wrong with an archive, as [`Archive::open`] says it, without its files.
+    /// Checks an archive as [`Archive::open`] does, without keeping its files.
     ///
     /// Cost: one pass; memory for the manifest and one file.
     ///

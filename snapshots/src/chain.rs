@@ -118,9 +118,9 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     }
 }
 
-/// Whether each release of a chain, the newest first, knows what those before it hold, and holds none of that again.
+/// Checks that each release of a chain, the newest first, knows what those before it hold, and holds none of that again.
 ///
-/// What is known is compared as a whole where this arcade would state it in the same way; of a release of another
+/// `known` is compared as a whole where this arcade would state it in the same way; of a release of another
 /// generation only the names of those before.
 fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();

@@ -27,7 +27,7 @@ pub(crate) fn integrity_of(place: &Path) -> Result<Integrity, SnapshotError> {
     }
 }
 
-/// Whether a release at `place` is one file.
+/// True if the release at `place` is one file.
 pub(crate) fn is_file(place: &Path) -> bool {
     fs::metadata(place).is_ok_and(|found| found.is_file())
 }

@@ -192,8 +192,8 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Whether what the recipe knows of the releases before is what one with this parent, or with none, can know. Whether it
-/// is what the parent has, only the parent tells: see [`chain`](crate::chain).
+/// Checks that the recipe knows what one with this parent, or with none, can know. Only the parent tells whether it is
+/// what the parent has: see [`chain`](crate::chain).
 fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     if manifest.generation < COMPLETE {
         return;

@@ -61,7 +61,7 @@ pub(crate) struct Args {
 struct Document<'a> {
     #[serde(flatten)]
     verification: &'a Verification,
-    /// Whether the root was compared with one from elsewhere.
+    /// True if the root was compared with one from elsewhere.
     root_compared: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     chain: Option<&'a Chain>,
@@ -235,7 +235,7 @@ fn absent(path: &Path) -> Failure {
     })
 }
 
-/// What is there instead of a snapshot, and what a snapshot is.
+/// Names what is there instead of a snapshot, and what a snapshot is.
 fn no_snapshot(path: &Path) -> Failure {
     let shown = path.display();
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);

@@ -9,7 +9,7 @@ use crate::folder;
 
 /// The file that is locked. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder is ours.
 pub(super) const LOCK: &str = ".lock";
-/// What [`LOCK`] holds. A file of that name that holds anything else is somebody's own.
+/// The content of [`LOCK`]. A file of that name that holds anything else is somebody's own.
 pub(super) const MARK: &str =
     "unfinished work of `arcade`, which replaces or removes it (infinite-arcade draft 1)\n";
 /// The folder with the work.
@@ -70,7 +70,7 @@ fn mark(lock: &mut File) -> io::Result<()> {
     lock.sync_all()
 }
 
-/// Whether the folder is a draft's: it holds nothing but what a draft makes, and a lock with [`MARK`] unless it holds
+/// True if the folder is a draft's: it holds nothing but what a draft makes, and a lock with [`MARK`] unless it holds
 /// nothing at all that could be lost. Somebody's own `results.partial` is not to be deleted because `--out results` was
 /// asked for.
 fn is_ours(partial: &Path) -> io::Result<bool> {

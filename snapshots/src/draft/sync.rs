@@ -59,7 +59,7 @@ mod tests {
     use super::super::tests::home;
     use super::record::synced;
 
-    /// What is published is waited for, with the names of all folders above that are new.
+    /// A published release is waited for, with the names of all folders above that are new.
     #[test]
     fn new_names_are_waited_for() {
         let (home, _) = home();

@@ -215,7 +215,7 @@ mod tests {
         assert!(check_items(&shared, &Limits::SNAPSHOT).is_ok());
     }
 
-    /// What a tree of names, kept whole, says of the same paths.
+    /// The answer of a tree of names, kept whole, for the same paths.
     fn by_names(items: &[Item], limit: usize) -> bool {
         let mut names = std::collections::BTreeMap::new();
         let mut folders = std::collections::BTreeSet::new();

@@ -25,7 +25,7 @@ pub(super) struct GameCheck {
     pub(super) levels: usize,
     /// Witnesses that were replayed to a win.
     pub(super) replayed: usize,
-    /// Where a sealed release has its witnesses.
+    /// The paths of its witnesses in a sealed release.
     pub(super) held: Vec<String>,
     /// The card, if it is one.
     pub(super) card: Option<Card>,
@@ -33,7 +33,7 @@ pub(super) struct GameCheck {
     pub(super) problems: Vec<String>,
 }
 
-/// How the folders of a release are checked.
+/// Checks the folders of a release.
 pub(super) struct Checker<'a> {
     pub(super) contents: &'a Contents,
     pub(super) manifest: &'a Manifest,

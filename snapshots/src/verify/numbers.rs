@@ -11,7 +11,7 @@ use validators::{Difficulty, Fared, Ladder, Rate};
 const MAX_SCORE: f64 = 1e15;
 /// The most plays of one player on one level.
 const MAX_PLAYS: u64 = 1_000_000;
-/// How far an interval may be from the one that its counts give: other versions may round otherwise.
+/// The distance that an interval may have from the one that its counts give: other versions may round otherwise.
 const ROUNDING: f64 = 1e-9;
 
 /// All that is wrong with the numbers of a level's card.

@@ -1,4 +1,4 @@
-//! What tells of a release as a whole: `README.md` and `CARD.json`.
+//! The files that tell of a release as a whole: `README.md` and `CARD.json`.
 
 use super::carries;
 use super::version::COMPLETE;
@@ -75,7 +75,7 @@ fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     problems
 }
 
-/// What of a card follows from the cards of the games.
+/// Compares a release's card with the cards of its games.
 fn of_known_card(card: &ReleaseCard, cards: &[&Card]) -> Vec<String> {
     let mut problems = Vec::new();
     let mut expect = |key: &str, holds: bool| {

@@ -3,7 +3,7 @@
 use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How much work the replays of a release may be, in units of the engine's limit on one tick
+/// The work that the replays of a release may be, in units of the engine's limit on one tick
 /// ([`MAX_WORK`](engine::MAX_WORK)): a sprite or a cell that is looked at is one unit. A core does some hundred million
 /// units a second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,7 +120,7 @@ pub(super) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Mete
     Replayed::Won
 }
 
-/// Why an episode does not replay to a win within the bounds of a release of one level; none if it does.
+/// The reason that an episode does not replay to a win within the bounds of a release of one level; none if it does.
 pub(crate) fn problem(episode: &Episode, game: &Game, level: &Level) -> Option<String> {
     match replay(episode, game, level, &Meter::new(Bounds::RELEASE.of(1))) {
         Replayed::Won => None,

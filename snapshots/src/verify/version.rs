@@ -10,7 +10,7 @@ const FIRST_GENERATION: [u32; 3] = [1, 1, 9];
 /// The first generation whose releases have a `CARD.json`, a canary of their recipe, and what the releases before hold.
 pub(crate) const COMPLETE: u32 = 7;
 
-/// Why no arcade ever had this pair of versions; none if one may have had it, be it a later one.
+/// The reason that no arcade ever had this pair of versions; none if one may have had it, be it a later one.
 pub(super) fn impossible(semantics: u32, generation: u32) -> Option<String> {
     let known = engine::SEMANTICS;
     if semantics == 0 || generation == 0 {
@@ -43,7 +43,7 @@ pub(super) fn impossible(semantics: u32, generation: u32) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// Whoever raises `SEMANTICS` adds a line.
+    /// A raise of `SEMANTICS` adds a line.
     #[test]
     fn every_semantics_has_a_line() {
         assert_eq!(FIRST_GENERATION.len(), engine::SEMANTICS as usize);

@@ -167,7 +167,7 @@ fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
     release.seal();
 }
 
-/// What a release states to know is what the parent has, and what it holds is new.
+/// A release states to know what the parent has, and holds what is new.
 #[test]
 fn what_is_known_is_what_the_parent_holds() {
     let first = small("2026-12", None);
