@@ -4,8 +4,8 @@ use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The work that the replays of a release may be, in units of the engine's limit on one tick
-/// ([`MAX_WORK`](engine::MAX_WORK)): a sprite or a cell that is looked at is one unit. A core does some hundred million
-/// units a second.
+/// ([`MAX_WORK`](engine::MAX_WORK)): a sprite or a cell that is looked at is one unit. A core does some fifty to two
+/// hundred million units a second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
     /// Units for any release.
@@ -15,9 +15,8 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// 2³² units and 2²² for each level: about half a minute of one core, where a release of 600 levels takes a second
-    /// or two.
-    pub const RELEASE: Bounds = Bounds { work: 1 << 32, work_per_level: 1 << 22 };
+    /// 2³¹ units and 2²¹ for each level, which is 455 ticks of a quiet game: ten to sixty seconds of one core.
+    pub const RELEASE: Bounds = Bounds { work: 1 << 31, work_per_level: 1 << 21 };
 
     /// The units that a release of so many levels may take.
     pub fn of(&self, levels: usize) -> u64 {
@@ -60,8 +59,8 @@ impl Meter {
     }
 }
 
-/// Units that a tick counts whatever happens in it.
-const TICK: u64 = 64;
+/// Units that a tick counts whatever happens in it: the slowest ticks that count next to nothing take fifty microseconds.
+const TICK: u64 = 4096;
 
 /// The answer of [`replay`].
 pub(super) enum Replayed {

@@ -5,7 +5,7 @@ use crate::version::{CURRENT, MintedBy, VERSIONS, Version};
 /// The first generation whose releases have a `CARD.json`, a canary of their recipe, and what the releases before hold.
 pub(crate) const COMPLETE: u32 = 7;
 
-/// Why no arcade ever minted under these versions; none if one may have done so, be it a later one.
+/// The reason that no arcade ever minted under these versions; none if one may have done so, be it a later one.
 pub(super) fn impossible(minted_by: &MintedBy) -> Option<String> {
     let &MintedBy { ref version, generation, semantics } = minted_by;
     let never = format!("GENERATION {generation} never had SEMANTICS {semantics}");

@@ -412,7 +412,7 @@ fn replays_are_bounded() {
     let expect = format!("its witnesses take more than {} units of work to replay", work - 1);
     assert!(over.problems[0].contains(&expect), "{:?}", over.problems);
     // What any release may take grows with what it declares.
-    assert_eq!(Bounds::RELEASE.of(600), (1 << 32) + 600 * (1 << 22));
+    assert_eq!(Bounds::RELEASE.of(600), (1 << 31) + 600 * (1 << 21));
 }
 
 /// Refused before its first tick.
