@@ -222,6 +222,11 @@ fn caps_hold_and_can_be_raised() {
     let capped = json(&run(home.path(), &asking(&url, &["--max-requests", "7"]), 1));
     assert_eq!(capped["spent"]["requests"], 7);
     assert_eq!(server.asked().len(), 7);
+    // Every count of them is the same, also where several episodes meet the cap at once.
+    assert_eq!(capped["tally"]["halted"], "the next request would exceed --max-requests 7");
+    let told = json(&run(home.path(), &["--json", "report", "results", "--out", "capped"], 0));
+    let player = &told["players"][0];
+    assert_eq!((&player["spending"]["requests"], &player["spending"]["replies"]), (&7.into(), &7.into()));
     let done = json(&run(home.path(), &asking(&url, &["--max-requests", "1000", "--resume"]), 0));
     assert_eq!(done["spent"]["requests"], server.asked().len());
     assert_eq!(done["tally"]["open"], 0);

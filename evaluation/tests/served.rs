@@ -354,20 +354,20 @@ fn bodies_are_bounded() {
     // Read as far as it is sent, so that its room is taken.
     half.flush().unwrap();
     let request = format!("{HEAD}Content-Length: {}\r\n\r\n{}", 32 << 10, " ".repeat(32 << 10));
+    // A small one has room beside it.
+    assert!(raw(&server, &format!("{HEAD}Content-Length: 2\r\n\r\n{{}}")).starts_with("HTTP/1.1 400"));
     let mut waiting = connection(&server, Duration::from_millis(500));
-    std::thread::sleep(Duration::from_millis(100));
     waiting.write_all(request.as_bytes()).unwrap();
     let kind = waiting.read(&mut [0; 1]).unwrap_err().kind();
     assert!(matches!(kind, ErrorKind::WouldBlock | ErrorKind::TimedOut), "{kind:?}");
-    // A small one has room beside them.
-    assert!(raw(&server, &format!("{HEAD}Content-Length: 2\r\n\r\n{{}}")).starts_with("HTTP/1.1 400"));
     drop(half);
     waiting.set_read_timeout(Some(PATIENT)).unwrap();
     let mut reply = String::new();
     waiting.read_to_string(&mut reply).unwrap();
     assert!(reply.starts_with("HTTP/1.1 400") && reply.contains("invalid_json"), "{reply}");
     // Too large by its own word, too large in pieces.
-    let stated = raw(&server, &format!("{HEAD}Content-Length: {}\r\n\r\n", (48 << 10) + 1));
+    let much = (48 << 10) + 1;
+    let stated = raw(&server, &format!("{HEAD}Content-Length: {much}\r\n\r\n{}", " ".repeat(much)));
     assert!(stated.starts_with("HTTP/1.1 413"), "{stated}");
     let piece = format!("{:x}\r\n{}\r\n0\r\n\r\n", 49 << 10, " ".repeat(49 << 10));
     let mut pieces = connection(&server, PATIENT);

@@ -62,7 +62,7 @@ impl Choices {
 /// tell, or there are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Spending {
-    /// Requests sent, answered or not.
+    /// Requests sent, answered or not. One that a cap forbade was not sent.
     pub requests: u64,
     /// Answers.
     pub replies: u64,
@@ -95,7 +95,7 @@ impl Spending {
             sum.filter(|_| !replies.is_empty())
         };
         Spending {
-            requests: log.iter().filter(|event| matches!(event, Event::Request { .. })).count() as u64,
+            requests: requests(log),
             replies: replies.len() as u64,
             cached_replies: replies.iter().filter(|reply| reply.cached).count() as u64,
             failures: replies.iter().map(|reply| reply.failures.len() as u64).sum(),
@@ -120,5 +120,57 @@ impl Spending {
         self.replies += other.replies;
         self.cached_replies += other.cached_replies;
         self.failures += other.failures;
+    }
+}
+
+/// How many requests of a log were sent. They are recorded before it is known whether a cap allows them; one that it did not is sent
+/// later, if the evaluation is taken up again, without being recorded anew.
+fn requests(log: &[Event]) -> u64 {
+    let (mut sent, mut is_open) = (0, false);
+    for event in log {
+        match event {
+            Event::Request { .. } => (sent, is_open) = (sent + 1, true),
+            Event::Halt { reason, .. } if reason == "budget" && is_open => {
+                (sent, is_open) = (sent - 1, false)
+            }
+            Event::Reply(_) => (sent, is_open) = (sent + u64::from(!is_open), false),
+            _ => {}
+        }
+    }
+    sent
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::client::{Finish, Usage};
+    use crate::log::Reply;
+
+    #[test]
+    fn requests_that_a_cap_forbade_were_not_sent() {
+        let ask = || Event::Request { step: 0, attempt: 0, messages: Vec::new(), tokens: 9 };
+        let halt = |reason: &str| Event::Halt { reason: reason.to_owned(), message: String::new() };
+        let reply = || {
+            Event::Reply(Reply {
+                step: 0,
+                attempt: 0,
+                class: ReplyClass::Strict,
+                text: String::new(),
+                reasoning: None,
+                action: None,
+                stage: None,
+                finish: Finish::Stop,
+                usage: Usage::default(),
+                served_by: None,
+                failures: Vec::new(),
+                cached: false,
+                latency_ms: 0.0,
+            })
+        };
+        let check = |log: &[Event], sent: u64| assert_eq!(Spending::of(log).requests, sent);
+        check(&[ask(), reply(), ask(), halt("budget")], 1);
+        check(&[ask(), reply(), ask(), halt("budget"), halt("budget"), reply()], 2);
+        check(&[ask(), halt("infrastructure"), reply(), ask(), halt("infrastructure")], 2);
+        check(&[halt("budget"), ask(), reply()], 1);
     }
 }

@@ -241,7 +241,11 @@ async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePer
     let stated = HttpBody::size_hint(&body).upper();
     let size = match stated.map(usize::try_from) {
         Some(Ok(size)) if size <= most => size,
-        Some(_) => return Err(too_large()),
+        Some(_) => {
+            // Who is still sending could not read the answer.
+            let _ = tokio::time::timeout(body_time, pass_over(body, 2 * most)).await;
+            return Err(too_large());
+        }
         None => most,
     };
     let read = async {
@@ -258,6 +262,17 @@ async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePer
         Err(_) => {
             let message = "the request was not sent in time, or too many others are; try again";
             Err(Box::new(refusal(StatusCode::REQUEST_TIMEOUT, "request_timeout", message)))
+        }
+    }
+}
+
+/// Reads a body, up to so many bytes, and keeps nothing of it.
+async fn pass_over(body: Body, most: usize) {
+    let (mut body, mut left) = (std::pin::pin!(body), most);
+    while let Some(Ok(frame)) = std::future::poll_fn(|context| body.as_mut().poll_frame(context)).await {
+        left = left.saturating_sub(frame.data_ref().map_or(0, Bytes::len));
+        if left == 0 {
+            return;
         }
     }
 }

@@ -18,8 +18,9 @@ use crate::manifest::{Item, MANIFEST_LIMIT};
 use crate::recipe::Recipe;
 use crate::verify::{number_problems, replay_problem};
 use crate::version::{CURRENT, MintedBy};
+use crate::witness::Step;
 use crate::{Digest, Draft, SnapshotError};
-use engine::{Episode, Game};
+use engine::{Episode, Game, Seed};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -248,7 +249,7 @@ impl Shards {
                 MergeError::Unsound { path: place.unwrap_or_default(), what }
             };
             let lot = self.get(name)?.ok_or_else(|| place("not a lot of this plan: mint it again".into()))?;
-            let wrong = lot.games.iter().find_map(problem);
+            let wrong = lot.games.iter().find_map(|game| problem(game, plan.seed));
             wrong.map_or(Ok(()), |what| {
                 Err(place(format!("{what}; minting makes no such lot: mint it again")))
             })
@@ -266,9 +267,9 @@ impl Shards {
     }
 }
 
-/// The first thing that is wrong with a game of a lot.
-fn problem(frozen: &FrozenGame) -> Option<String> {
-    let FrozenGame { text, card, levels, witnesses } = frozen;
+/// The first thing that is wrong with a game of a lot of the plan with this root seed.
+fn problem(frozen: &FrozenGame, root: Seed) -> Option<String> {
+    let FrozenGame { text, card, levels, witnesses, paths } = frozen;
     let id = card.id.escape_debug();
     let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
     if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
@@ -276,6 +277,13 @@ fn problem(frozen: &FrozenGame) -> Option<String> {
     }
     if levels.is_empty() || levels.len() != witnesses.len() || levels.len() != card.levels.len() {
         return Some(format!("`{id}` does not have a witness and a place in its card for each level"));
+    }
+    let step = |seed: Seed, (purpose, index): &Step| seed.child(purpose, *index);
+    let is_foreign = |(path, episode): (&Vec<Step>, &Episode)| {
+        !path.is_empty() && path.iter().fold(root, step) != episode.seed
+    };
+    if paths.len() != witnesses.len() || paths.iter().zip(witnesses).any(is_foreign) {
+        return Some(format!("`{id}` has a witness whose chance does not come from the plan's seed"));
     }
     let of_level = |((number, text), (episode, told)): ((usize, &String), (&Episode, &LevelCard))| {
         let Ok(level) = game.level(text) else { return Some("no level of the game".to_owned()) };
@@ -408,9 +416,9 @@ mod tests {
         check(|game| game.card.levels[0].random.wins = 99, same, Some("`random` has 99 wins"));
         check(|game| game.card.levels[0].witness_ticks += 1, same, Some("not the ticks and score"));
         check(
-            |game| game.witnesses[0].seed = engine::Seed::from_text("x"),
+            |game| game.witnesses[0].seed = Seed::from_text("x"),
             same,
-            Some("level 0: the state after"),
+            Some("whose chance does not come from the plan's seed"),
         );
         let action = |game: &mut FrozenGame| game.witnesses[0].hashes.swap(0, 1);
         check(action, same, Some("level 0: the state after tick 0"));

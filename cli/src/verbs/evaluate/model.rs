@@ -386,10 +386,10 @@ impl Asked {
 
 /// Tokens of earlier turns in the prompts of so many steps: `turn` more with every step, up to `room`.
 fn history(steps: u64, turn: u64, room: u64) -> u64 {
-    let growing = if turn == 0 { 0 } else { steps.min(room / turn + 1) };
-    let most = if turn == 0 { 0 } else { room };
-    (turn * growing.saturating_mul(growing.saturating_sub(1)) / 2)
-        .saturating_add((steps - growing).saturating_mul(most))
+    let Some(most) = room.checked_div(turn) else { return 0 };
+    let growing = steps.min(most + 1);
+    let grown = turn.saturating_mul(growing.saturating_mul(growing.saturating_sub(1)) / 2);
+    grown.saturating_add((steps - growing).saturating_mul(room))
 }
 
 impl Ready {
