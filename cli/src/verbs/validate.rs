@@ -48,7 +48,7 @@ pub(crate) struct Args {
 /// A level, and what was found of it: problems of its text, or judgements.
 struct Judged<'a> {
     named: &'a Named,
-    level: Result<Level, engine::Diagnostics>,
+    level: Result<Level, Diagnostics>,
     report: Option<Report>,
 }
 
