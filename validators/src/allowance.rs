@@ -134,7 +134,12 @@ mod tests {
         let criteria = Criteria { budget: calls, ..Criteria::full() };
         let panel = Panel::bounded(&criteria, calls);
         let report = panel.judge(&game, &level, Seed::from_text("allowance"));
-        let together = panel.judge_together(&game, &[level], &[report.clone()], Seed::from_text("allowance"));
+        let together = panel.judge_together(
+            &game,
+            &[level],
+            std::slice::from_ref(&report),
+            Seed::from_text("allowance"),
+        );
         (report, together)
     }
 

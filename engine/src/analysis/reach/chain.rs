@@ -263,11 +263,14 @@ impl<'a, 'e> Chains<'a, 'e> {
                 None => self.all(first).shared(&self.events.board().ring()),
             };
             // Of what stands still, the place is known.
-            let stands = second.filter(|second| self.events.flood.model.of_type(*second).fixed);
-            let placed = stands.and_then(|second| self.events.placed()[second.index()].first());
-            let apart = placed.filter(|(cell, _)| !self.all(first).contains(*cell));
+            let apart = |stands: SpriteType, comes: SpriteType| {
+                let fixed = self.events.flood.model.of_type(stands).fixed;
+                let (cell, _) = self.events.placed()[stands.index()].first().filter(|_| fixed)?;
+                (!self.all(comes).contains(*cell)).then_some((comes, self.events.board().on_level(*cell)))
+            };
+            let apart = second.and_then(|second| apart(second, first).or_else(|| apart(first, second)));
             return met.is_empty().then(|| match apart {
-                Some(&(cell, _)) => Lack::Apart(self.apart(first, self.events.board().on_level(cell), told)),
+                Some((comes, cell)) => Lack::Apart(self.apart(comes, cell, told)),
                 None => Lack::Nowhere(first, second),
             });
         };
