@@ -172,7 +172,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
         }
         "remove" => fs::remove_file(&path).expect("removed"),
         "add" => {
-            let at = [".hidden", "games/new.txt", "MANIFEST", "games/x/game.vgdl", "Thumbs.db"];
+            let at = [".hidden", "games/new.txt", "MANIFEST", "games/x/game.vgdl", "games/Thumbs.db"];
             let at = sampler.choose(&at).to_string();
             fs::create_dir_all(folder.join(&at).parent().expect("below")).expect("created");
             fs::write(folder.join(&at), &content).expect("written");
