@@ -113,7 +113,7 @@ fn citation(manifest: &Manifest) -> String {
          abstract: {}\n\
          authors:\n  - name: \"The Infinite Arcade authors\"\n\
          identifiers:\n  - type: other\n    value: \"blake3:{}\"\n    \
-         description: \"Root digest of the release: every byte is under it\"\n\
+         description: \"Root digest: it covers every file of the release but its papers\"\n\
          license:\n  - MIT\n  - Apache-2.0\n\
          keywords:\n  - benchmark\n  - games\n  - planning\n  - VGDL\n",
         quoted(&format!("Infinite Arcade {}", manifest.name)),

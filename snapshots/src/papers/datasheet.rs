@@ -19,25 +19,24 @@ pub(super) fn datasheet(minted: &Minted) -> String {
     };
     let mut text = format!(
         "# Datasheet of `{}`\n\n{}\n\n| | |\n|---|---|\n| root | `{}` |\n| kind | {kind} |\n| release before | {parent} |\n\
-         | made under | generation {}, semantics {} |\n| canary | `{}` |\n\n",
+         | minted by | {} |\n| canary | `{}` |\n\n",
         manifest.name,
         description.trim(),
         manifest.root,
-        manifest.generation,
-        manifest.semantics,
+        manifest.minted_by(),
         manifest.canary,
     );
-    text += "## What is in it\n\n";
+    text += "## What is in it\n\n\
+        Games in VGDL with their levels. For each level there is an episode that wins it, found by a program and replayed by \
+        `arcade verify`.\n\n";
     let _ = writeln!(
         text,
-        "{} games with {} levels. New rules: {} games; hand-written rules in a new guise, with new levels: {}. For each level there \
-         is an episode that wins it, found by a program and replayed by `arcade verify`.\n",
+        "| | |\n|---|---|\n| games | {} |\n| with new rules | {} |\n| with hand-written rules in a new guise | {} |\n| levels | {} |",
         card.games,
-        card.levels,
         card.new_games,
         card.games - card.new_games,
+        card.levels,
     );
-    text += "| | |\n|---|---|\n";
     let mut kinds: BTreeMap<String, u64> = BTreeMap::new();
     cards.iter().for_each(|card| *kinds.entry(card.kind.clone()).or_default() += 1);
     for (what, counts) in [

@@ -1,7 +1,7 @@
 //! Releases of other versions, as they are stored in `tests/suite/snapshots`: they stay readable for ever.
 
 use snapshots::chain::{Link, follow};
-use snapshots::{SnapshotError, Witnesses, check_integrity, verify};
+use snapshots::{Kind, SnapshotError, Witnesses, check_integrity, verify};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -21,11 +21,27 @@ fn format_1_is_read() {
     assert_eq!((verification.games, verification.levels), (1, 1));
     // Stored under semantics 2; this test outlives them.
     assert_eq!(verification.manifest.semantics, 2);
-    let replayed = match engine::SEMANTICS {
-        2 => Witnesses::Replayed(1),
-        _ => Witnesses::NotReplayed { semantics: 2 },
-    };
-    assert_eq!(verification.witnesses, replayed);
+    assert_eq!(verification.witnesses, of_one_level(2));
+}
+
+/// The witnesses of a release of one level under these semantics.
+fn of_one_level(semantics: u32) -> Witnesses {
+    match semantics == engine::SEMANTICS {
+        true => Witnesses::Replayed(1),
+        false => Witnesses::NotReplayed { semantics },
+    }
+}
+
+/// From format 2 on the manifest names the version; the sealed release holds its commitment and the seeds of its chance fast.
+#[test]
+fn format_2_is_read() {
+    for (name, kind) in [("format-2", Kind::Open), ("sealed", Kind::Sealed)] {
+        let verification = verify(&stored(name)).expect("readable");
+        assert!(verification.problems.is_empty(), "{:?}", verification.problems);
+        assert_eq!(verification.witnesses, of_one_level(3));
+        let manifest = verification.manifest;
+        assert_eq!((manifest.format, manifest.kind, manifest.version.as_deref()), (2, kind, Some("0.12.0")));
+    }
 }
 
 /// Its witness has the hashes of other semantics: replayed here, it would fail.
