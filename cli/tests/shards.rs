@@ -5,7 +5,7 @@ mod arcade;
 use arcade::{arcade, files, run, text};
 use std::fs;
 use std::path::Path;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 /// Three lots, each within a second or two.
@@ -73,14 +73,14 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(is_there("shard2/SHARD.json") && is_there("whole") && is_there("merged"));
 }
 
-/// Kills a mint into the folder `out` again and again, and goes on with it; what is made is not thrown away unless that is
+/// Interrupts a mint into the folder `out`, kills it again and again, and goes on with it; what is made is not thrown away unless that is
 /// asked for.
 #[cfg(unix)]
 fn kill_and_resume(folder: &Path, mint: &[&str]) {
     let start = |resume: &[&str]| {
         let mut command = arcade(folder);
         command.args(mint).args(["--out", "out", "--jobs", "1"]).args(resume);
-        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+        command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
     };
     let is_lot = |entry: &fs::DirEntry| entry.path().extension().is_some_and(|end| end == "json");
     let lots = || {
@@ -92,8 +92,12 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     while lots() == 0 && child.try_wait().unwrap().is_none() {
         std::thread::sleep(Duration::from_millis(5));
     }
-    child.kill().unwrap();
-    child.wait().unwrap();
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains(&format!("interrupted; go on with: arcade {}", mint.join(" "))), "{said}");
+    assert!(said.contains("--resume"), "{said}");
     assert!(lots() > 0 && !folder.join("out").exists());
     let said = text(&run(folder, &[mint, &["--out", "out"]].concat(), 2).stderr);
     assert!(said.contains("go on with --resume"), "{said}");
@@ -147,8 +151,7 @@ fn a_full_disk_says_how_to_go_on() {
     // Files of at most a kilobyte or so: no lot has room.
     let script = "trap '' XFSZ; ulimit -f 2; exec \"$0\" release slices.toml --out 'my release'";
     let binary = env!("CARGO_BIN_EXE_arcade");
-    let output =
-        std::process::Command::new("sh").args(["-c", script, binary]).current_dir(folder).output().unwrap();
+    let output = Command::new("sh").args(["-c", script, binary]).current_dir(folder).output().unwrap();
     let said = text(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{said}");
     assert!(said.contains("go on with: arcade release slices.toml --out 'my release' --resume"), "{said}");

@@ -237,7 +237,7 @@ fn bad_questions_name_the_next_move() {
     says(&["validat", "."], 2, "validate");
     says(&["release", "stater"], 2, "did you mean `starter`?");
     says(&["run", ".", "--planner", "mtcs"], 2, "did you mean `mcts`?");
-    says(&["verify", "."], 2, "has no MANIFEST.json");
+    says(&["verify", "."], 2, "`.` is the folder of a game");
     says(&["verify", "nowhere"], 2, "nowhere");
 }
 

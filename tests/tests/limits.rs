@@ -21,7 +21,9 @@ fn the_page_lists_every_limit() {
     assert_eq!(declared, constants.map(|(name, _)| name), "this test checks every constant");
     let page = read("docs/limits.md");
     let rows = page.lines().filter(|line| line.starts_with("| ") && line.contains('`'));
-    let rows: Vec<Vec<&str>> = rows.map(|line| line.split('|').map(str::trim).collect()).collect();
+    let rows = rows.map(|line| line.split('|').map(str::trim).collect());
+    // The limits of the engine are those with a constant and an end.
+    let rows: Vec<Vec<&str>> = rows.filter(|row: &Vec<&str>| row.len() == 6).collect();
     for (name, value) in constants {
         let quoted = format!("`{name}`");
         let found: Vec<&str> = rows.iter().filter(|row| row[3] == quoted).map(|row| row[2]).collect();

@@ -3,12 +3,15 @@
 use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::interrupt;
+use crate::shell;
 use crate::verbs::release::{Bars, in_pool, mint_failure};
 use crate::verbs::verify::failure;
 use serde_json::json;
 use snapshots::mint::{LotFolder, Memory, Shelf, make_lots};
 use snapshots::{Draft, MANIFEST_FILE, RegenerateError, Regeneration};
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
 ///
@@ -31,6 +34,14 @@ pub(crate) struct Args {
     jobs: Option<usize>,
 }
 
+impl Args {
+    /// The command that goes on after an interruption.
+    fn resumed(&self, out: &Path) -> String {
+        let [verb, to, resume] = ["regenerate", "--out", "--resume"].map(OsStr::new);
+        shell::command([verb, self.snapshot.as_os_str(), to, out.as_os_str(), resume])
+    }
+}
+
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let corpus = embedded::corpus()?;
     let release = Regeneration::of(&args.snapshot).map_err(|error| match error {
@@ -47,6 +58,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
         None => Box::new(Memory::default()),
     };
+    if let Some(out) = &args.out {
+        interrupt::watch(|| (), format!("interrupted; go on with: {}", args.resumed(out)));
+    }
     let bars = Bars::new(console);
     let result = in_pool(args.jobs, || {
         make_lots(&plan, plan.lots(), &*shelf, &bars)?;
@@ -58,6 +72,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     })?
     .map_err(mint_failure)?;
     bars.finish();
+    interrupt::defer();
     if let Some(draft) = draft {
         let manifest = result.minted.manifest.to_bytes().map_err(failure)?;
         draft.write(MANIFEST_FILE, &manifest).map_err(failure)?;

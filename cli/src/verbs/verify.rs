@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 /// Without --root, this shows that the snapshot is consistent in itself; that it is the one that was published, only the
 /// published root shows. Witnesses of another arcade's semantics cannot be replayed here: the answer is no, unless
 /// --accept-unreplayed is given. Replays may take 2147483648 units of work and 2097152 for each level, ten to
-/// sixty seconds of one core; --max-work sets another bound (docs/limits.md).
+/// sixty seconds of one core; --max-work sets another bound (`arcade docs limits`).
 ///
 /// With --chain, follows the roots back through the releases before it. With --item and --write-proof, writes a small
 /// file that proves one file or one game; with --item, --proof and --root, checks such a proof against the file or the

@@ -141,6 +141,8 @@ fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
         |release| {
             seal_with(release, &pair, &secret(8));
             release.manifest.generation = COVERING - 1;
+            release.manifest.format = 1;
+            release.manifest.version = None;
         },
         &[],
     );

@@ -9,6 +9,7 @@ use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::input;
+use crate::interrupt;
 use crate::shell;
 pub(crate) use crate::threads::in_pool;
 use crate::verbs::verify::failure;
@@ -128,8 +129,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let minted = mint(args, &plan, &lots, secret.as_ref(), draft, &out, console);
     minted.map_err(|failure| match failure {
         // What is made is there.
-        Failure::Environment(error) => Failure::Environment(anyhow::anyhow!(
-            "{error:#}\nwhat is minted so far is kept; when that is repaired, go on with: {}",
+        Failure::Environment(_) => Failure::Environment(anyhow::anyhow!(
+            "{failure}\nwhat is minted so far is kept; when that is repaired, go on with: {}",
             args.resumed(&out)
         )),
         other => other,
@@ -154,10 +155,12 @@ fn mint(
     if plan.seconds(lots) >= LONG {
         console.remark(format_args!("if this is interrupted, go on with: {}", args.resumed(out)));
     }
+    interrupt::watch(|| (), format!("interrupted; go on with: {}", args.resumed(out)));
     let bars = Bars::new(console);
     let started = Stopwatch::start();
     in_pool(args.jobs, || make_lots(plan, lots, &shelf, &bars))?.map_err(mint_failure)?;
     bars.finish();
+    interrupt::defer();
     if let Some(shard) = args.shard {
         shard.write(plan, &shelf, &draft).map_err(mint_failure)?;
         draft.commit().map_err(failure)?;
