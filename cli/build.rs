@@ -3,6 +3,10 @@
 use std::env;
 use std::process::Command;
 
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the variable is Cargo's, and no recorded output depends on it"
+)]
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     if env::var("PROFILE").is_ok_and(|profile| profile == "release")
@@ -19,7 +23,7 @@ fn main() {
     }
 }
 
-/// Whether the clone around this package is the project's own, and not one that the sources were unpacked into.
+/// Tells the project's own clone from one that the sources were unpacked into.
 fn is_own_clone() -> bool {
     git(&["rev-parse", "--show-prefix"]).is_some_and(|prefix| prefix == "cli/")
 }

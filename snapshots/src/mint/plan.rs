@@ -53,10 +53,10 @@ const ISLAND: u32 = 4;
 
 /// Seconds of one core for each level that a lot is asked for: without `skill` as `starter` has it, with `skill` as `medium`.
 /// Those of archives and searches without `skill` are guessed.
-const ARCHIVE: (f64, f64) = (4.0, 6.25);
-const SEARCH: (f64, f64) = (4.0, 6.7);
-const CONSTRUCTIVE: (f64, f64) = (1.44, 3.77);
-const CORPUS: (f64, f64) = (0.57, 0.72);
+const ARCHIVE: (f64, f64) = (2.9, 5.0);
+const SEARCH: (f64, f64) = (2.9, 5.4);
+const CONSTRUCTIVE: (f64, f64) = (1.03, 3.0);
+const CORPUS: (f64, f64) = (0.41, 0.58);
 
 impl<'a> Plan<'a> {
     /// The lots of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of milliseconds.
