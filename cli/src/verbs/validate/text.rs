@@ -114,7 +114,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
         seen.rule.is_some() || *criterion == "winnable" || !words.contains(seen.text.as_str())
     };
     // A ladder says in a table what its evidence says in words.
-    let told = |seen: &&Evidence| told(seen) && !(finding.ladder.is_some() && mark == "pass");
+    let told = |seen: &&Evidence| told(seen) && mark != "-" && !(finding.ladder.is_some() && mark == "pass");
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(told).collect();
     let most = if *criterion == "winnable" { MOST_LINKS } else { MOST_SEEN };
     for seen in shown.iter().take(most) {
