@@ -31,10 +31,25 @@ enum LevelInput {
 }
 
 impl LevelInput {
+    /// The number in its name: `lvl3.txt` is level 3.
+    fn number(&self) -> Option<usize> {
+        let name = match self {
+            LevelInput::File(path) => path.file_name()?.to_str()?,
+            LevelInput::Text(named) => named.name.rsplit('/').next()?,
+        };
+        name.strip_prefix("lvl")?.strip_suffix(".txt")?.parse().ok()
+    }
+
     fn read(&self) -> Result<Named, Failure> {
         match self {
             LevelInput::File(path) => {
-                Ok(Named { name: path.display().to_string(), text: read_text(path, MAX_LEVEL_TEXT)? })
+                let (name, text) = (path.display().to_string(), read_text(path, MAX_LEVEL_TEXT)?);
+                if is_game(&text) {
+                    let help =
+                        "this is a game, not a level; a level is rows of the characters of the LevelMapping";
+                    return Err(Failure::malformed(format!("{name}: {help}")));
+                }
+                Ok(Named { name, text })
             }
             LevelInput::Text(named) => Ok(named.clone()),
         }
@@ -65,14 +80,24 @@ impl GameInput {
             return LevelInput::File(path.to_owned()).read();
         }
         let number = name.strip_prefix("lvl").unwrap_or(name).trim_end_matches(".txt").parse::<usize>();
-        match number.ok().and_then(|number| self.levels.get(number)) {
+        let wanted = number.ok();
+        match self.levels.iter().find(|level| wanted.is_some() && level.number() == wanted) {
             Some(level) => level.read(),
             None if number_like(name) => {
-                let count = self.levels.len();
-                Err(Failure::malformed(format!(
-                    "{} has {count} levels, numbered from 0: no `{name}`",
-                    self.title
-                )))
+                let title = &self.title;
+                let numbers: Vec<usize> = self.levels.iter().filter_map(LevelInput::number).collect();
+                let there = match &numbers[..] {
+                    [] => "no levels of its own".to_owned(),
+                    [one] => format!("level {one} only"),
+                    [first, .., last] if last - first + 1 == numbers.len() => {
+                        format!("levels {first} to {last}")
+                    }
+                    _ => {
+                        let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
+                        format!("levels {}", numbers.join(", "))
+                    }
+                };
+                Err(Failure::malformed(format!("{title} has {there}: no `{name}`")))
             }
             None => Err(Failure::malformed(format!("{name}: there is no such file"))),
         }
@@ -194,9 +219,21 @@ fn is_level(text: &str) -> bool {
     rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(speaks)
 }
 
+/// Whether a text is surely a game: it has two of the sections, each on a line of its own.
+fn is_game(text: &str) -> bool {
+    let sections = ["SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
+    text.lines().filter(|line| sections.contains(&line.trim())).count() > 1
+}
+
 fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
     let Some(path) = first_file(folder, ["game.vgdl", "game.txt"])? else { return Ok(None) };
     let text = read_text(&path, MAX_SOURCE)?;
+    if is_level(&text) {
+        let name = path.display();
+        return Err(Failure::malformed(format!(
+            "{name}: this is a level, not a game; put the game here, and the level beside it as lvl0.txt"
+        )));
+    }
     let title =
         folder.file_name().map_or_else(|| folder.display().to_string(), |n| n.to_string_lossy().into_owned());
     let source = Named { name: path.display().to_string(), text };
@@ -264,7 +301,11 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        Failure::malformed(format!("{name}: not a text file (byte {at} is not UTF-8)"))
+        let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let help = "save it as UTF-8";
+        Failure::malformed(format!(
+            "{name}: not a text file (byte {at} is not UTF-8, in line {line}); {help}"
+        ))
     })
 }
 

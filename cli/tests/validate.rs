@@ -232,7 +232,7 @@ fn bad_questions_name_the_next_move() {
         assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
     };
     says(&["validate", "nowhere.vgdl"], 2, "there is no such file");
-    says(&["validate", ".", "7"], 2, "has 1 levels, numbered from 0");
+    says(&["validate", ".", "7"], 2, ". has level 0 only: no `7`");
     says(&["validate"], 2, "GAME");
     says(&["validat", "."], 2, "validate");
     says(&["release", "stater"], 2, "did you mean `starter`?");
@@ -423,6 +423,61 @@ fn a_level_in_the_place_of_a_game_is_told_so() {
             "lvl0.txt: this is a level, not a game; name its game first: arcade validate GAME lvl0.txt";
         assert!(said.contains(meant), "{said}");
     }
+}
+
+#[test]
+fn a_game_and_a_level_in_the_place_of_each_other_are_told_so() {
+    let says = |game: &str, level: &str, words: &str| {
+        let folder = folder(game, level);
+        let said = text(&run(folder.path(), &["validate", "."], 2).stderr);
+        assert!(said.contains(words), "{said}");
+        assert!(said.lines().count() < 4, "{said}");
+    };
+    says(LEVEL, LEVEL, "game.vgdl: this is a level, not a game");
+    says(GAME, GAME, "lvl0.txt: this is a game, not a level");
+}
+
+#[test]
+fn levels_have_the_numbers_of_their_files() {
+    let folder = folder(GAME, LEVEL);
+    for name in ["lvl1.txt", "lvl3.txt"] {
+        fs::write(folder.path().join(name), LEVEL.replace('A', "X")).unwrap();
+    }
+    fs::remove_file(folder.path().join("lvl0.txt")).unwrap();
+    let said = text(&run(folder.path(), &["validate", ".", "1"], 2).stderr);
+    assert!(said.contains("lvl1.txt:2:2"), "{said}");
+    let said = text(&run(folder.path(), &["validate", ".", "0"], 2).stderr);
+    assert!(said.contains(". has levels 1, 3: no `0`"), "{said}");
+}
+
+#[test]
+fn a_line_without_the_avatar_is_told_with_it() {
+    let hidden = GAME.replace("A > floor avatar", "A > floor").replace("avatar", "bee");
+    let line = "places the avatar `bee`: add it to a line, such as `A > floor bee`";
+    malformed(&hidden, LEVEL, "lvl0.txt", &[line]);
+}
+
+#[test]
+fn what_follows_from_another_fault_is_not_asked() {
+    let chased =
+        GAME.replace("        avatar > Mov", "        wasp > PathChaser stype=avatar\n        avatar > Mov");
+    let chased = chased.replace("        A > floor", "        c > floor wasp\n        A > floor");
+    let said = folder(&chased, &LEVEL.replace("n...t", "nc..t"));
+    let said = run(said.path(), &["validate", ".", "--budget", "2000"], 1);
+    let said = text(&said.stdout);
+    for words in ["`wasp > PathChaser stype=avatar`", "`BasicGame obs=wall`", "not asked: the game stops"] {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("remove it"), "{said}");
+    let short = folder(&GAME.replace("limit=300", "limit=3"), LEVEL);
+    let said = run(short.path(), &["validate", ".", "--budget", "20000"], 1);
+    let said = text(&said.stdout);
+    for words in
+        ["no way to win before `Timeout limit=3 win=False` ends the game", "raise its `limit=` beyond"]
+    {
+        assert!(said.contains(words), "`{words}` is not in\n{said}");
+    }
+    assert!(!said.contains("make a level that needs it"), "{said}");
 }
 
 #[test]

@@ -276,6 +276,25 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
+    /// Advice where no character of the LevelMapping places an avatar: the line that lacks it, with it.
+    fn lacking_avatar(&self) -> String {
+        let description = &self.game.0.description;
+        let is_avatar = |name: &str| {
+            let stype = self.game.sprite_type(name);
+            stype.and_then(|stype| self.game.class(stype)).is_some_and(|class| class.is_avatar())
+        };
+        let own = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.as_str());
+        let Some(name) = own.rev().find(|name| is_avatar(name)) else {
+            return "no character of the LevelMapping places one: add a line `A > avatar`".to_owned();
+        };
+        let line = description.mapping.iter().find(|line| line.symbol == 'A');
+        let places = line.iter().flat_map(|line| &line.names).map(|name| format!("{} ", name.text));
+        let line = format!("A > {}{name}", places.collect::<String>());
+        format!(
+            "no character of the LevelMapping places the avatar `{name}`: add it to a line, such as `{line}`"
+        )
+    }
+
     /// Whether a problem is reported once more, or was often enough.
     fn tells(&self, code: &str) -> bool {
         self.problems.iter().filter(|other| other.code == code).count() < MAX_REPEATS
@@ -308,7 +327,7 @@ impl LevelReader<'_> {
             let first = text.chars().next().map_or(0, char::len_utf8);
             let help = match self.avatar_symbol() {
                 Some(symbol) => format!("put `{symbol}` where it starts"),
-                None => "no character of the LevelMapping places one: add a line `A > avatar`".to_owned(),
+                None => self.lacking_avatar(),
             };
             let problem =
                 Diagnostic::error("no-avatar", Span::new(0, end.min(first)), "the level places no avatar");

@@ -4,7 +4,7 @@
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Reason, Verdict};
 use engine::analysis::{Apart, Cause, Chain, Closed, Deed, Lack, Motion, Obstacle, Shortage, Side};
-use engine::{Analysis, Game, Level, SpriteType, describe, swapped_rule};
+use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_rule};
 
 /// Chains that are told of: one for each termination that wins.
 const MAX_CHAINS: usize = 3;
@@ -28,7 +28,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
             level.is_ok_and(|level| Analysis::of(game).reach(&level).can_win())
         };
         evidence.extend(swapped_rule(game, wins).map(|swapped| {
-            let text = "with its two sides swapped, this rule would let the level be won";
+            let text = "with its two sides swapped, this rule may let the level be won";
             let meant: Vec<String> = swapped.repaired.iter().map(|line| format!("`{line}`")).collect();
             let rule = Line::interaction(game, swapped.line);
             Evidence::new(text).of_rule(rule).advise(format!("did you mean {}?", meant.join(" and ")))
@@ -180,6 +180,14 @@ impl Words<'_> {
         let verb = if still { "opens" } else { "goes" };
         let text = format!("{} {verb} for {}", self.the(target), count(i64::from(*needed), &name));
         self.links.push(Evidence { rule, ..Evidence::new(text) });
+        let class = self.analysis.game().class(*resource);
+        if let Some(class) = class.filter(|class| capacity.is_some() && !class.is_a(SpriteClass::Resource)) {
+            let text = format!("collectResource takes only a Resource; {name} is {}", class.name());
+            let advice = format!("make it a Resource: `{name} > Resource limit={needed}`");
+            let rule = Line::sprite(self.analysis.game(), &name);
+            self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(advice));
+            return;
+        }
         if let Some(capacity) = capacity {
             let text = format!("nobody can hold more than {}", count(i64::from(*capacity), &name));
             let advice = format!("raise the `limit=` of `{name}` to {needed}, or ask for fewer");
@@ -194,7 +202,7 @@ impl Words<'_> {
             return;
         }
         let all: i64 = sources.iter().map(|source| source.each * i64::from(source.count)).sum();
-        let verb = if all == 1 { "exists" } else { "exist" };
+        let verb = if all < 2 { "exists" } else { "exist" };
         let text = format!("{} {verb}", if all == 0 { format!("no {name}") } else { count(all, &name) });
         let cell = sources.first().map(|source| self.place(source.cell));
         let rule = rules.first().map(|&line| Line::interaction(self.analysis.game(), line));

@@ -28,6 +28,7 @@ mod rule_ref;
 mod rule_use;
 mod skill;
 mod skill_overall;
+mod too_soon;
 mod verdict;
 mod well_formed;
 mod winnable;

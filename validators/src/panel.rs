@@ -6,6 +6,7 @@ use crate::causes;
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameReport, GameValidator};
 use crate::recording::{Recorded, Usage, explore};
+use crate::too_soon;
 use crate::{
     Case, Criteria, Finding, Ladder, LengthWithin, NoEarlyDeath, NotIdle, NotRandom, Reachable, Readable,
     RuleUse, SkillOverall, SkillPays, Validator, Verdict, WellFormed, Winnable,
@@ -21,6 +22,8 @@ pub struct Panel {
     of_game: Vec<Box<dyn GameValidator + Send>>,
     /// The criteria, and the calls that they share, if those are bounded.
     bound: Option<(Criteria, u64)>,
+    /// How a win is searched for.
+    search: PortfolioConfig,
     /// Ticks of the ways that are tried on each level for rules which were never seen.
     exploration: u64,
 }
@@ -29,6 +32,12 @@ pub struct Panel {
 const NEED_A_WIN: [&str; 2] = ["length", "skill"];
 /// What is said of them then.
 const NOT_ASKED: &str = "not asked: the level cannot be won";
+/// Criteria that ask nothing of play, or whose answer is why the others are not asked.
+const OF_THE_START: [&str; 2] = ["well-formed", "readable"];
+/// What is said of the others where no play gets beyond its first tick.
+const STOPPED: &str = "not asked: the game stops in its first tick";
+/// Criteria of a game whose doubts follow from a level that nobody can win.
+const OF_RULES: [&str; 2] = ["rule-use", "ablation"];
 
 /// What one validator found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -75,6 +84,13 @@ impl Report {
     /// Whether it is proved that nobody can win.
     fn is_unwinnable(&self) -> bool {
         self.finding("winnable").is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
+    }
+
+    /// Whether the engine stops the game in its first tick.
+    fn is_stopped(&self) -> bool {
+        let verdict = self.finding("well-formed").map(|finding| &finding.verdict);
+        matches!(verdict, Some(Verdict::Fail { witness: Some(episode), .. })
+            if matches!(episode.outcome, Outcome::Stopped(_)))
     }
 
     /// Takes the witness of a judgement; where there is none because the search found none, a win that somebody else has
@@ -135,6 +151,13 @@ impl Panel {
             None => [usize::MAX; 2],
             Some(allowance) => [allowance.idle_play(), allowance.random_play()],
         };
+        let search = PortfolioConfig {
+            budget: c.budget,
+            shortest: c.shortest,
+            decision: c.decision,
+            depths: c.depths.clone(),
+            ..PortfolioConfig::default()
+        };
         let level: [(&str, Box<dyn Validator + Send>); 8] = [
             ("well-formed", Box::new(WellFormed)),
             ("readable", Box::new(Readable)),
@@ -152,16 +175,7 @@ impl Panel {
                     share: c.early_deaths,
                 }),
             ),
-            (
-                "winnable",
-                Box::new(Reachable(Winnable(PortfolioConfig {
-                    budget: c.budget,
-                    shortest: c.shortest,
-                    decision: c.decision,
-                    depths: c.depths.clone(),
-                    ..PortfolioConfig::default()
-                }))),
-            ),
+            ("winnable", Box::new(Reachable(Winnable(search.clone())))),
             ("length", Box::new(LengthWithin { least: c.least_ticks, most: c.most_ticks })),
             ("skill", Box::new(SkillPays { climb, wins: c.skill_wins, scores: c.skill_scores, play_calls })),
         ];
@@ -177,6 +191,7 @@ impl Panel {
             validators: level.into_iter().filter(|(name, _)| c.asks(name)).map(|(_, judge)| judge).collect(),
             of_game: game.into_iter().filter(|(name, _)| c.asks(name)).map(|(_, judge)| judge).collect(),
             bound: None,
+            search,
             exploration: allowance.map_or(u64::MAX, Allowance::exploration),
         }
     }
@@ -243,7 +258,9 @@ impl Panel {
                 usage: &usage,
                 seed,
             };
-            Judgement { criterion, finding: validator.validate(case) }
+            let finding = validator.validate(case);
+            let why = consequence(reports, &finding.verdict).filter(|_| OF_RULES.contains(&criterion));
+            Judgement { criterion, finding: why.map_or(finding, |why| not_asked(&why)) }
         };
         self.of_game.iter().map(|validator| judge(&**validator)).collect()
     }
@@ -257,13 +274,19 @@ impl Panel {
             let mut finding = validator.validate(case);
             if criterion == "winnable" && !screen {
                 causes::explain(case, &mut finding);
+                too_soon::explain(case, &mut finding, &self.search);
             }
             Judgement { criterion, finding }
         };
         for validator in &self.validators {
             let criterion = validator.name();
-            if NEED_A_WIN.contains(&criterion) && report.is_unwinnable() {
-                let finding = Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(NOT_ASKED)]);
+            let why = match criterion {
+                _ if !OF_THE_START.contains(&criterion) && report.is_stopped() => Some(STOPPED),
+                _ if NEED_A_WIN.contains(&criterion) && report.is_unwinnable() => Some(NOT_ASKED),
+                _ => None,
+            };
+            if let Some(why) = why {
+                let finding = not_asked(why);
                 report.judgements.push(Judgement { criterion, finding });
                 continue;
             }
@@ -295,6 +318,29 @@ impl Panel {
             }
         }
         report
+    }
+}
+
+/// The finding of a criterion that is left out, with the reason.
+fn not_asked(why: &str) -> Finding {
+    Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
+}
+
+/// Why a doubt about the rules of a game is no more than a consequence: of levels that nobody can win.
+fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
+    if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
+        return Some(STOPPED.to_owned());
+    }
+    let (lost, all) = (reports.iter().filter(|report| report.is_unwinnable()).count(), reports.len());
+    match verdict {
+        Verdict::Pass { .. } => None,
+        _ if lost == 0 => None,
+        _ if lost == all => {
+            Some(if all == 1 { NOT_ASKED } else { "not asked: no level can be won" }.to_owned())
+        }
+        // What is proved of all levels holds, whatever becomes of some.
+        Verdict::Fail { .. } => None,
+        Verdict::Unknown { .. } => Some(format!("not asked: {lost} of {all} levels cannot be won")),
     }
 }
 

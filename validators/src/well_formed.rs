@@ -3,7 +3,7 @@
 use crate::ending::Ending;
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Validator, Verdict};
-use engine::{Action, Episode, Outcome};
+use engine::{Action, Episode, Game, Limit, Outcome, SpriteClass};
 
 /// The game can be won in principle, is not over in its first tick, and does nothing that the engine stops at.
 ///
@@ -19,8 +19,11 @@ impl Validator for WellFormed {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Case { game, level, analysis, seed, .. } = case;
         if !analysis.can_win() {
-            let told =
-                game.warnings().iter().find(|warning| ["swapped-rule", "no-win"].contains(&warning.code));
+            // Of swapped rules only the one because of which there is no win.
+            let told = game.warnings().iter().find(|warning| {
+                warning.code == "no-win"
+                    || warning.code == "swapped-rule" && warning.message.contains("cannot be won")
+            });
             let reason = told.map_or("the game cannot be won", |warning| warning.message.as_str());
             let help = told.and_then(|warning| warning.help.clone());
             let wins = analysis.goals().iter().filter(|goal| goal.win);
@@ -40,7 +43,25 @@ impl Validator for WellFormed {
             Outcome::Ended => "the game ends in its first tick, without a winner".to_owned(),
             Outcome::Stopped(limit) => format!("the game stops in its first tick: {limit}"),
         };
+        if episode.outcome == Outcome::Stopped(Limit::NoPaths) {
+            let seen = Evidence { rule: path_seeker(game), ..Evidence::new("this looks for a path") };
+            let seen =
+                seen.advise("add `obs=` and what paths go around to the first line: `BasicGame obs=wall`");
+            return Finding::from(Verdict::fail_with(reason, episode)).seen([seen]);
+        }
         let seen = Ending::of(analysis, level, &episode).evidence(game);
         Finding::from(Verdict::fail_with(reason, episode)).seen(seen)
     }
+}
+
+/// The line of the first sprite that looks for paths.
+fn path_seeker(game: &Game) -> Option<Line> {
+    let seeks = |class: SpriteClass| {
+        [SpriteClass::PathChaser, SpriteClass::PathAltChaser].iter().any(|&seeker| class.is_a(seeker))
+    };
+    let lines = game.description().sprite_lines();
+    let mut names = lines.iter().map(|(_, line)| line.name.text.as_str());
+    let name =
+        names.find(|name| game.sprite_type(name).and_then(|stype| game.class(stype)).is_some_and(seeks))?;
+    Line::sprite(game, name)
 }

@@ -20,6 +20,7 @@ pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
     linter.rules_that_never_fire(&mut problems);
     linter.terminations(&mut problems);
     linter.lacking_ends(&mut problems);
+    linter.barriers_that_hold_nobody(&mut problems);
     linter.hidden_sprites(&mut problems);
     linter.ignored_parameters(&mut problems);
     linter.lost_avatar(&mut problems);
@@ -48,6 +49,49 @@ impl Linter<'_> {
             let message = format!("this rule never fires: {reason}");
             let problem = Diagnostic::warning("never-fires", span, message);
             problems.push(problem.help("remove it, or let what it needs happen"));
+        }
+    }
+
+    /// Interactions that put back what never moves, where nothing else stops the avatar that walks into it.
+    fn barriers_that_hold_nobody(&self, problems: &mut Vec<Diagnostic>) {
+        let encounters = self.analysis.encounters();
+        for (number, line) in self.game.description().interactions.iter().enumerate() {
+            if line.effect.text != "stepBack" {
+                continue;
+            }
+            let walks_through = |encounter: &&Encounter| {
+                let still = self.tree(encounter.first);
+                let Some(avatar) = encounter.second.filter(|_| !still.is_empty()) else { return false };
+                let plays = |stype: &SpriteType| self.game.class(*stype).is_some_and(SpriteClass::is_avatar);
+                let avatars = self.tree(avatar);
+                // Whatever happens to the avatar there, it was thought of.
+                let meets = |other: &Encounter| {
+                    let avatar = avatars.iter().any(|&stype| self.analysis.applies(other.first, stype));
+                    let second =
+                        |stype| other.second.is_some_and(|other| self.analysis.applies(other, stype));
+                    avatar && still.iter().any(|&stype| second(stype))
+                };
+                !still.iter().any(|&stype| self.roams(stype) || plays(&stype))
+                    && !avatars.is_empty()
+                    && avatars.iter().all(plays)
+                    && !encounters.iter().any(meets)
+            };
+            let mut own = encounters.iter().filter(|encounter| encounter.line == number);
+            let Some(avatar) = own.find(walks_through).and_then(|encounter| encounter.second) else {
+                continue;
+            };
+            let span = Span::new(line.first.span.start, line.effect.span.end);
+            if problems.iter().any(|problem| problem.span == span) {
+                continue;
+            }
+            let (first, avatar) = (&line.first.text, self.game.name(avatar));
+            let others = line.second.iter().map(|word| word.text.as_str()).filter(|name| *name != avatar);
+            let partners: Vec<&str> = [first.as_str()].into_iter().chain(others).collect();
+            let message =
+                format!("`{first}` does not move: it is never put back, and nothing stops `{avatar}` there");
+            let problem = Diagnostic::warning("swapped-rule", span, message);
+            problems
+                .push(problem.help(format!("did you mean `{avatar} {} > stepBack`?", partners.join(" "))));
         }
     }
 
@@ -292,6 +336,14 @@ BasicGame
         let pushed = format!("{rule}        stone avatar > bounceForward\n        stone fence > undoAll\n");
         check(rule, &pushed, &[]);
         check("egg avatar > collectResource", "egg avatar > killSprite", &[("never-fires", 21)]);
+    }
+
+    #[test]
+    fn barriers_the_wrong_way_round() {
+        let rule = "avatar stone fence nest > stepBack";
+        check(rule, "stone avatar fence nest > stepBack", &[("swapped-rule", 19)]);
+        check(rule, &format!("{rule}\n        stone avatar > stepBack"), &[]);
+        check(rule, "stone avatar > stepBack\n        avatar stone > killSprite", &[]);
     }
 
     #[test]

@@ -94,7 +94,7 @@ fn in_words(line: &InteractionLine) -> String {
 pub(super) fn told(game: &Game) -> Option<(Diagnostic, Game)> {
     let found = swapped_rule(game, |game| Analysis::of(game).can_win())?;
     let SwappedRule { line, span, repaired } = found;
-    let message = "the game cannot be won with this rule as it stands, and can with its sides swapped";
+    let message = "the game cannot be won with this rule as it stands, and may be won with its sides swapped";
     let meant: Vec<String> = repaired.iter().map(|line| format!("`{line}`")).collect();
     let help = format!("did you mean {}?", meant.join(" and "));
     let problem = Diagnostic::warning("swapped-rule", span, message)

@@ -1,10 +1,11 @@
 //! Terminations that end a game too early, or never.
 
 use super::{Linter, swapped};
-use crate::analysis::{Analysis, Attainable, Condition as Counted, Goal};
+use crate::analysis::{Analysis, Attainable, Condition as Counted, Deed, Goal, Provided, Side};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::{Game, SpriteType};
 use crate::limits::MAX_TICKS;
+use crate::ontology::class::SpriteClass;
 use crate::ontology::terminations::{Condition, Decision, can_be_held_up};
 use crate::syntax::{Param, TerminationLine};
 
@@ -170,10 +171,48 @@ impl Linter<'_> {
             let reason = format!("the number of {} is never below 0", names());
             return Some((reason, "set another `limit=`".to_owned()));
         }
+        if verb == "lowers"
+            && let Some(short) = stypes.iter().find_map(|&stype| self.out_of_hands(stype))
+        {
+            return Some(short);
+        }
         let there = stypes.iter().any(|&stype| !self.tree(stype).is_empty());
         let told = !there || stypes.iter().any(|&stype| self.has_idle_rules(stype));
         let reason = format!("nothing {verb} the number of {}", names());
         (!told).then(|| (reason, format!("add a rule that {verb} it, or another termination")))
+    }
+
+    /// The rule that would end sprites of this type, if it asks for more of a resource than anybody can hold; and what would
+    /// help.
+    fn out_of_hands(&self, written: SpriteType) -> Option<(String, String)> {
+        let lines = &self.game.description().interactions;
+        let encounters = self.analysis.encounters();
+        encounters.iter().find_map(|encounter| {
+            let Provided::Holds(_, resource, needed) = encounter.provided else { return None };
+            let on = |side: SpriteType| self.analysis.applies(written, side);
+            let ends = encounter.ends(Side::First) && on(encounter.first)
+                || encounter.ends(Side::Second) && encounter.second.is_some_and(on);
+            let info = &self.game.0.types[resource.index()];
+            // What is given otherwise than by collecting may go beyond the limit.
+            let given = encounters.iter().any(|other| {
+                other.does(|deed| matches!(deed, Deed::Change { resource: of, .. } if *of == resource))
+            });
+            if !ends || given || needed <= info.resource_limit {
+                return None;
+            }
+            let (name, limit) = (self.game.name(resource), info.resource_limit);
+            let line = &lines[encounter.line];
+            let partners: Vec<&str> = line.second.iter().map(|word| word.text.as_str()).collect();
+            let rule = format!("{} {} > {}", line.first.text, partners.join(" "), line.effect.text);
+            let asks = format!("`{rule}` needs {needed} `{name}`, and");
+            if info.traits.is_resource {
+                let help = format!("raise the `limit=` of `{name}` to {needed}, or ask for fewer");
+                return Some((format!("{asks} nobody can hold more than {limit}"), help));
+            }
+            let class = info.class.map_or("no Resource", SpriteClass::name);
+            let reason = format!("{asks} nobody can hold one: `{name}` is {class}, not Resource");
+            Some((reason, format!("make it a Resource: `{name} > Resource limit={needed}`")))
+        })
     }
 
     /// Whether sprites that count as this type would change by a rule that never happens, of which another warning tells.
@@ -260,12 +299,30 @@ mod tests {
         let game = game.replace("Timeout limit=300 win=True", "SpriteCounter stype=fence win=True");
         let game = game.replace(
             "chick avatar > killIfOtherHasMore resource=egg limit=2 scoreChange=1",
-            "egg avatar > stepBack",
+            "avatar egg > stepBack",
         );
         let game = Game::from_source(&game).unwrap();
         assert_eq!(game.warnings().iter().map(|warning| &warning.message).collect::<Vec<_>>(), [free]);
         // A score of 0 loses.
         check_ends(rule, "Timeout limit=100 count_score=True", &[]);
+    }
+
+    #[test]
+    fn a_rule_that_asks_for_more_than_anybody_can_hold_is_named() {
+        let check = |replace: &str, with: &str, expect: &[&str]| {
+            let game = GAME.replace("Timeout limit=300 win=True", "SpriteCounter stype=stone win=True");
+            let rule = "stone avatar > killIfOtherHasMore resource=egg limit=3";
+            let game = game.replace("egg avatar > collect", &format!("{rule}\n        egg avatar > collect"));
+            let game = Game::from_source(&game.replace(replace, with)).unwrap();
+            let told = game.warnings().iter().filter(|warning| warning.code == "no-win");
+            assert_eq!(told.map(|warning| warning.message.as_str()).collect::<Vec<_>>(), expect);
+        };
+        check("", "", &[]);
+        let asks =
+            "the game cannot be won: `stone avatar > killIfOtherHasMore` needs 3 `egg`, and nobody can hold";
+        check("Resource limit=3", "Resource limit=1", &[&format!("{asks} more than 1")]);
+        let kind = format!("{asks} one: `egg` is Immovable, not Resource");
+        check("egg > Resource limit=3", "egg > Immovable", &[&kind]);
     }
 
     #[test]

@@ -24,7 +24,10 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
     }
     let passed = document.levels.iter().filter(|level| level.passes).count();
     let count = document.levels.len();
-    let together = document.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass());
+    let together = document
+        .judgements
+        .iter()
+        .find(|judgement| !judgement.finding.verdict.is_pass() && !is_not_asked(&judgement.finding));
     let of_game = match together {
         Some(judgement) => format!("; {}", obstacle(judgement)),
         None => String::new(),
@@ -111,7 +114,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
         seen.rule.is_some() || *criterion == "winnable" || !words.contains(seen.text.as_str())
     };
     // A ladder says in a table what its evidence says in words.
-    let told = |seen: &&Evidence| told(seen) && !(finding.ladder.is_some() && mark == "pass");
+    let told = |seen: &&Evidence| told(seen) && mark != "-" && !(finding.ladder.is_some() && mark == "pass");
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(told).collect();
     let most = if *criterion == "winnable" { MOST_LINKS } else { MOST_SEEN };
     for seen in shown.iter().take(most) {
@@ -151,6 +154,9 @@ fn answer(criterion: &str, finding: &validators::Finding) -> String {
         Verdict::Pass { witness: None } => String::new(),
         Verdict::Fail { reason, .. } => reason.0.clone(),
         Verdict::Unknown { .. } if is_not_asked(finding) => finding.evidence[0].text.clone(),
+        Verdict::Unknown { spent: 0 } if criterion == "winnable" => {
+            "no win found: the budget allows no search".to_owned()
+        }
         Verdict::Unknown { spent: 0 } => "nothing to judge without a win".to_owned(),
         // What the budget broke off comes first.
         Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_broken_off) => {

@@ -1,0 +1,87 @@
+//! Whether a level cannot be won only because its time is up too soon.
+
+use crate::board::Board;
+use crate::evidence::{Evidence, Line};
+use crate::verdict::{Case, Finding, Reason, Verdict};
+use agents::{PortfolioConfig, Solution, solve};
+use engine::analysis::Condition;
+use engine::{Analysis, Description, Game};
+
+/// Rewrites the failure of a level of which a search proved that it cannot be won, if a search of the game without its losing
+/// Timeouts wins it: they are the cause. Other findings stay as they are. Cost: what the first search has left of its budget.
+pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) {
+    let Case { game, level, analysis, seed, .. } = case;
+    let Some(spent) = finding.searched.filter(|_| matches!(finding.verdict, Verdict::Fail { .. })) else {
+        return;
+    };
+    let left = search.budget.saturating_sub(spent);
+    let mut timeouts: Vec<(i32, usize)> = Vec::new();
+    for goal in analysis.goals().iter().filter(|goal| !goal.win) {
+        if let Condition::Tick(limit) = goal.condition {
+            timeouts.push((limit, goal.line));
+        }
+    }
+    let Some(&(_, line)) = timeouts.iter().min().filter(|_| left > 0) else { return };
+    let lines = game.description().terminations.iter().enumerate();
+    let kept = lines.filter(|(at, _)| timeouts.iter().all(|(_, timeout)| timeout != at));
+    let terminations = kept.map(|(_, line)| line.clone()).collect();
+    let endless = Description { terminations, ..game.description().clone() };
+    let Ok(endless) = Game::compile(&endless) else { return };
+    let Ok(again) = endless.level(&level.to_string()) else { return };
+    let config = PortfolioConfig { budget: left, ..search.clone() };
+    let solved = solve(&Analysis::of(&endless), &again, &config, seed.child("endless", 0));
+    finding.searched = Some(spent + solved.calls);
+    let Solution::Won { episode, shortest } = solved.solution else { return };
+    let ticks = episode.actions.len();
+    let fewest = if shortest { " at the earliest" } else { "" };
+    let rule = Line::termination(game, line);
+    let reason = format!(
+        "no way to win before `{}` ends the game; without it, it is won in {ticks} ticks{fewest}",
+        rule.text
+    );
+    finding.verdict = Verdict::Fail { reason: Reason(reason), witness: None };
+    // The board when the time is up, on the way to that win.
+    let mut state = game.start(level, episode.seed);
+    let mut until = 0;
+    for &action in &episode.actions {
+        if state.is_over() {
+            break;
+        }
+        game.step(&mut state, action);
+        until += 1;
+    }
+    let seen = Evidence {
+        text: format!("it ends the game in tick {until}, on the way to that win"),
+        rule: Some(rule),
+        board: Some(Board::of(game, &state)),
+        ..Evidence::default()
+    };
+    finding.evidence =
+        vec![seen.advise(format!("raise its `limit=` beyond {ticks}, or make the way shorter"))];
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Criteria, Panel, Verdict};
+    use engine::{Game, Seed};
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n  InteractionSet\n    avatar wall > stepBack\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    Timeout limit=4 win=False\n    Timeout limit=90 win=False\n    SpriteCounter stype=goal win=True\n";
+
+    #[test]
+    fn a_timeout_before_the_first_win_is_named_as_the_cause() {
+        let game = Game::from_source(GAME).unwrap();
+        let level = game.level("wwwwwwwwww\nwA.....g.w\nwwwwwwwwww\n".replace('.', " ").as_str()).unwrap();
+        let report = Panel::new(&Criteria::default()).judge(&game, &level, Seed::from_text("soon"));
+        let finding = report.finding("winnable").unwrap();
+        let Verdict::Fail { reason, .. } = &finding.verdict else { panic!("{finding:?}") };
+        let meant = "no way to win before `Timeout limit=4 win=False` ends the game; without it, it is won in 6 ticks";
+        assert!(reason.0.starts_with(meant), "{reason:?}");
+        let advice = finding.evidence[0].advice.as_deref();
+        assert_eq!(advice, Some("raise its `limit=` beyond 6, or make the way shorter"));
+        // With time enough it is a win.
+        let game = Game::from_source(&GAME.replace("limit=4", "limit=40")).unwrap();
+        let level = game.level(&level.to_string()).unwrap();
+        let report = Panel::new(&Criteria::default()).judge(&game, &level, Seed::from_text("soon"));
+        assert!(report.finding("winnable").unwrap().verdict.is_pass());
+    }
+}
