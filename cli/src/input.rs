@@ -196,9 +196,10 @@ fn no_game_in(folder: &Path) -> Failure {
 
 /// The path in the same folder whose name is the nearest to this one's, as after a slip of the fingers.
 fn beside(path: &Path) -> Option<String> {
-    let folder = path.parent().filter(|folder| *folder != Path::new(""))?;
+    let folder = path.parent()?;
     let wanted = path.file_name()?.to_string_lossy();
-    let there = sorted_entries(folder).ok()?;
+    let here = if folder == Path::new("") { Path::new(".") } else { folder };
+    let there = sorted_entries(here).ok()?;
     let names: Vec<_> = there.iter().filter_map(|path| path.file_name()?.to_str()).collect();
     let near = engine::nearest(&wanted, names)?;
     Some(folder.join(near).display().to_string())

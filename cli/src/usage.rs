@@ -79,6 +79,7 @@ fn in_words(error: &clap::Error) -> Option<String> {
     let what = match cause.kind() {
         _ if is_negative => "the number must not be negative",
         IntErrorKind::PosOverflow => "the number is too large",
+        IntErrorKind::Zero => "the number must be at least 1",
         _ => "a whole number is wanted",
     };
     Some(format!(
@@ -162,6 +163,8 @@ pub(crate) mod tests {
             }
         });
         assert!(flags > 20, "{flags}");
+        assert!(refused("arcade evaluate", "--tries", "0").contains("must be at least 1"));
+        assert!(refused("arcade evaluate", "--timeout", "0").contains("0 is not in 1.."));
         assert!(refused("arcade run", "--budget", "many").contains("a whole number is wanted"));
         assert!(refused("arcade run", "--budget", "99999999999999999999").contains("too large"));
     }

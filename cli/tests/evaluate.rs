@@ -153,7 +153,12 @@ fn killed_evaluations_lose_nothing() {
     let kills = 20;
     for kill in 0..kills {
         let mut command = arcade(&broken);
-        command.args(asking(&url, &more)).arg("--resume").stdout(Stdio::null()).stderr(Stdio::null());
+        // Nothing can be resumed before there is something.
+        command
+            .args(asking(&url, &more))
+            .args((kill > 0).then_some("--resume"))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
         let mut child = command.spawn().unwrap();
         let answered = server.asked().len();
         // The moment is chosen by what has happened, so that slow machines are killed in the same places.
@@ -240,6 +245,13 @@ fn dry_runs_ask_nothing_and_say_what_it_would_take() {
     assert_eq!((&forecast["episodes"], &forecast["requests"]), (&2.into(), &24.into()));
     assert!(forecast["input_tokens"].as_u64().unwrap() > 24 * 300);
     assert_eq!(forecast["power"].as_array().unwrap().len(), 3);
+    assert_eq!((&forecast["answer_tokens"], &forecast["max_output_tokens"]), (&100.into(), &Value::Null));
+    let url = server.base_url();
+    let bounded = asking(&url, &["--dry-run", "--max-output-tokens", "4000"]);
+    let forecast = json(&run(home.path(), &bounded, 0));
+    assert_eq!((&forecast["output_tokens"], &forecast["max_output_tokens"]), (&2400.into(), &96_000.into()));
+    let said = text(&run(home.path(), &bounded[1..], 0).stdout);
+    assert!(said.contains("assuming answers of 100 tokens; at most 0.10 M"), "{said}");
     assert!(server.asked().is_empty() && !home.path().join("results").exists());
 }
 
@@ -274,12 +286,35 @@ fn malformed_questions_are_told() {
             "both --with and --without",
         ),
         (&["hailglass", "--model", "openai:m", "--player", "random"], "cannot be used with"),
+        (&["hailglass", "--model", "openai:m", "--temperature", "nan"], "a number from 0 to 2, not NaN"),
+        (&["hailglass", "--model", "openai:m", "--temperature", "-1"], "a number from 0 to 2, not -1"),
+        (&["hailglass", "--model", "openai:m", "--top-p", "7"], "a number from 0 to 1, not 7"),
+        (&["hailglass", "--model", "openai:m", "--max-output-tokens", "0"], "at least 1"),
+        (&["hailglass", "--model", "openai:m", "--tries", "0"], "at least 1"),
+        (&["hailglass", "--model", "openai:m", "--prices", "nope.toml"], "nope.toml: there is no such file"),
+        (&["hailglass", "--model", "openai:m", "--jobs", "3"], "--concurrency"),
+        (&["hailglass", "--model", "m", "--base-url", "http://127.0.0.1:99999/v1"], "from 1 to 65535"),
+        (&["hailglass", "--player", "random", "--timeout", "0"], "0 is not in 1.."),
+        (&["hailglass", "--player", "random", "--max-cost", "5"], "--max-cost is for language models"),
+        (&["hailglass", "--player", "random", "--temperature", "1"], "`random` has no use for it"),
+        (&["hailglass", "--player", "random", "--with", "image"], "`random` reads none"),
+        (
+            &["hailglass", "--player", "random", "--resume", "--out", "nothere"],
+            "nothing to resume in nothere",
+        ),
     ] {
         let told = refusal(args);
         assert!(told.contains(words), "{args:?}: {told}");
     }
     std::fs::write(home.path().join("alone.vgdl"), "BasicGame\n").unwrap();
     assert!(refusal(&["alone.vgdl", "--player", "random"]).contains("put lvl0.txt"));
+    assert!(refusal(&["alnoe.vgdl", "--player", "random"]).contains("did you mean `alone.vgdl`?"));
+    let pasted = refusal(&["hailglass", "--model", "openai:m", "--key-variable", "sk-SECRET123"]);
+    assert!(pasted.contains("takes the name") && !pasted.contains("SECRET"), "{pasted}");
+    std::fs::create_dir(home.path().join("full")).unwrap();
+    std::fs::write(home.path().join("full/mine"), "").unwrap();
+    let full = refusal(&["hailglass", "--player", "random", "--out", "full"]);
+    assert!(full.contains("not empty") && !full.contains("--resume goes on"), "{full}");
     // Nothing is written before a key is there.
     let mut keyless = arcade(home.path());
     keyless.args(["evaluate", "hailglass", "--model", "openai:m", "--out", "k"]).env_remove("OPENAI_API_KEY");
@@ -291,6 +326,73 @@ fn malformed_questions_are_told() {
     let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];
     assert!(refusal(&other).contains("another player, model, prompt or decoding"));
     assert!(refusal(&["hailglass", "--player", "nil", "--out", "r"]).contains("not empty"));
+}
+
+/// What a report would refuse, `--resume` refuses too.
+#[test]
+fn edited_logs_are_not_certified() {
+    let home = tempfile::tempdir().unwrap();
+    let args =
+        ["evaluate", "hailglass", "--levels", "0,1", "--max-steps", "9", "--player", "random", "--out", "r"];
+    run(home.path(), &args, 0);
+    let resume = [&args[..], &["--resume"]].concat();
+    run(home.path(), &resume, 0);
+    let log = |level: usize| home.path().join(format!("r/episodes/hailglass-lvl{level}-run0.jsonl"));
+    let sound = std::fs::read_to_string(log(0)).unwrap();
+    let (steps, end) = sound.trim_end().rsplit_once('\n').unwrap();
+    let mut claimed: Value = serde_json::from_str(end).unwrap();
+    claimed["outcome"] = "won".into();
+    let (first, rest) = sound.split_once('\n').unwrap();
+    let (_, rest) = rest.split_once('\n').unwrap();
+    for changed in [
+        format!("{steps}\n{claimed}\n"),
+        format!("{first}\n{rest}"),
+        std::fs::read_to_string(log(1)).unwrap(),
+    ] {
+        std::fs::write(log(0), &changed).unwrap();
+        let told = text(&run(home.path(), &resume, 2).stderr);
+        assert!(told.contains("hailglass-lvl0-run0.jsonl: line ") && told.contains("remove it"), "{told}");
+    }
+    std::fs::remove_file(log(0)).unwrap();
+    run(home.path(), &resume, 0);
+    assert_eq!(logs(&home.path().join("r")).len(), 2);
+}
+
+/// A server's count that no request can have neither meets a cap nor breaks a sum.
+#[test]
+fn counts_of_tokens_that_cannot_be_are_not_believed() {
+    let body = r#"{"choices":[{"message":{"content":"ACTION: left"},"finish_reason":"stop"}],
+        "usage":{"prompt_tokens":18446744073709551615,"completion_tokens":18446744073709551615}}"#;
+    let server = Server::start(move |_, _| Act::reply(200, body));
+    let home = tempfile::tempdir().unwrap();
+    let played = json(&run(home.path(), &asking(&server.base_url(), &["--max-tokens", "1000000"]), 0));
+    assert!(played["spent"]["tokens"].as_u64().unwrap() < 1_000_000, "{played}");
+    assert_eq!(played["spent"]["cost"], Value::Null, "its price is not known");
+    // Results of before hold such counts.
+    let log = home.path().join("results/episodes/hailglass-lvl0-run0.jsonl");
+    let before = std::fs::read_to_string(&log).unwrap();
+    let huge = before.replace("\"input_tokens\":null", "\"input_tokens\":18446744073709551615");
+    assert_ne!(before, huge);
+    std::fs::write(&log, huge).unwrap();
+    run(home.path(), &["report", "results", "--out", "told"], 0);
+}
+
+/// Whoever compares planners names each once, and a table that cannot be written does not cost the answer.
+#[test]
+fn runs_are_refused_before_they_are_played() {
+    let home = tempfile::tempdir().unwrap();
+    let refused = |more: &[&str]| {
+        text(
+            &run(home.path(), &[&["run", "hailglass", "--runs", "1", "--max-ticks", "3"], more].concat(), 2)
+                .stderr,
+        )
+    };
+    let told = refused(&["--planner", "random,random"]);
+    assert!(told.contains("`random` and `random` are the same player"), "{told}");
+    let told = refused(&["--planner", "mcts,mcts:20", "--budget", "20"]);
+    assert!(told.contains("`mcts` and `mcts:20` are the same player"), "{told}");
+    let told = refused(&["--planner", "random", "--csv", "nope/x.csv"]);
+    assert!(told.contains("its folder does not exist") && !told.contains("episodes"), "{told}");
 }
 
 /// More episodes at a time than there are: said, and not tried.
@@ -336,7 +438,7 @@ fn results_and_reports_in_folders_that_are_no_text() {
     use std::os::unix::ffi::OsStrExt;
     let home = tempfile::tempdir().unwrap();
     let name = |bytes: &[u8]| std::ffi::OsStr::from_bytes(bytes).to_owned();
-    for flags in [&[][..], &["--json"]] {
+    for (flags, resume) in [(&[][..], None), (&["--json"], Some("--resume"))] {
         let (results, report) = (name(b"r\xff"), name(b"p\xff"));
         let mut command = arcade(home.path());
         command.args(flags).args([
@@ -349,7 +451,7 @@ fn results_and_reports_in_folders_that_are_no_text() {
             "--max-steps",
             "3",
         ]);
-        let played = command.arg("--resume").arg("--out").arg(&results).output().unwrap();
+        let played = command.args(resume).arg("--out").arg(&results).output().unwrap();
         assert_eq!(played.status.code(), Some(0), "{}", text(&played.stderr));
         let mut command = arcade(home.path());
         let told =
@@ -371,7 +473,7 @@ fn a_full_disk_stops_and_loses_nothing() {
         let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
         let mut command = std::process::Command::new("sh");
         command.current_dir(home.path()).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_arcade")]);
-        command.args(asking(&url, &[&more[..], &["--resume"]].concat())).output().unwrap()
+        command.args(asking(&url, &more)).output().unwrap()
     };
     let full = limited("20");
     let told = text(&full.stderr);

@@ -72,7 +72,8 @@ fn subtitle(evaluations: &[Evaluation]) -> String {
             .map_or("no snapshot".to_owned(), |root| format!("snapshot {}", root.short()))
     });
     let seed = all(&|evaluation| format!("“{}”", evaluation.settings.seed));
-    let limit = all(&|evaluation| words::grouped(evaluation.settings.max_steps));
+    let limits: BTreeSet<u64> = evaluations.iter().map(|evaluation| evaluation.settings.max_steps).collect();
+    let limit = limits.into_iter().map(words::grouped).collect::<Vec<_>>().join(" and ");
     let semantics = all(&|evaluation| evaluation.settings.semantics.to_string());
     let suite = all(&|evaluation| evaluation.settings.suite.clone());
     format!(

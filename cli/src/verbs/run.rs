@@ -11,8 +11,10 @@ use engine::{Game, Level, Outcome, SEMANTICS, Seed};
 use rayon::prelude::*;
 use serde::Serialize;
 use statistics::{Summary, Z95, wilson};
+use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
 /// Plays planners on games and reports win rates with 95 % intervals, per game and pooled.
 ///
@@ -114,6 +116,8 @@ struct Row<'a> {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let planners = args.planner.iter().map(|name| name.parse().map_err(Failure::malformed));
     let planners: Vec<PlannerSpec> = planners.collect::<Result<_, _>>()?;
+    refuse_twice(args, &planners)?;
+    args.csv.as_deref().map_or(Ok(()), check_place)?;
     let subjects = subjects(args)?;
     let mut entries = Vec::new();
     for subject in &subjects {
@@ -144,12 +148,39 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         as_reference: args.as_reference,
         rows: rows(args, &subjects, &planners, &entries, &lines),
     };
+    // First of all the answer: it is not lost where the file cannot be written.
+    console.document(&report)?;
+    console.say(table(&report.rows).trim_end());
     if let Some(path) = &args.csv {
         whole_file::write(path, &csv(&lines).map_err(|error| Failure::environment(error, path.display()))?)?;
     }
-    console.document(&report)?;
-    console.say(table(&report.rows).trim_end());
     Ok(true)
+}
+
+/// Refuses a planner that is named twice with the same budget: its episodes would be counted twice.
+fn refuse_twice(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
+    let mut seen = BTreeMap::new();
+    for planner in planners {
+        let looks_ahead = !matches!(planner.name(), "do-nothing" | "random" | "random-with-nil");
+        let key = (planner.name(), looks_ahead.then(|| budget(args, planner)));
+        if let Some(first) = seen.insert(key, planner) {
+            return Err(Failure::malformed(format!(
+                "--planner: `{first}` and `{planner}` are the same player; name it once, or with different budgets"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a place for the table where no file can be, before anything is played.
+fn check_place(path: &Path) -> Result<(), Failure> {
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let problem = match (path.is_dir(), folder.is_dir()) {
+        (true, _) => ErrorKind::IsADirectory,
+        (false, false) => ErrorKind::NotFound,
+        (false, true) => return Ok(()),
+    };
+    Err(Failure::write(path, problem.into()))
 }
 
 fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {

@@ -116,6 +116,23 @@ pub struct Usage {
     pub reasoning_tokens: Option<u64>,
 }
 
+/// Tokens of one request above which a server's count is no count: no context window comes near.
+const MOST_TOKENS: u64 = 1 << 40;
+
+impl Usage {
+    /// The counts without those that no request can have; what is left out is counted by ourselves.
+    pub(super) fn plausible(self) -> Usage {
+        let plausible = |count: Option<u64>| count.filter(|&tokens| tokens <= MOST_TOKENS);
+        Usage {
+            input_tokens: plausible(self.input_tokens),
+            cached_input_tokens: plausible(self.cached_input_tokens),
+            cache_write_tokens: plausible(self.cache_write_tokens),
+            output_tokens: plausible(self.output_tokens),
+            reasoning_tokens: plausible(self.reasoning_tokens),
+        }
+    }
+}
+
 /// A try that failed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {

@@ -116,6 +116,7 @@ impl ModelSettings {
 pub fn settings(options: &ModelOptions) -> Result<ModelSettings, EvaluationError> {
     let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
     let decoding = spec.provider.decoding(&options.decoding)?;
+    check_variable(options.key_variable.as_deref())?;
     Ok(ModelSettings { provider: spec.provider, server: spec.server.host, model: spec.model, decoding })
 }
 
@@ -175,6 +176,20 @@ pub fn connect_with(
         clock,
     };
     Ok(Connection { model: Box::new(remote), caps, settings, price })
+}
+
+/// Refuses what is no name of a variable, without repeating it: it may be the key itself.
+fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
+    let is_name = |name: &str| {
+        let plain = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
+        name.chars().all(plain) && name.starts_with(|c: char| !c.is_ascii_digit())
+    };
+    if name.is_none_or(is_name) {
+        return Ok(());
+    }
+    let problem = "--key-variable takes the name of an environment variable, in capitals, digits and `_`, such as \
+                   `MY_API_KEY`; export the key under that name, and never put the key itself on the command line";
+    Err(EvaluationError::Malformed(problem.to_owned()))
 }
 
 /// The key to send. This machine gets none, and no other gets one unencrypted, unless the user names the variable.
@@ -238,6 +253,12 @@ mod tests {
         let mut capped = ModelOptions::new("openai:gpt-99");
         capped.limits.cost = super::super::prices::Usd::from_dollars(1.0);
         assert!(problem(&capped, &all_keys).contains("name = \"gpt-99\""));
+        for pasted in ["sk-ZEBRA123", "zebra", "", "1ZEBRA"] {
+            let named =
+                ModelOptions { key_variable: Some(pasted.to_owned()), ..ModelOptions::new("gemini:m") };
+            let told = problem(&named, &all_keys);
+            assert!(told.contains("--key-variable takes the name") && !told.to_lowercase().contains("zebra"));
+        }
         let mut seeded = ModelOptions::new("anthropic:m");
         seeded.decoding.seed = Some(1);
         assert!(problem(&seeded, &all_keys).contains("no sampling seed"));

@@ -73,7 +73,12 @@ fn unknown(id: &str) -> String {
         ("gemini", "gemini"),
     ];
     let guess = starts.iter().find(|(start, _)| id.starts_with(start));
-    let guess = guess.map(|(_, prefix)| format!("; did you mean `{prefix}:{id}`?")).unwrap_or_default();
+    let guess = guess.map(|(_, prefix)| format!("{prefix}:{id}")).or_else(|| {
+        let (prefix, model) = id.split_once(':')?;
+        let near = engine::nearest(prefix, ["openai", "anthropic", "gemini"])?;
+        Some(format!("{near}:{model}"))
+    });
+    let guess = guess.map(|guess| format!("; did you mean `{guess}`?")).unwrap_or_default();
     format!(
         "`{id}` does not say where the model is served{guess}\n  give `openai:NAME`, `anthropic:NAME` or \
          `gemini:NAME`, or the server's address: `--base-url http://localhost:8000/v1`"
@@ -99,6 +104,10 @@ impl Server {
             return Err(malformed(
                 "holds a name or password, which belongs in a variable of the environment",
             ));
+        }
+        let port = authority.as_str()[authority.host().len()..].strip_prefix(':');
+        if port.is_some_and(|port| !matches!(port.parse::<u16>(), Ok(1..))) {
+            return Err(malformed("has a port that is no number from 1 to 65535"));
         }
         if uri.query().is_some() {
             return Err(malformed("has a query"));
@@ -149,6 +158,7 @@ mod tests {
         check("openai:gpt-x", local, Ok((OpenAi, "gpt-x", "http://localhost:11434/v1")));
         check("gpt-4o-mini", None, Err("did you mean `openai:gpt-4o-mini`?"));
         check("claude-x", None, Err("did you mean `anthropic:claude-x`?"));
+        check("opnai:gpt-4o-mini", None, Err("did you mean `openai:gpt-4o-mini`?"));
         check("mcts", None, Err("--base-url"));
         check("openai:", None, Err("no name of a model"));
         check("gemini:../x", None, Err("no name of a model"));
@@ -178,6 +188,9 @@ mod tests {
             ("https://me:zebra@example.org/v1", "password"),
             ("https://example.org/v1?key=zebra", "query"),
             ("not a url", "is not a URL"),
+            ("http://127.0.0.1:99999/v1", "from 1 to 65535"),
+            ("http://127.0.0.1:0/v1", "from 1 to 65535"),
+            ("http://[::1]:99999/v1", "from 1 to 65535"),
         ] {
             let problem = ModelSpec::parse("m", Some(url)).unwrap_err().to_string();
             assert!(problem.contains(words), "{url}: {problem}");

@@ -91,7 +91,8 @@ impl Spending {
             })
             .collect();
         let sum = |of: fn(&crate::client::Usage) -> Option<u64>| {
-            let sum: Option<u64> = replies.iter().map(|reply| of(&reply.usage)).sum();
+            let mut each = replies.iter().map(|reply| of(&reply.usage));
+            let sum = each.try_fold(0u64, |sum, tokens| Some(sum.saturating_add(tokens?)));
             sum.filter(|_| !replies.is_empty())
         };
         Spending {
@@ -110,7 +111,7 @@ impl Spending {
     pub fn add(&mut self, other: &Spending) {
         if other.replies > 0 {
             let first = self.replies == 0;
-            let sum = |a: Option<u64>, b: Option<u64>| if first { b } else { Some(a? + b?) };
+            let sum = |a: Option<u64>, b: Option<u64>| if first { b } else { Some(a?.saturating_add(b?)) };
             self.input_tokens = sum(self.input_tokens, other.input_tokens);
             self.cached_input_tokens = sum(self.cached_input_tokens, other.cached_input_tokens);
             self.output_tokens = sum(self.output_tokens, other.output_tokens);
@@ -145,6 +146,17 @@ mod tests {
     use super::*;
     use crate::client::{Finish, Usage};
     use crate::log::Reply;
+
+    #[test]
+    fn sums_of_tokens_stay_within_what_a_number_holds() {
+        let huge = Spending { replies: 1, input_tokens: Some(u64::MAX), ..Spending::default() };
+        let mut all = huge;
+        all.add(&huge);
+        assert_eq!(all.input_tokens, Some(u64::MAX));
+        let mut unknown = Spending { replies: 1, ..Spending::default() };
+        unknown.add(&huge);
+        assert_eq!(unknown.input_tokens, None, "one answer does not tell");
+    }
 
     #[test]
     fn requests_that_a_cap_forbade_were_not_sent() {

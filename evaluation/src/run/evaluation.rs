@@ -1,7 +1,8 @@
 //! All episodes of an evaluation, some at a time, each with its own log.
 
 use crate::error::EvaluationError;
-use crate::log::{Event, Journal};
+use crate::log::{Event, Journal, NEXT_MOVE};
+use crate::metrics::replay;
 use crate::player::{Contestant, Halt};
 use crate::run::episode::{Left, Task, play};
 use crate::run::settings::{FORMAT, MAX_SETTINGS, SETTINGS_FILE, Settings, SubjectEntry};
@@ -62,6 +63,11 @@ pub struct Tally {
 }
 
 impl Evaluation {
+    /// Whether there is something to go on with: an evaluation, or the interrupted beginning of one.
+    pub fn is_begun(folder: &Path) -> bool {
+        [SETTINGS_FILE, LOCK_FILE].iter().any(|name| folder.join(name).exists())
+    }
+
     /// A new results folder; it must be absent or empty, but for what an interrupted beginning has left there.
     ///
     /// # Errors
@@ -74,8 +80,12 @@ impl Evaluation {
         settings.check().map_err(EvaluationError::Malformed)?;
         fs::create_dir_all(folder).map_err(EvaluationError::io("make", folder))?;
         if !is_free(folder)? {
+            let next = match folder.join(SETTINGS_FILE).exists() {
+                true => "--resume goes on with the evaluation in it, or name another",
+                false => "there is no evaluation in it to go on with: name another",
+            };
             return Err(EvaluationError::Malformed(format!(
-                "{}: the folder is not empty; --resume goes on with the evaluation in it, or name another",
+                "{}: the folder is not empty; {next}",
                 folder.display()
             )));
         }
@@ -212,6 +222,36 @@ impl Evaluation {
         })
     }
 
+    /// What `read` makes of the log of an episode, which has to be the log of this one.
+    ///
+    /// # Errors
+    /// It is not, or `read` fails: which file, which line, and the next move.
+    pub(crate) fn checked<T>(
+        &self,
+        task: &Task<'_>,
+        log: &[Event],
+        read: impl FnOnce() -> Result<T, EvaluationError>,
+    ) -> Result<T, EvaluationError> {
+        let place = self.log_path(task);
+        let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", place.display()));
+        let found = read().map_err(|error| wrong(error.to_string()))?;
+        let start = log.first().map_or(Ok(()), |start| task.compare_start(start));
+        start.map_err(|what| wrong(format!("line 1: {what}; {NEXT_MOVE}")))?;
+        Ok(found)
+    }
+
+    /// Plays the ended episodes again from their logs: nothing is counted as played that a report would refuse.
+    fn check_ended(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
+        self.check_logs(tasks)?;
+        tasks.par_iter().try_for_each(|task| {
+            let log = self.events(task)?;
+            if !matches!(log.last(), Some(Event::End { .. })) {
+                return Ok(());
+            }
+            self.checked(task, &log, || replay(task.subject, &log)).map(drop)
+        })
+    }
+
     pub(crate) fn log_path(&self, task: &Task<'_>) -> PathBuf {
         self.folder.join("episodes").join(task.file_name())
     }
@@ -222,7 +262,7 @@ impl Evaluation {
     /// leave the rest open.
     ///
     /// # Errors
-    /// A log cannot be read or written.
+    /// A log cannot be read or written, or that of an ended episode contradicts the game.
     pub fn run(
         &self,
         contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
@@ -231,6 +271,7 @@ impl Evaluation {
         let (stopped, failures) = (AtomicBool::new(false), AtomicU64::new(0));
         let first = Mutex::new(None);
         let tasks = self.tasks();
+        self.check_ended(&tasks)?;
         // One after the other from the front, not in halves: what is broken off has played every level about equally often.
         let lefts = tasks.iter().par_bridge().map(|task| {
             if stopped.load(Ordering::Relaxed) {

@@ -1,7 +1,7 @@
 //! A study from results folders.
 
 use crate::error::EvaluationError;
-use crate::log::{Event, NEXT_MOVE};
+use crate::log::Event;
 use crate::metrics::EpisodeMetrics;
 use crate::run::{Evaluation, Task};
 use crate::study::{Player, Study, StudyGame};
@@ -173,9 +173,5 @@ fn measured(evaluation: &Evaluation, task: &Task<'_>) -> Result<Option<EpisodeMe
     if log.is_empty() {
         return Ok(None);
     }
-    let place = evaluation.log_path(task);
-    let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", place.display()));
-    let metrics = EpisodeMetrics::of(task.subject, &log).map_err(|error| wrong(error.to_string()))?;
-    task.compare_start(&log[0]).map_err(|what| wrong(format!("line 1: {what}; {NEXT_MOVE}")))?;
-    Ok(Some(metrics))
+    evaluation.checked(task, &log, || EpisodeMetrics::of(task.subject, &log)).map(Some)
 }

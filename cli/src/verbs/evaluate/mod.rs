@@ -11,6 +11,7 @@ use crate::verbs::player_guard;
 use crate::verbs::release::in_pool;
 use agents::{Budget, PlannerSpec};
 use engine::{Outcome, SEMANTICS};
+use evaluation::client::Spent;
 use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};
 use evaluation::player::{Contestant, Replay};
 use evaluation::prompt::PromptSettings;
@@ -109,6 +110,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return Err(Failure::malformed("--jobs takes a number of episodes at a time, at least 1"));
     }
     let asked = asked(args)?;
+    refuse_idle_flags(args, &asked)?;
     let choice =
         subjects::Choice { games: &args.games, levels: &args.levels, as_reference: args.as_reference };
     let subjects = subjects::read(&args.subjects, &choice)?;
@@ -130,6 +132,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return forecast(&asked, &settings, &subjects.games, console);
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
+    if args.resume && !Evaluation::is_begun(&folder) {
+        return Err(Failure::malformed(format!(
+            "there is nothing to resume in {}; name the folder of the evaluation with --out, or leave --resume out to begin one",
+            folder.display()
+        )));
+    }
     let ready = asked.ready(args, &subjects.games)?;
     let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
         Evaluation::resume(&folder, &settings)
@@ -148,7 +156,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let contestant = |task: &Task<'_>| Ok::<_, Halt>(ready.contestant(task));
     let tally = in_pool(Some(ready.threads(args, episodes, console)), || evaluation.run(contestant, &bar));
     interrupt::defer();
-    let tally = tally?.map_err(failure)?;
+    let tally = tally?.map_err(|error| match failure(error) {
+        Failure::Environment(error) => {
+            Failure::environment(error, "the evaluation was broken off, --resume goes on with it")
+        }
+        other => other,
+    })?;
     bar.bar.finish_and_clear();
     told(console, &folder, &evaluation.settings.entrant, &tally, &ready)
 }
@@ -274,6 +287,32 @@ fn end_players() {
     evaluation::player::process::end_all();
 }
 
+/// Refuses flags that would change nothing: whoever gives them expects that they do.
+fn refuse_idle_flags(args: &Args, asked: &Asked) -> Result<(), Failure> {
+    if matches!(asked, Asked::Model(_)) {
+        return match args.jobs {
+            Some(_) => Err(Failure::malformed(
+                "--jobs is for players that are no models; --concurrency says how many requests of a model are under way",
+            )),
+            None => Ok(()),
+        };
+    }
+    let player = args.player.as_deref().unwrap_or_default();
+    if let Some(flag) = args.model.idle_without_model() {
+        return Err(Failure::malformed(format!(
+            "{flag} is for language models (--model); `{player}` has no use for it, leave it out"
+        )));
+    }
+    let is_shown_prompts = matches!(asked, Asked::Human(_) | Asked::Prompted(..));
+    if !is_shown_prompts && args.model.prompt.settings()? != PromptSettings::default() {
+        return Err(Failure::malformed(format!(
+            "the flags of prompts (--mode, --rules, --with and so on) are for players that read prompts; `{player}` reads none, leave \
+             them out"
+        )));
+    }
+    Ok(())
+}
+
 fn asked(args: &Args) -> Result<Asked, Failure> {
     if let Some(id) = &args.model.model {
         return Ok(Asked::Model(Box::new(model::Asked::new(id, &args.model)?)));
@@ -307,7 +346,7 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
 
 /// A program as a player.
 fn process(command: &str, timeout: u64) -> Result<Process, String> {
-    let timeout = Duration::from_secs(timeout.max(1));
+    let timeout = Duration::from_secs(timeout);
     Process::new(
         command,
         ProcessConfig { timeout, guard: player_guard::command(), ..ProcessConfig::default() },
@@ -331,35 +370,42 @@ fn file_name(name: &str) -> String {
 /// What came of it.
 fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, ready: &Ready) -> Answer {
     let spent = match ready {
-        Ready::Model(model) => Some(model.caps.spent()),
+        Ready::Model(model) => {
+            let spent = model.caps.spent();
+            Some((spent, model.is_priced.then(|| spent.cost.dollars())))
+        }
         _ => None,
     };
-    let spending = spent.map(
-        |spent| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": spent.cost.dollars() }),
-    );
+    let spending = spent
+        .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
     console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
     let Tally { episodes, ended, won, open, halted, infrastructure } = tally;
     console.say(format_args!("{}: {ended} of {episodes} episodes played, {won} won", entrant.name));
-    if let Some(spent) = spent {
-        let (requests, tokens) = (spent.requests, spent.tokens);
-        console.say(format_args!("{requests} requests, {tokens} tokens, {:.4} USD", spent.cost.dollars()));
+    if let Some((Spent { requests, tokens, .. }, cost)) = spent {
+        let cost = cost.map_or("cost unknown".to_owned(), |cost| format!("{cost:.4} USD"));
+        console.say(format_args!("{requests} requests, {tokens} tokens, {cost}"));
     }
+    let (open, them) = match open {
+        1 => ("1 episode is open".to_owned(), "it"),
+        _ => (format!("{open} episodes are open"), "them"),
+    };
     console.say(format_args!("results in {}", folder.display()));
     match halted {
         Some(why) if *infrastructure => Err(Failure::environment(
             anyhow::anyhow!("{why}"),
-            format_args!("{open} episodes are open, --resume goes on with them"),
+            format_args!("{open}, --resume goes on with {them}"),
         )),
         Some(why) => {
-            console.say(format_args!("{open} episodes are open: {why}; --resume goes on with them"));
+            console.say(format_args!("{open}: {why}; --resume goes on with {them}"));
             Ok(false)
         }
-        None => Ok(*open == 0),
+        None => Ok(tally.open == 0),
     }
 }
 
 pub(crate) fn failure(error: EvaluationError) -> Failure {
     match error {
+        EvaluationError::Io { action: "read", path, source } => Failure::read(&path, source),
         EvaluationError::Io { .. } => Failure::Environment(error.into()),
         EvaluationError::Malformed(_) => Failure::Malformed(error.into()),
     }

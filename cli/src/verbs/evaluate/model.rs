@@ -79,7 +79,7 @@ pub(crate) struct ModelArgs {
     #[arg(long, value_name = "N", default_value = "8")]
     tries: NonZeroU32,
     /// Seconds that a try, or an answer of a program, may take
-    #[arg(long, value_name = "S", default_value_t = 600)]
+    #[arg(long, value_name = "S", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     pub(crate) timeout: u64,
     #[command(flatten)]
     pub(crate) prompt: PromptArgs,
@@ -222,6 +222,27 @@ impl Aid {
 }
 
 impl ModelArgs {
+    /// The first flag that was given and that only a language model has a use for.
+    pub(crate) fn idle_without_model(&self) -> Option<&'static str> {
+        let given = [
+            ("--base-url", self.base_url.is_some()),
+            ("--key-variable", self.key_variable.is_some()),
+            ("--temperature", self.temperature.is_some()),
+            ("--top-p", self.top_p.is_some()),
+            ("--max-output-tokens", self.max_output_tokens.is_some()),
+            ("--sampling-seed", self.sampling_seed.is_some()),
+            ("--reasoning-effort", self.reasoning_effort.is_some()),
+            ("--max-cost", self.max_cost.is_some()),
+            ("--max-tokens", self.max_tokens.is_some()),
+            ("--max-requests", self.max_requests.is_some()),
+            ("--prices", self.prices.is_some()),
+            ("--cache", self.cache.is_some()),
+            ("--requests-per-minute", self.requests_per_minute.is_some()),
+            ("--tokens-per-minute", self.tokens_per_minute.is_some()),
+        ];
+        given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)
+    }
+
     fn options(&self, model: &str) -> Result<ModelOptions, Failure> {
         let cost = match self.max_cost {
             Some(dollars) => Some(Usd::from_dollars(dollars).ok_or_else(|| {
@@ -229,7 +250,6 @@ impl ModelArgs {
             })?),
             None => None,
         };
-        let seconds = self.timeout.max(1);
         Ok(ModelOptions {
             base_url: self.base_url.clone(),
             key_variable: self.key_variable.clone(),
@@ -247,7 +267,7 @@ impl ModelArgs {
             requests_per_minute: self.requests_per_minute,
             tokens_per_minute: self.tokens_per_minute,
             tries: self.tries,
-            timeout: Duration::from_secs(seconds),
+            timeout: Duration::from_secs(self.timeout),
             ..ModelOptions::new(model)
         })
     }
@@ -279,11 +299,13 @@ pub(crate) struct Ready {
     prompters: Prompters,
     decoding: Decoding,
     reasks: u32,
+    /// Whether its price is known: without one, nobody knows what was spent.
+    pub(crate) is_priced: bool,
     /// What is spent.
     pub(crate) caps: Arc<client::Caps>,
 }
 
-/// What an evaluation will take, at most.
+/// What an evaluation will take if every episode takes all its steps.
 #[derive(Serialize)]
 pub(crate) struct Forecast {
     episodes: u64,
@@ -294,6 +316,14 @@ pub(crate) struct Forecast {
     /// US dollars; none if the price is not known.
     cost: Option<f64>,
     cost_if_cached: Option<f64>,
+    /// Tokens that an answer is assumed to have.
+    answer_tokens: u64,
+    /// Tokens that an answer can have; none if nothing bounds it.
+    max_answer_tokens: Option<u64>,
+    /// Tokens of answers that are all as long as they can be.
+    max_output_tokens: Option<u64>,
+    /// US dollars with these.
+    max_cost: Option<f64>,
     /// What of it goes beyond a cap.
     forbidden: Option<String>,
 }
@@ -340,6 +370,7 @@ impl Asked {
             prompters: prompters(subjects, &self.prompts)?,
             decoding: connection.settings.decoding,
             reasks: self.reasks,
+            is_priced: connection.price.is_some(),
             caps: connection.caps,
         })
     }
@@ -347,11 +378,8 @@ impl Asked {
     /// What these episodes take if each of them takes all its steps and no answer is asked for again.
     pub(crate) fn forecast(&self, tasks: &[Task<'_>]) -> Result<Forecast, Failure> {
         let price = client::price(&self.options).map_err(failure)?;
-        let answer = self
-            .options
-            .decoding
-            .max_output_tokens
-            .map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(u64::from(most)));
+        let most = self.settings.decoding.max_output_tokens.map(u64::from);
+        let answer = most.map_or(ANSWER_TOKENS, |most| ANSWER_TOKENS.min(most));
         let mut batches = Vec::new();
         for task in tasks {
             let prompter = self.prompter(task.subject)?;
@@ -371,6 +399,10 @@ impl Asked {
             });
         }
         let estimate = Estimate::of(&batches, price.as_ref());
+        let longest = most.map(|output_tokens| {
+            let longest: Vec<_> = batches.iter().map(|batch| Batch { output_tokens, ..*batch }).collect();
+            Estimate::of(&longest, price.as_ref())
+        });
         Ok(Forecast {
             episodes: tasks.len() as u64,
             requests: estimate.requests,
@@ -379,6 +411,10 @@ impl Asked {
             output_tokens: estimate.output_tokens,
             cost: estimate.cost.map(Usd::dollars),
             cost_if_cached: estimate.cost_if_cached.map(Usd::dollars),
+            answer_tokens: answer,
+            max_answer_tokens: most,
+            max_output_tokens: longest.map(|longest| longest.output_tokens),
+            max_cost: longest.and_then(|longest| longest.cost).map(Usd::dollars),
             forbidden: self.options.limits.forbid_estimate(&estimate),
         })
     }
@@ -410,13 +446,25 @@ impl Ready {
 impl std::fmt::Display for Forecast {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let million = |tokens: u64| tokens as f64 / 1e6;
-        writeln!(f, "at most, if every episode takes all its steps and no answer is asked for again:")?;
+        writeln!(f, "if every episode takes all its steps and no answer is asked for again:")?;
         writeln!(f, "{} episodes, {} requests", self.episodes, self.requests)?;
         let (input, cached) = (million(self.input_tokens), million(self.cacheable_tokens));
         writeln!(f, "{input:.2} M tokens of prompts, of which a provider's cache may hold {cached:.2} M")?;
-        writeln!(f, "{:.2} M tokens of answers", million(self.output_tokens))?;
+        let (output, assumed) = (million(self.output_tokens), self.answer_tokens);
+        write!(f, "{output:.2} M tokens of answers, assuming answers of {assumed} tokens; ")?;
+        match (self.max_answer_tokens, self.max_output_tokens) {
+            (Some(answer), Some(all)) => {
+                writeln!(f, "at most {:.2} M, as an answer has at most {answer}", million(all))?;
+            }
+            _ => writeln!(f, "--max-output-tokens would bound them")?,
+        }
         match (self.cost, self.cost_if_cached) {
-            (Some(cost), Some(cached)) => write!(f, "{cost:.2} USD, {cached:.2} with the cache")?,
+            (Some(cost), Some(cached)) => {
+                write!(f, "{cost:.2} USD, {cached:.2} with the cache")?;
+                self.max_cost
+                    .iter()
+                    .try_for_each(|most| write!(f, "; {most:.2} USD with the longest answers"))?;
+            }
             _ => write!(f, "cost: not known; --prices FILE gives prices")?,
         }
         self.forbidden.iter().try_for_each(|cap| write!(f, "\nthat exceeds {cap}"))

@@ -80,9 +80,10 @@ impl Provider {
     /// The decoding that is sent: what was asked for, and what this provider cannot do without.
     ///
     /// # Errors
-    /// It asks for what the provider does not have.
+    /// It asks for what the provider does not have, or for a number outside its range.
     pub(super) fn decoding(self, asked: &Decoding) -> Result<Decoding, EvaluationError> {
         let mut decoding = asked.clone();
+        check_ranges(asked).map_err(EvaluationError::Malformed)?;
         if self == Provider::Anthropic {
             if asked.seed.is_some() {
                 let problem = "anthropic has no sampling seed; leave it out".to_owned();
@@ -131,11 +132,28 @@ impl Provider {
     /// # Errors
     /// It is not a reply: why, in words.
     pub(super) fn answer(self, body: &str) -> Result<Answer, String> {
-        match self {
+        let answer = match self {
             Provider::OpenAi | Provider::Compatible => openai::answer(body),
             Provider::Anthropic => anthropic::answer(body),
             Provider::Gemini => gemini::answer(body),
+        }?;
+        Ok(Answer { usage: answer.usage.plausible(), ..answer })
+    }
+}
+
+/// Refuses numbers that no sampler can use.
+fn check_ranges(decoding: &Decoding) -> Result<(), String> {
+    let in_range = |flag: &str, value: Option<f64>, most: f64| match value {
+        Some(value) if !(0.0..=most).contains(&value) => {
+            Err(format!("{flag} takes a number from 0 to {most}, not {value}"))
         }
+        _ => Ok(()),
+    };
+    in_range("--temperature", decoding.temperature, 2.0)?;
+    in_range("--top-p", decoding.top_p, 1.0)?;
+    match decoding.max_output_tokens {
+        Some(0) => Err("--max-output-tokens takes a number, at least 1: an answer needs tokens".to_owned()),
+        _ => Ok(()),
     }
 }
 
@@ -166,6 +184,36 @@ fn parse<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, String> {
 /// Joined by a line each; none if there is none.
 fn joined(texts: Vec<String>) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_outside_their_range_are_refused() {
+        let refused = |decoding: Decoding, words: &str| {
+            let problem = Provider::Compatible.decoding(&decoding).unwrap_err().to_string();
+            assert!(problem.contains(words), "{problem}");
+        };
+        for temperature in [f64::NAN, f64::INFINITY, -1.0, 2.1] {
+            let decoding = Decoding { temperature: Some(temperature), ..Decoding::default() };
+            refused(decoding, "--temperature takes a number from 0 to 2");
+        }
+        refused(Decoding { top_p: Some(7.0), ..Decoding::default() }, "--top-p takes a number from 0 to 1");
+        refused(Decoding { max_output_tokens: Some(0), ..Decoding::default() }, "at least 1");
+        let fine = Decoding { temperature: Some(2.0), top_p: Some(0.0), ..Decoding::default() };
+        assert_eq!(Provider::Compatible.decoding(&fine).unwrap(), fine);
+    }
+
+    /// Sums of them would overflow, and caps would be met by a server's slip.
+    #[test]
+    fn counts_that_no_request_has_are_left_out() {
+        let body = r#"{"choices":[{"message":{"content":"up"},"finish_reason":"stop"}],
+            "usage":{"prompt_tokens":18446744073709551615,"completion_tokens":10}}"#;
+        let usage = Provider::Compatible.answer(body).unwrap().usage;
+        assert_eq!((usage.input_tokens, usage.output_tokens), (None, Some(10)));
+    }
 }
 
 #[cfg(test)]

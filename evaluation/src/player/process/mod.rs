@@ -171,7 +171,7 @@ impl Agent for Process {
                 Ok(answer) => answer,
                 Err(silence) => return Err(self.failed(silence, turn)),
             };
-            match read(&answer, turn.actions) {
+            match read(&answer, turn) {
                 Ok(action) => return Ok(Choice { action, validity: Validity::Valid }),
                 Err(message) => {
                     record(journal, turn, attempt, &answer)?;
@@ -274,7 +274,16 @@ fn hear(talker: &Talker, timeout: Duration, turn: u64) -> Result<Vec<u8>, Silenc
 }
 
 /// The action in an answer, or what is wrong with it.
-fn read(answer: &[u8], actions: &[Action]) -> Result<Action, String> {
+fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Action, String> {
+    let actions = turn.actions;
+    if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
+        && addressed > turn.number
+    {
+        let number = turn.number;
+        return Err(format!(
+            "this is an answer to turn {addressed}, which is still to come: this is turn {number}"
+        ));
+    }
     let names = || actions.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     let Answer { action } = serde_json::from_slice(answer)
         .map_err(|error| format!("{error}; answer {{\"action\": …}} with one of {}", names()))?;

@@ -192,6 +192,21 @@ fn late_answers_are_passed_over() {
     assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Right));
 }
 
+/// An answer to a turn that is still to come is none: the agent would be out of step with all that it says later.
+#[test]
+fn answers_to_turns_still_to_come_are_wrong() {
+    let mut board = Board::of(
+        "read hello; read turn; echo '{\"turn\":5,\"action\":\"up\"}'; read invalid; echo \"$invalid\" >&2; \
+         echo '{\"turn\":0,\"action\":\"left\"}'; read turn; exit 3",
+    );
+    assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Left));
+    let message = board.failure();
+    assert!(
+        message.contains("this is an answer to turn 5, which is still to come: this is turn 0"),
+        "{message}"
+    );
+}
+
 /// Answers to earlier turns neither start the clock anew nor take up memory for ever.
 #[test]
 fn late_answers_do_not_put_off_the_end_of_the_time() {
