@@ -7,6 +7,7 @@ mod subjects;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
+use crate::protected;
 use crate::verbs::player_guard;
 use crate::verbs::release::in_pool;
 use agents::{Budget, PlannerSpec};
@@ -130,6 +131,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return forecast(&asked, &settings, &subjects.games, console);
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
+    protected::check(&folder)?;
     let ready = asked.ready(args, &subjects.games)?;
     let evaluation = if args.resume && folder.join(SETTINGS_FILE).exists() {
         Evaluation::resume(&folder, &settings)
