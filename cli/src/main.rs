@@ -2,6 +2,7 @@
 
 mod conformance;
 mod console;
+mod counted;
 mod diagnostics;
 mod embedded;
 mod episodes;
@@ -15,6 +16,7 @@ mod manual;
 mod page;
 mod paths;
 mod play;
+mod protected;
 mod shell;
 mod threads;
 mod usage;

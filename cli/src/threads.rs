@@ -3,10 +3,14 @@
 use crate::console;
 use crate::failure::Failure;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::sync::Once;
 use std::thread::available_parallelism;
 
 /// The most threads of a pool: more would only wait for each other, and thousands of them for minutes.
 const MOST: usize = 256;
+
+/// Done when a user was told of [`MOST`]: a verb may ask for several pools.
+static TOLD: Once = Once::new();
 
 /// Starts the threads that verbs without `--jobs` work on. Left to itself, the library would start as many as
 /// `RAYON_NUM_THREADS` says, whatever that is.
@@ -20,7 +24,9 @@ pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + S
         return Err(Failure::malformed("--jobs takes a number of threads, at least 1"));
     }
     if let Some(jobs) = jobs.filter(|&jobs| jobs > MOST) {
-        console::warn(format_args!("--jobs {jobs} is more than any work here can use: {MOST} threads"));
+        TOLD.call_once(|| {
+            console::warn(format_args!("--jobs {jobs} is more than any work here can use: {MOST} threads"));
+        });
     }
     let pool: Result<ThreadPool, _> =
         ThreadPoolBuilder::new().num_threads(jobs.map_or_else(usual, |jobs| jobs.min(MOST))).build();

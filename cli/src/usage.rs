@@ -22,6 +22,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
         .try_get_matches_from(arguments)
         .and_then(|mut matches| Cli::from_arg_matches_mut(&mut matches));
     parsed.map_err(|error| {
+        let error = without_hidden_verbs(error);
         let json = is_json_wanted(arguments);
         let console = Console::new(json, false);
         if !error.use_stderr() {
@@ -39,6 +40,16 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
         console.error_document(&failure);
         failure.code()
     })
+}
+
+/// The same error, in which no verb is proposed that is not for people.
+fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
+    let Some(ContextValue::Strings(verbs)) = error.get(ContextKind::ValidSubcommand) else { return error };
+    let command = command();
+    let is_shown = |verb: &&String| command.find_subcommand(verb).is_none_or(|verb| !verb.is_hide_set());
+    let shown = verbs.iter().filter(is_shown).cloned().collect();
+    error.insert(ContextKind::ValidSubcommand, ContextValue::Strings(shown));
+    error
 }
 
 /// Whether `--json` is among the flags. Where the line cannot be parsed, this is all there is to go by.
@@ -104,6 +115,14 @@ pub(crate) mod tests {
         let mut command = command();
         command.build();
         walk("arcade", &command, look);
+    }
+
+    #[test]
+    fn hidden_verbs_are_not_proposed() {
+        let error = command().try_get_matches_from(["arcade", "--json"]).expect_err("no verb");
+        assert!(error.render().to_string().contains("player-guard"), "{error}");
+        let error = without_hidden_verbs(error).render().to_string();
+        assert!(error.contains("release") && !error.contains("player-guard"), "{error}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Writing single files, each complete or as it was before.
 
 use crate::failure::Failure;
+use crate::protected;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -22,6 +23,7 @@ pub(crate) fn write_with(
     path: &Path,
     content: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<(), Failure> {
+    protected::check(path)?;
     replace(path, content).map_err(|error| Failure::write(path, error))
 }
 

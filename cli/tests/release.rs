@@ -232,6 +232,87 @@ fn a_place_that_is_taken_is_refused_before_minting() {
     assert!(said.contains("would mint 2 new games") && said.contains("which is taken"), "{said}");
 }
 
+/// A job array that is run again has nothing to do, and did nothing wrong.
+#[test]
+fn a_finished_mint_is_complete() {
+    let (folder, _) = copy();
+    let resumed = ["release", "tiny", "--out", "tiny", "--resume"];
+    for arguments in [&resumed[..], &[&resumed[..], &["--dry-run"]].concat()] {
+        let said = text(&run(folder.path(), arguments, 0).stdout);
+        assert!(said.contains("already complete: tiny"), "{said}");
+    }
+    let other = text(&run(folder.path(), &["release", "starter", "--out", "tiny", "--resume"], 2).stderr);
+    assert!(other.contains("is not an empty folder"), "{other}");
+    fs::write(folder.path().join("tiny/README.md"), "x").unwrap();
+    run(folder.path(), &resumed, 2);
+}
+
+/// Whatever is written into a release keeps it from verifying; papers alone go along with it.
+#[test]
+fn nothing_is_written_into_a_release() {
+    let (folder, root) = copy();
+    for arguments in [
+        &["verify", "tiny", "--item", "MANIFEST.json", "--write-proof", "tiny/p.json"][..],
+        &["release", "tiny", "--out", "tiny/sub"],
+        &["release", "tiny", "--commit", "--out", "tiny/secret.json"],
+        &["regenerate", "tiny", "--out", "tiny/again"],
+        &["merge", "x", "--out", "tiny/merged"],
+        &["export", "tiny", "--format", "archive", "--out", "tiny/games/a.tar.zst"],
+        &["evaluate", "tiny", "--player", "random", "--out", "tiny/results"],
+        &["report", "x", "--out", "tiny/report"],
+        &["render", "hailglass", "-o", "tiny/board.png"],
+    ] {
+        let said = text(&run(folder.path(), arguments, 2).stderr);
+        assert!(said.contains("is in the release itself"), "{arguments:?}: {said}");
+    }
+    run(folder.path(), &["render", "hailglass", "-o", "tiny/papers/board.png"], 0);
+    assert_eq!(files(&root).len(), files(&TINY.path().join("tiny")).len() + 1);
+    fs::write(root.join("DOI.txt"), "x").unwrap();
+    let said = text(&run(folder.path(), &["verify", "tiny"], 1).stdout);
+    assert!(said.contains("DOI.txt: extra") && said.contains("papers/"), "{said}");
+    let said = text(
+        &run(folder.path(), &["export", "tiny", "--format", "games", "--solutions", "--out", "x"], 2).stderr,
+    );
+    assert!(said.contains("hold no solutions"), "{said}");
+}
+
+/// No version minted it, so that none can be installed to mint it again.
+#[test]
+fn a_changed_version_is_damage() {
+    let (folder, root) = copy();
+    let manifest = fs::read_to_string(root.join("MANIFEST.json")).unwrap();
+    let stated = format!("\"semantics\": {}", engine::SEMANTICS);
+    assert!(manifest.contains(&stated), "{manifest}");
+    fs::write(root.join("MANIFEST.json"), manifest.replace(&stated, "\"semantics\": 1")).unwrap();
+    let said = text(&run(folder.path(), &["regenerate", "tiny"], 2).stderr);
+    assert!(said.contains("is damaged or was changed") && !said.contains("install"), "{said}");
+}
+
+/// A shard may have nothing to do.
+#[test]
+fn more_shards_than_lots_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let shard = ["release", "tiny", "--shard", "300/300", "--out", "x", "--dry-run"];
+    let output = run(folder.path(), &shard, 0);
+    assert!(text(&output.stderr).contains("more shards than lots"), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("in 0 to 0 seconds"), "{}", text(&output.stdout));
+}
+
+/// A file that was there before is nobody's to remove.
+#[test]
+fn a_file_in_the_way_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "x").unwrap();
+    let said = |out: &str| text(&run(folder.path(), &["release", "tiny", "--out", out], 2).stderr);
+    let below = said("file/x");
+    assert!(below.contains("a folder above it is a file"), "{below}");
+    let file = said("file");
+    assert!(file.contains("choose another --out") && !file.contains("remove"), "{file}");
+    fs::write(folder.path().join("long.toml"), "x".repeat(5000)).unwrap();
+    let long = text(&run(folder.path(), &["release", "tiny", "--secret", "long.toml"], 2).stderr);
+    assert!(long.contains("is not the secret of a sealed release"), "{long}");
+}
+
 /// Killed at any moment, a mint leaves nothing that verifies.
 #[cfg(unix)]
 #[test]
@@ -331,6 +412,7 @@ fn only_the_published_root_shows_which_release_it_is() {
     let said = text(&run(folder.path(), &verify[1..], 0).stdout);
     assert!(said.contains("consistent in itself") && said.contains("give it with --root"), "{said}");
     let said = text(&run(folder.path(), &[&verify[1..], &["--root", root]].concat(), 0).stdout);
+    run(folder.path(), &[&verify[1..], &["--root", &root.to_uppercase()]].concat(), 0);
     assert!(said.contains("as given") && !said.contains("consistent in itself"), "{said}");
     let other = "0".repeat(64);
     let said = text(&run(folder.path(), &[&verify[1..], &["--root", &other]].concat(), 1).stdout);

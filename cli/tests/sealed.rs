@@ -217,7 +217,11 @@ fn shards_of_a_sealed_release_are_their_owners() {
     fs::write(folder.join("sealed.toml"), recipe(answer["commitment"].as_str().unwrap())).unwrap();
     let secret = ["--secret", "sealed.secret.json"];
     for (shard, out) in [("1/2", "one"), ("2/2", "two")] {
-        run(folder, &[&["release", "sealed.toml", "--shard", shard, "--out", out][..], &secret].concat(), 0);
+        let mint = [&["release", "sealed.toml", "--shard", shard, "--out", out][..], &secret].concat();
+        let said = text(&run(folder, &mint, 0).stdout);
+        assert!(said.contains("arcade merge SHARD... --out DIR --secret FILE"), "{said}");
+        let said = text(&run(folder, &[&mint[..], &["--resume"]].concat(), 0).stdout);
+        assert!(said.contains("already complete"), "{said}");
         let shard = folder.join(out);
         let lots = files(&shard).into_keys().map(|name| shard.join(name));
         let places: Vec<_> = lots.chain([shard.clone(), shard.join("lots")]).collect();
@@ -229,6 +233,21 @@ fn shards_of_a_sealed_release_are_their_owners() {
     }
     run(folder, &[&["merge", "one", "two", "--out", "out"][..], &secret].concat(), 0);
     run(folder, &["verify", "out/public"], 0);
+    let resumed = ["release", "sealed.toml", "--out", "out", "--resume"];
+    let said = text(&run(folder, &[&resumed[..], &secret].concat(), 0).stdout);
+    assert!(said.contains("already complete"), "{said}");
+    // Where a folder may not be entered, or is a loop, nobody knows what is held.
+    std::os::unix::fs::symlink("loop", folder.join("loop")).unwrap();
+    run(folder, &["release", "out/public", "--reveal", "loop", "--out", "x"], 3);
+    run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "whole"], 0);
+    let datasheet = |part: &str| fs::read_to_string(folder.join(part).join("papers/DATASHEET.md")).unwrap();
+    assert!(datasheet("out/public").contains("held back until it is revealed"));
+    let revealed = datasheet("whole");
+    assert!(revealed.contains("sealed, and revealed") && !revealed.contains("held back"), "{revealed}");
+    // A commitment that was lost is in the secret.
+    fs::write(folder.join("lost.toml"), recipe("x").replace("commitment = 'x'\n", "")).unwrap();
+    let lost = text(&run(folder, &[&["release", "lost.toml"][..], &secret].concat(), 2).stderr);
+    assert!(lost.contains(answer["commitment"].as_str().unwrap()), "{lost}");
 }
 
 /// Else seed and witnesses would be published in the belief that they are held back.

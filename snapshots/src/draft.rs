@@ -256,6 +256,9 @@ pub fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
     let occupied = || SnapshotError::Occupied { path: out.to_path_buf() };
     match fs::symlink_metadata(out) {
         Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
+        Err(source) if source.kind() == ErrorKind::NotADirectory => {
+            Err(SnapshotError::BelowFile { path: out.to_path_buf() })
+        }
         Err(source) => Err(SnapshotError::io("examine", out)(source)),
         Ok(found) if !found.is_dir() => Err(occupied()),
         Ok(_) => match fs::read_dir(out).map_err(SnapshotError::io("list", out))?.next() {
@@ -349,6 +352,8 @@ pub(crate) mod tests {
         assert!(error.starts_with(&format!("`{}` exists", out.display())), "{error}");
         let file = out.join("mine");
         assert!(matches!(Draft::create(&file), Err(SnapshotError::Occupied { path }) if path == file));
+        let below = file.join("x");
+        assert!(matches!(Draft::create(&below), Err(SnapshotError::BelowFile { path }) if path == below));
         assert_eq!(names(home.path()), ["new"]);
         assert_eq!(names(&out), ["mine"]);
     }

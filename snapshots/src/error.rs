@@ -22,8 +22,14 @@ pub enum SnapshotError {
         source: io::Error,
     },
     /// The place to write to is taken.
-    #[error("`{}` exists and is not an empty folder: choose another --out or remove it", .path.display())]
+    #[error("`{}` exists and is not an empty folder: choose another --out", .path.display())]
     Occupied {
+        /// The place.
+        path: PathBuf,
+    },
+    /// A file stands where a folder above the place to write to should be.
+    #[error("`{}` cannot be made: a folder above it is a file; choose another --out", .path.display())]
+    BelowFile {
         /// The place.
         path: PathBuf,
     },
@@ -185,7 +191,7 @@ pub enum SnapshotError {
         message: String,
     },
     /// A file to be written exists.
-    #[error("`{}` exists: choose another --out or remove it", .path.display())]
+    #[error("`{}` exists: choose another --out", .path.display())]
     Taken {
         /// The file.
         path: PathBuf,
@@ -253,7 +259,7 @@ mod tests {
         let occupied = SnapshotError::Occupied { path: "releases/new".into() };
         assert_eq!(
             occupied.to_string(),
-            "`releases/new` exists and is not an empty folder: choose another --out or remove it"
+            "`releases/new` exists and is not an empty folder: choose another --out"
         );
     }
 

@@ -85,6 +85,14 @@ impl Minted {
     }
 }
 
+/// The content that a paper of a sealed release has after the release was revealed.
+pub(crate) fn revealed(path: &str, content: Vec<u8>) -> Vec<u8> {
+    match (path.strip_prefix(PAPERS), std::str::from_utf8(&content)) {
+        (Some("DATASHEET.md"), Ok(text)) => datasheet::revealed(text).into_bytes(),
+        _ => content,
+    }
+}
+
 /// The licence of what programs made.
 fn licence(manifest: &Manifest) -> String {
     format!(

@@ -94,7 +94,9 @@ impl fmt::Display for Flaw {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Flaw::Missing => write!(f, "missing"),
-            Flaw::Extra => write!(f, "extra (not in the manifest)"),
+            Flaw::Extra => {
+                write!(f, "extra (not in the manifest; what goes along with a release belongs into papers/)")
+            }
             Flaw::EmptyFolder => write!(f, "extra (an empty folder)"),
             Flaw::Size { found, stated } => {
                 write!(f, "wrong size ({found} bytes, the manifest says {stated})")

@@ -240,9 +240,9 @@ pub enum RecipeError {
     /// The right secret, and another recipe.
     #[error(
         "the recipe is not the one that was committed to: something else than its `commitment` was changed after `--commit`; \
-         undo that, or commit again with `arcade release RECIPE --commit`"
+         {0}, or commit again with `arcade release RECIPE --commit`"
     )]
-    OtherRecipe,
+    OtherRecipe(&'static str),
     /// A secret for an open release.
     #[error(
         "the release is open: its recipe has a `seed`, so --secret is not for it; to seal it, put the secret's `commitment` in \
@@ -436,9 +436,21 @@ impl Recipe {
         if secret.commitment() != commitment {
             Err(RecipeError::OtherSecret)
         } else if secret.recipe != Some(self.committed()) {
-            Err(RecipeError::OtherRecipe)
+            Err(RecipeError::OtherRecipe(self.way_back(secret)))
         } else {
             Ok(secret.root_seed())
+        }
+    }
+
+    /// The next move for a recipe that `secret` was not drawn for, most likely because of its parent.
+    fn way_back(&self, secret: &Secret) -> &'static str {
+        let alone = Recipe { parent: None, ..self.clone() };
+        match self.parent {
+            None => "did you forget --parent? Give the one of the commitment, undo what was changed",
+            Some(_) if secret.recipe == Some(alone.committed()) => {
+                "only the parent is new: it was committed to without one; leave --parent away"
+            }
+            Some(_) => "was it another --parent? Give the one of the commitment, undo what was changed",
         }
     }
 
@@ -509,7 +521,10 @@ mod tests {
             Recipe { commitment: minting.commitment, ..Recipe::to_commit(&sealed("games = 3")).unwrap() },
         ] {
             let error = changed.root_seed(Some(&secret)).unwrap_err();
-            assert!(matches!(error, RecipeError::OtherRecipe), "{error}");
+            assert!(matches!(error, RecipeError::OtherRecipe(_)), "{error}");
+            let hint =
+                if changed.parent.is_some() { "leave --parent away" } else { "did you forget --parent?" };
+            assert!(error.to_string().contains(hint), "{error}");
         }
         let other = Secret::draw("small", recipe.committed(), [8; 64]);
         let error = minting.root_seed(Some(&other)).unwrap_err();

@@ -7,6 +7,7 @@ use crate::mint::{MintError, Minted, Plan, Shelf, Sink, lay_out};
 use crate::papers;
 use crate::recipe::{Recipe, RecipeError};
 use crate::sealed::{SECRET_FILE, Secret, read_revealed};
+use crate::verify::version::impossible;
 use crate::version::{CURRENT, MintedBy};
 use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
@@ -21,6 +22,11 @@ pub enum RegenerateError {
         /// According to the manifest.
         minted_by: MintedBy,
     },
+    /// Its manifest cannot have been written by any version.
+    #[error(
+        "{MANIFEST_FILE} is damaged or was changed: {0}; fetch the release again, and run `arcade verify` on it"
+    )]
+    Damaged(String),
     /// Its seed is not public.
     #[error(
         "this release is sealed: its seed is not in the folder, so it cannot be minted again before it is revealed"
@@ -92,7 +98,14 @@ impl Regeneration {
             Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
         let minted_by = manifest.minted_by();
         if (minted_by.generation, minted_by.semantics) != (CURRENT.generation, CURRENT.semantics) {
-            return Err(RegenerateError::OtherVersion { minted_by });
+            let root = manifest.computed_root()?;
+            let damage = impossible(&minted_by).or_else(|| {
+                (root != manifest.root).then(|| "its root is not that of its content".to_owned())
+            });
+            return Err(match damage {
+                Some(what) => RegenerateError::Damaged(what),
+                None => RegenerateError::OtherVersion { minted_by },
+            });
         }
         let secret = match manifest.kind {
             Kind::Open => None,

@@ -4,7 +4,7 @@ use crate::canonical::{CanonicalError, canonical_digest};
 use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
-use crate::papers::{PAPERS_LIMITS, PASSED_OVER};
+use crate::papers::{self, PAPERS_LIMITS, PASSED_OVER};
 use crate::witness::{Step, Witness};
 use crate::{Draft, SnapshotError};
 use engine::{Digest, Seed};
@@ -180,7 +180,8 @@ pub(crate) fn read_revealed(root: &Path, file: &str) -> Result<Secret, SnapshotE
 fn parse(bytes: &[u8], file: &Path) -> Result<Secret, SnapshotError> {
     let path = file.to_path_buf();
     if bytes.len() as u64 > SECRET_LIMIT {
-        return Err(SnapshotError::TooLarge { path, limit: SECRET_LIMIT });
+        let source = serde::de::Error::custom(format_args!("it has more than {SECRET_LIMIT} bytes"));
+        return Err(SnapshotError::NotASecret { path, source });
     }
     serde_json::from_slice(bytes).map_err(|source| SnapshotError::NotASecret { path, source })
 }
@@ -254,7 +255,8 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
         return Err(RevealError::Problems(problems));
     }
     for paper in &integrity.beside.papers {
-        draft.write(&paper.path, &folder::read(public, &paper.path, PAPERS_LIMITS.file_bytes)?)?;
+        let content = folder::read(public, &paper.path, PAPERS_LIMITS.file_bytes)?;
+        draft.write(&paper.path, &papers::revealed(&paper.path, content))?;
     }
     draft.write(MANIFEST_FILE, &manifest.to_bytes()?)?;
     Ok(manifest)

@@ -4,7 +4,7 @@ mod game;
 mod numbers;
 mod readme_and_card;
 mod replay;
-mod version;
+pub(crate) mod version;
 
 use crate::canonical::to_canonical_json;
 use crate::card::Card;

@@ -1,6 +1,7 @@
 //! `arcade diff`: two snapshots side by side.
 
 use crate::console::Console;
+use crate::counted::count;
 use crate::failure::Answer;
 use crate::verbs::export::unsound;
 use crate::verbs::release::in_pool;
@@ -95,10 +96,8 @@ fn say(diff: &Diff, console: &Console) {
 
 fn side(what: &str, side: &Side) -> String {
     let Side { name, games, generated, levels, .. } = side;
-    format!(
-        "{what} {name}: {games} games, {generated} of them generated, {levels} levels; root {}",
-        side.root.short()
-    )
+    let (games, levels) = (count(*games, "game"), count(*levels, "level"));
+    format!("{what} {name}: {games}, {generated} of them generated, {levels}; root {}", side.root.short())
 }
 
 fn counts(changes: &Changes) -> String {

@@ -2,6 +2,7 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::protected;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify;
 use serde_json::json;
@@ -10,8 +11,7 @@ use snapshots::export::{Export, ExportError, Exported, Format, export};
 use snapshots::released::{Released, ReleasedError};
 use snapshots::twin::Twin;
 use snapshots::{Draft, SnapshotError};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Writes a snapshot for other tools: as a dataset, as folders of games, as one file.
 ///
@@ -72,13 +72,13 @@ impl FormatName {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    if is_inside(&args.out, &args.snapshot) {
-        return Err(Failure::malformed(format!(
-            "`{}` is in the release itself, which would no longer verify: choose an --out elsewhere",
-            args.out.display()
-        )));
-    }
+    protected::check(&args.out)?;
     let Some(format) = args.format.of_export() else { return archive(args, console) };
+    if args.solutions && matches!(args.format, FormatName::Games) {
+        return Err(Failure::malformed(
+            "folders of games hold no solutions: leave --solutions away, or choose --format jsonl",
+        ));
+    }
     // Who names a folder that is taken learns it before the work.
     let draft = Draft::create(&args.out).map_err(verify::failure)?;
     let released = match in_pool(args.jobs, || Released::read(&args.snapshot))? {
@@ -117,14 +117,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(format_args!("left out: {id}: {why}"));
     }
     Ok(true)
-}
-
-/// Whether what is to be made is within a folder.
-fn is_inside(place: &Path, folder: &Path) -> bool {
-    let Ok(folder) = fs::canonicalize(folder) else { return false };
-    let there = place.ancestors().skip(1).find_map(|above| fs::canonicalize(above).ok());
-    folder.is_dir()
-        && there.or_else(|| fs::canonicalize(".").ok()).is_some_and(|above| above.starts_with(folder))
 }
 
 /// The release itself, as one file.

@@ -3,9 +3,9 @@
 use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::protected;
 use crate::verbs::release::{Finished, in_pool, mint_failure, read_secret_file};
 use crate::verbs::verify::failure;
-use snapshots::Draft;
 use snapshots::mint::{MergeError, Plan, Shards};
 use std::path::PathBuf;
 
@@ -29,6 +29,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    protected::check(&args.out)?;
     let shards = Shards::open(&args.shards).map_err(|error| match error {
         MergeError::Snapshot(error) => failure(error),
         other => Failure::Malformed(other.into()),
@@ -45,7 +46,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         MergeError::Snapshot(error) => failure(error),
         other => Failure::Malformed(other.into()),
     })?;
-    let draft = Draft::create(&args.out).map_err(failure)?;
+    let draft = protected::draft(&args.out)?;
     if plan.is_sealed() {
         draft.keep_private().map_err(failure)?;
     }

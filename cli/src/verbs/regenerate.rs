@@ -1,9 +1,11 @@
 //! `arcade regenerate`: does the seed give these bytes?
 
 use crate::console::Console;
+use crate::counted::count;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
+use crate::protected;
 use crate::shell;
 use crate::verbs::release::{Bars, in_pool, mint_failure};
 use crate::verbs::verify::failure;
@@ -43,6 +45,7 @@ impl Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    args.out.as_deref().map_or(Ok(()), protected::check)?;
     let corpus = embedded::corpus()?;
     let release = Regeneration::of(&args.snapshot).map_err(|error| match error {
         RegenerateError::Snapshot(error) => failure(error),
@@ -94,10 +97,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     match identical {
         true => console.say(format_args!(
-            "identical: the manifest and {} files, root {root}",
-            result.minted.manifest.items.len()
+            "identical: the manifest and {}, root {root}",
+            count(result.minted.manifest.items.len(), "file")
         )),
-        false => console.say(format_args!("NOT identical: {} differences", result.differences.len())),
+        false => console.say(format_args!("NOT identical; files that differ: {}", result.differences.len())),
     }
     Ok(identical)
 }

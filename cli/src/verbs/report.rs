@@ -3,13 +3,12 @@
 use crate::console::Console;
 use crate::evaluation_report::{Results, write_evaluation_report};
 use crate::failure::{Answer, Failure};
+use crate::protected;
 use crate::verbs::evaluate::failure;
 use crate::verbs::release::in_pool;
-use crate::verbs::verify;
 use evaluation::study::Study;
 use evaluation::{Evaluation, EvaluationError};
 use serde_json::{Value, json};
-use snapshots::Draft;
 use std::path::PathBuf;
 
 /// Compares the results of evaluations: tables, plots and one page.
@@ -36,7 +35,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     // Who names a folder that is taken learns it before the work.
-    let draft = Draft::create(&args.out).map_err(verify::failure)?;
+    let draft = protected::draft(&args.out)?;
     let open = |folder: &PathBuf| Evaluation::open(folder);
     let evaluations = args.results.iter().map(open).collect::<Result<Vec<_>, EvaluationError>>();
     let evaluations = evaluations.map_err(failure)?;

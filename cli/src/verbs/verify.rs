@@ -3,7 +3,9 @@
 mod item;
 
 use crate::console::Console;
+use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use crate::protected;
 use engine::Digest;
 use serde::Serialize;
 use serde_json::json;
@@ -46,7 +48,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE", requires = "item", requires = "root")]
     proof: Option<PathBuf>,
     /// The root that was published, to compare with
-    #[arg(long, value_name = "DIGEST")]
+    #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
     /// Takes a snapshot of other semantics for sound although its witnesses were not replayed
     #[arg(long)]
@@ -54,6 +56,11 @@ pub(crate) struct Args {
     /// Units of work that all replays together may take, instead of the bound above
     #[arg(long, value_name = "UNITS", value_parser = clap::value_parser!(u64).range(1..))]
     max_work: Option<u64>,
+}
+
+/// Reads a digest as a user gives it, in capitals too.
+fn digest(text: &str) -> Result<Digest, String> {
+    text.to_ascii_lowercase().parse::<Digest>().map_err(|error| error.to_string())
 }
 
 /// The answer for programs.
@@ -76,6 +83,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             "--item needs --write-proof FILE, to write its proof, or --proof FILE and --root DIGEST, to check one",
         ));
     }
+    args.write_proof.as_deref().map_or(Ok(()), protected::check)?;
     let bounds = args.max_work.map_or(Bounds::RELEASE, |work| Bounds { work, work_per_level: 0 });
     let mut verification = match verify_within(&args.snapshot, &bounds) {
         Ok(verification) => verification,
@@ -116,6 +124,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn say(verification: &Verification, args: &Args, console: &Console) {
     let Verification { name, root, files, games, levels, witnesses, papers, ignored, problems, .. } =
         verification;
+    let (files, games, levels) = (count(*files, "file"), count(*games, "game"), count(*levels, "level"));
     for problem in problems {
         console.say(one_line(problem));
     }
@@ -124,16 +133,16 @@ fn say(verification: &Verification, args: &Args, console: &Console) {
     }
     match witnesses {
         Witnesses::Replayed(count) => console.say(format_args!(
-            "{name}: verified; the manifest and {files} files, {games} games, {levels} levels, {count} witnesses \
+            "{name}: verified; the manifest and {files}, {games}, {levels}, {count} witnesses \
              replayed to a win"
         )),
         Witnesses::Held => console.say(format_args!(
-            "{name}: verified; the manifest and {files} files, {games} games, {levels} levels, witnesses held back until \
+            "{name}: verified; the manifest and {files}, {games}, {levels}, witnesses held back until \
              the release is revealed"
         )),
         Witnesses::NotReplayed { semantics } => {
             let newer = if *semantics > engine::SEMANTICS { "a newer arcade, " } else { "an arcade " };
-            console.say(format_args!("{name}: the manifest and {files} files, {games} games, {levels} levels"));
+            console.say(format_args!("{name}: the manifest and {files}, {games}, {levels}"));
             console.say(format_args!(
                 "integrity: ok, witnesses: not replayed (needs {newer}of semantics {semantics}; this one has {})",
                 engine::SEMANTICS
@@ -155,7 +164,7 @@ fn say(verification: &Verification, args: &Args, console: &Console) {
         ),
     });
     if *papers > 0 {
-        console.say(format_args!("papers: {papers} files, not covered by the root"));
+        console.say(format_args!("papers: {}, not covered by the root", count(*papers, "file")));
     }
     if !ignored.is_empty() {
         console.say(format_args!("ignored: {}", ignored.join(", ")));

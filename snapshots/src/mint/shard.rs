@@ -100,6 +100,23 @@ impl Shard {
         is_whole.then_some((file.shard, file.recipe.name))
     }
 
+    /// Checks whether a folder is this shard of this plan, with all its files. Their content is not read.
+    ///
+    /// # Errors
+    /// The plan has no digest.
+    pub fn is_whole(&self, plan: &Plan<'_>, folder: &Path) -> Result<bool, SnapshotError> {
+        let digest = plan.digest()?;
+        let file = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).ok();
+        let file: Option<ShardFile> = file.and_then(|bytes| serde_json::from_slice(&bytes).ok());
+        let is_mine = file.is_some_and(|file| {
+            file.shard == *self
+                && file.plan == digest
+                && file.recipe == *plan.recipe
+                && (file.generation, file.semantics) == (generators::GENERATION, engine::SEMANTICS)
+        });
+        Ok(is_mine && Shard::at(folder).is_some())
+    }
+
     /// Writes the shard's folder from lots that are all on the shelf.
     ///
     /// # Errors

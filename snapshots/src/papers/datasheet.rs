@@ -7,6 +7,19 @@ use crate::mint::{Minted, Rung};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+/// The kind of a release that is not revealed yet.
+const SEALED: &str = "sealed: seed and winning episodes are held back until it is revealed";
+/// A limit of a release that is not revealed yet.
+const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only after the release is revealed, and wholly \
+     only by minting it again.\n";
+
+/// The datasheet after the release was revealed. Whatever its publisher has written stays.
+pub(super) fn revealed(datasheet: &str) -> String {
+    datasheet
+        .replace(SEALED, "sealed, and revealed: its seed and the winning episodes are public now")
+        .replace(UNCHECKED, "- That games come from the seed that was committed to is shown wholly only by minting it again.\n")
+}
+
 /// All of it, as Markdown.
 pub(super) fn datasheet(minted: &Minted) -> String {
     let Minted { manifest, card, cards } = minted;
@@ -15,7 +28,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         manifest.parent.map_or("none: the first of its chain".to_owned(), |root| format!("`{root}`"));
     let kind = match manifest.kind {
         Kind::Open => "open: its seed is public",
-        Kind::Sealed => "sealed: seed and winning episodes are held back until it is revealed",
+        Kind::Sealed => SEALED,
     };
     let mut text = format!(
         "# Datasheet of `{}`\n\n{}\n\n| | |\n|---|---|\n| root | `{}` |\n| kind | {kind} |\n| release before | {parent} |\n\
@@ -65,16 +78,16 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         training set: a score on a release that a model was trained on says nothing.\n\n\
         ## Known limits\n\n\
         - All games are of one family: grid games in VGDL for one player, with a few dozen kinds of rules.\n\
-        - Games and levels were chosen by programs. How hard a level is was measured with planners, not with people, in few plays \
-        each: labels have errors, and are easier to reach for games that planners are good at.\n\
-        - Whatever is published may be in the training data of later models. Search for the canary; compare with a release that is \
+        - Games and levels were chosen by programs.";
+    if !card.ladder.is_empty() {
+        text += " How hard a level is was measured with planners, not with people, in few plays \
+            each: labels have errors, and are easier to reach for games that planners are good at.";
+    }
+    text += "\n- Whatever is published may be in the training data of later models. Search for the canary; compare with a release that is \
         newer than the model.\n";
     text += match manifest.kind {
         Kind::Open => "- The seed and the winning episodes are public from the start.\n",
-        Kind::Sealed => {
-            "- That games come from the seed that was committed to can be checked only after the release is revealed, and wholly \
-             only by minting it again.\n"
-        }
+        Kind::Sealed => UNCHECKED,
     };
     text += "\n## People\n\n\
         No person's data is in it, and nobody was asked to play, write or label anything for it.\n\n\

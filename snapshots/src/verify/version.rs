@@ -6,7 +6,7 @@ use crate::version::{CURRENT, MintedBy, VERSIONS, Version};
 pub(crate) const COMPLETE: u32 = 7;
 
 /// The reason that no arcade ever minted under these versions; none if one may have done so, be it a later one.
-pub(super) fn impossible(minted_by: &MintedBy) -> Option<String> {
+pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
     let &MintedBy { ref version, generation, semantics } = minted_by;
     let never = format!("GENERATION {generation} never had SEMANTICS {semantics}");
     if semantics == 0 || generation == 0 {

@@ -7,6 +7,7 @@ mod subjects;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
+use crate::protected;
 use crate::verbs::player_guard;
 use crate::verbs::release::in_pool;
 use agents::{Budget, PlannerSpec};
@@ -132,6 +133,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return forecast(&asked, &settings, &subjects.games, console);
     }
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&settings.entrant));
+    protected::check(&folder)?;
     if args.resume && !Evaluation::is_begun(&folder) {
         return Err(Failure::malformed(format!(
             "there is nothing to resume in {}; name the folder of the evaluation with --out, or leave --resume out to begin one",

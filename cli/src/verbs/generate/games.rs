@@ -5,6 +5,7 @@ use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::game_report::{Showcase, write_game_report};
+use crate::protected;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
 use engine::{Digest, Game, Level, Seed};
@@ -75,8 +76,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
     // Before minutes of work: is there a place to write to?
-    let draft = Draft::create(&args.out).map_err(failure)?;
-    let report_draft = args.report.as_deref().map(Draft::create).transpose().map_err(failure)?;
+    let draft = protected::draft(&args.out)?;
+    let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
     let bar = Bar(console.progress(u64::from(args.count), "games"));
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);

@@ -6,6 +6,7 @@ use crate::diagnostics;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named};
 use crate::level_report::{Pictures, write_level_report};
+use crate::protected;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
 use engine::{Analysis, Game, Level, Seed, SpriteType};
@@ -97,8 +98,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let examples = examples(&input, &game)?;
     let order = order(args, &examples, &game)?;
     // Before minutes of work: is there a place to write to?
-    let draft = Draft::create(&args.out).map_err(failure)?;
-    let report_draft = args.report.as_deref().map(Draft::create).transpose().map_err(failure)?;
+    let draft = protected::draft(&args.out)?;
+    let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
     let bar = Bar(console.progress(u64::from(args.count), "levels"));
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);

@@ -10,6 +10,8 @@ use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::interrupt;
+use crate::paths;
+use crate::protected;
 use crate::shell;
 pub(crate) use crate::threads::in_pool;
 use crate::verbs::verify::failure;
@@ -17,7 +19,10 @@ pub(crate) use bars::Bars;
 pub(crate) use sealed::read as read_secret_file;
 use serde_json::json;
 use snapshots::mint::{LotFolder, MintError, Plan, Shard, Shelf, lay_out, make_lots};
-use snapshots::{Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Secret, follow};
+use snapshots::version::CURRENT;
+use snapshots::{
+    Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Secret, check_integrity, follow,
+};
 use std::path::{Path, PathBuf};
 use summary::summary;
 
@@ -94,9 +99,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(held) = &args.reveal {
         return sealed::reveal(args.recipe.as_deref(), held, args.out.as_deref(), console);
     }
-    let mut recipe = find_recipe(args.recipe(), Recipe::from_toml)?;
-    let corpus = embedded::corpus()?;
     let secret = args.secret.as_deref().map(sealed::read).transpose()?;
+    let mut recipe = find_recipe(args.recipe(), |text| sealed::recipe(text, secret.as_ref()))?;
+    let corpus = embedded::corpus()?;
     match &args.parent {
         Some(parent) => follow_parent(&mut recipe, parent)?,
         None if recipe.parent.is_some() => {
@@ -111,11 +116,21 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         (None, None) => Path::new("releases").join(&recipe.name),
         (None, Some(_)) => return Err(Failure::malformed("--shard needs --out: a folder for the shard")),
     };
+    protected::check(&out)?;
     if args.dry_run && recipe.seed.is_none() && secret.is_none() {
         return outline::without_secret(&recipe, console);
     }
     let plan = Plan::new(&recipe, secret.as_ref(), &corpus).map_err(mint_failure)?;
     let lots = args.shard.map_or_else(|| plan.lots().to_vec(), |shard| shard.lots(&plan));
+    if args.resume && complete(&plan, &recipe, args.shard, &out)? {
+        let place = out.display().to_string();
+        console.document(&json!({ "out": place, "complete": true }))?;
+        console.say(format_args!("already complete: {place}"));
+        return Ok(true);
+    }
+    if lots.is_empty() {
+        console.remark("note: more shards than lots: nothing is left for this one");
+    }
     if args.dry_run {
         return outline::outline(&plan, &lots, &recipe, &out, args.resume, console);
     }
@@ -135,6 +150,23 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         )),
         other => other,
     })
+}
+
+/// Checks whether `out` is what this plan, or this shard of it, comes to: nothing is left to be done then.
+fn complete(plan: &Plan<'_>, recipe: &Recipe, shard: Option<Shard>, out: &Path) -> Result<bool, Failure> {
+    if let Some(shard) = shard {
+        return shard.is_whole(plan, out).map_err(failure);
+    }
+    let root = if plan.is_sealed() { out.join("public") } else { out.to_owned() };
+    if paths::look(&root.join(MANIFEST_FILE))?.is_none() {
+        return Ok(false);
+    }
+    let found = check_integrity(&root).map_err(failure)?;
+    let minted_from: Option<Recipe> = serde_json::from_value(found.manifest.recipe.clone()).ok();
+    let minted_by = found.manifest.minted_by();
+    Ok(found.problems.is_empty()
+        && minted_from.as_ref() == Some(recipe)
+        && (minted_by.generation, minted_by.semantics) == (CURRENT.generation, CURRENT.semantics))
 }
 
 /// Makes the lots, and of them the shard or the release.
@@ -174,7 +206,8 @@ fn mint(
         if plan.is_sealed() {
             console.say("keep it to yourself: it holds winning episodes");
         }
-        console.say(format_args!("when all shards are there: arcade merge SHARD... --out DIR"));
+        let secret = if plan.is_sealed() { " --secret FILE" } else { "" };
+        console.say(format_args!("when all shards are there: arcade merge SHARD... --out DIR{secret}"));
         return Ok(true);
     }
     let finished = Finished { plan, secret, shelf: &shelf, out };

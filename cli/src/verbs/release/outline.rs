@@ -2,6 +2,7 @@
 
 use super::mint_failure;
 use crate::console::Console;
+use crate::counted::count;
 use crate::failure::Answer;
 use crate::verbs::verify::failure;
 use serde_json::json;
@@ -36,11 +37,19 @@ pub(super) fn outline(
     }))?;
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     if new.games > 0 {
-        console.say(format_args!("would mint {} new games of {} levels", new.games, new.levels));
+        console.say(format_args!(
+            "would mint {} of {}",
+            count(new.games as usize, "new game"),
+            count(new.levels as usize, "level")
+        ));
     }
     if old.games > 0 {
         let would = if new.games > 0 { "and" } else { "would mint" };
-        console.say(format_args!("{would} {} new levels for each of {} corpus games", old.levels, old.games));
+        console.say(format_args!(
+            "{would} {} for each of {}",
+            count(old.levels as usize, "new level"),
+            count(old.games as usize, "corpus game")
+        ));
     }
     if !recipe.difficulty.is_empty() {
         let shares = plan.histogram().into_iter().map(|(label, levels)| format!("{label} {levels}"));
@@ -54,7 +63,7 @@ pub(super) fn outline(
     if !quotas.is_empty() {
         console.say(format_args!("with games of each kind: {}", quotas.join(", ")));
     }
-    console.say(format_args!("chosen from the candidates of {} lots", lots.len()));
+    console.say(format_args!("chosen from the candidates of {}", count(lots.len(), "lot")));
     if resume {
         console.say(format_args!("of which {there} are made and {} are left", left.len()));
     }
@@ -94,6 +103,8 @@ const SPREAD: f64 = 0.25;
 
 /// The least and the most that is to be expected.
 fn spread(seconds: f64) -> (f64, f64) {
+    // A sum of nothing may be -0.
+    let seconds = seconds.abs();
     (seconds * (1.0 - SPREAD), seconds * (1.0 + SPREAD))
 }
 

@@ -3,10 +3,12 @@
 use super::{find_recipe, follow_parent, is_file};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::paths;
+use crate::protected;
 use crate::shell;
 use crate::verbs::verify::failure;
 use serde_json::json;
-use snapshots::{Draft, MANIFEST_FILE, Recipe, RevealError, Secret, read_secret};
+use snapshots::{MANIFEST_FILE, Recipe, RecipeError, RevealError, Secret, read_secret};
 use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
 use std::io::{Read, Write};
@@ -20,6 +22,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     }
     let name = &recipe.name;
     let out = out.map_or_else(|| PathBuf::from(format!("{name}.secret.json")), Path::to_path_buf);
+    protected::check(&out)?;
     let chance =
         entropy().map_err(|error| Failure::environment(error, "no chance to be had from the system"))?;
     let secret = Secret::draw(name, recipe.committed(), chance);
@@ -84,6 +87,20 @@ pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
     read_secret(file).map_err(failure)
 }
 
+/// Reads a recipe to be minted. One without seed or commitment, where a secret is given, is told the commitment of that secret.
+pub(super) fn recipe(text: &str, secret: Option<&Secret>) -> Result<Recipe, RecipeError> {
+    Recipe::from_toml(text).map_err(|error| match (error, secret) {
+        (RecipeError::Value { key: "seed", .. }, Some(secret)) => RecipeError::Value {
+            key: "seed",
+            message: format!(
+                "is missing, and the secret that was given has its commitment: put `commitment = \"{}\"` in its place",
+                secret.commitment()
+            ),
+        },
+        (error, _) => error,
+    })
+}
+
 /// Joins the two parts.
 pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, console: &Console) -> Answer {
     let usage = "arcade release PUBLIC --reveal HELD --out DIR";
@@ -99,11 +116,11 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
     };
     // Both parts lie in one folder, so that this is named in their place.
     for (folder, part, file) in [(public, "public", MANIFEST_FILE), (held, "held", "secret.json")] {
-        if folder.join(file).exists() {
+        if paths::look(&folder.join(file))?.is_some() {
             continue;
         }
         let inside = folder.join(part);
-        let help = match inside.join(file).exists() {
+        let help = match paths::look(&inside.join(file))?.is_some() {
             true => format!("did you mean {}?", shell::quoted(&inside)),
             false => format!("name the folder `{part}` that the release was minted into: {usage}"),
         };
@@ -112,7 +129,7 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
             "`{folder}` is not the {part} part of a sealed release, as it has no {file}; {help}"
         )));
     }
-    let draft = Draft::create(out).map_err(failure)?;
+    let draft = protected::draft(out)?;
     let place = out.display().to_string();
     match snapshots::reveal(public, held, &draft) {
         Ok(manifest) => {

@@ -1,5 +1,6 @@
 //! The answer of `arcade release` for people.
 
+use crate::counted::count;
 use crate::shell;
 use snapshots::card::{Card, Origin};
 use snapshots::mint::Minted;
@@ -15,9 +16,10 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
     let mut text = String::new();
     let _ = writeln!(
         text,
-        "{}: {} games, {levels} levels, every one with a winning episode\n",
+        "{}: {}, {}, every one with a winning episode\n",
         manifest.name,
-        cards.len()
+        count(cards.len(), "game"),
+        count(levels, "level")
     );
     let width = cards.iter().map(|card| card.title.chars().count()).max().unwrap_or(0);
     for card in cards {

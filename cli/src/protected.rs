@@ -1,0 +1,96 @@
+//! Releases as places to write to: whatever is added to one keeps it from verifying, or is published with it.
+
+use crate::failure::Failure;
+use crate::shell;
+use snapshots::{Draft, MANIFEST_FILE};
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+/// Refuses to write at `place` if it lies in a release, or in the part of one that is held back; its `papers/` are open to all.
+pub(crate) fn check(place: &Path) -> Result<(), Failure> {
+    let there = resolved(place);
+    for folder in there.ancestors().skip(1) {
+        let below = there.strip_prefix(folder).unwrap_or(&there);
+        let is_paper = below.components().next() == Some(Component::Normal(OsStr::new("papers")));
+        let is_release = folder.join(MANIFEST_FILE).is_file() && !is_paper;
+        let is_held =
+            folder.ends_with("held") && folder.with_file_name("public").join(MANIFEST_FILE).is_file();
+        if is_release || is_held {
+            return Err(Failure::malformed(format_args!(
+                "`{}` is in the release itself, {}, which would no longer verify: choose a place elsewhere",
+                place.display(),
+                shell::quoted(folder)
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Starts the draft of a folder or file that lies in no release.
+pub(crate) fn draft(out: &Path) -> Result<Draft, Failure> {
+    check(out)?;
+    Draft::create(out).map_err(crate::verbs::verify::failure)
+}
+
+/// The absolute path, as far as it exists with links followed.
+fn resolved(place: &Path) -> PathBuf {
+    for above in place.ancestors() {
+        let known = if above.as_os_str().is_empty() { Path::new(".") } else { above };
+        if let Ok(folder) = fs::canonicalize(known) {
+            // Joining nothing would add a slash.
+            return match place.strip_prefix(above) {
+                Ok(rest) if rest.as_os_str().is_empty() => folder,
+                Ok(rest) => folder.join(rest),
+                Err(_) => folder,
+            };
+        }
+    }
+    place.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_written_into_a_release_but_papers() {
+        let home = tempfile::tempdir().expect("temporary folder");
+        let at = |path: &str| home.path().join(path);
+        for folder in ["new/games", "new/papers", "sealed/public", "sealed/held"] {
+            fs::create_dir_all(at(folder)).expect("created");
+        }
+        for folder in ["new", "sealed/public"] {
+            fs::write(at(folder).join(MANIFEST_FILE), "{}").expect("written");
+        }
+        for inside in [
+            "new/p.json",
+            "new/games/a/b",
+            "new/x/papers",
+            "new/MANIFEST.json",
+            "sealed/public/x/y",
+            "sealed/held/z",
+        ] {
+            let error = check(&at(inside)).expect_err(inside);
+            assert_eq!(error.code(), crate::failure::MALFORMED);
+            assert!(error.to_string().contains("is in the release itself"), "{error}");
+        }
+        for outside in
+            ["new", "p.json", "a/b/c", "new/papers/talk.pdf", "new/papers/a/b", "sealed/x", "newer/x"]
+        {
+            check(&at(outside)).expect(outside);
+        }
+        check(Path::new("relative.json")).expect("elsewhere");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_into_a_release_is_followed() {
+        let home = tempfile::tempdir().expect("temporary folder");
+        let release = home.path().join("new");
+        fs::create_dir_all(release.join("games")).expect("created");
+        fs::write(release.join(MANIFEST_FILE), "{}").expect("written");
+        std::os::unix::fs::symlink(release.join("games"), home.path().join("link")).expect("linked");
+        check(&home.path().join("link/x")).expect_err("inside");
+    }
+}
