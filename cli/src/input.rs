@@ -205,7 +205,7 @@ fn beside(path: &Path) -> Option<String> {
     Some(folder.join(near).display().to_string())
 }
 
-/// Whether a text looks like a level: rows of characters of one width, with nothing that a game has.
+/// Returns whether a text looks like a level: rows of characters of one width, with nothing that a game has.
 fn is_level(text: &str) -> bool {
     let rows: Vec<&str> = text.lines().map(str::trim_end).collect();
     let width = |row: &&str| row.chars().count();
@@ -220,7 +220,7 @@ fn is_level(text: &str) -> bool {
     rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(speaks)
 }
 
-/// Whether a text is surely a game: it has two of the sections, each on a line of its own.
+/// Returns whether a text is surely a game: it has two of the sections, each on a line of its own.
 fn is_game(text: &str) -> bool {
     let sections = ["SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
     text.lines().filter(|line| sections.contains(&line.trim())).count() > 1
@@ -280,7 +280,7 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
-/// How the archive of a release begins.
+/// The first bytes of a release's archive.
 const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
 /// Reads a text file of at most `limit` bytes; of a larger one no more than that is read.

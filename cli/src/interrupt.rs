@@ -13,7 +13,7 @@ mod unix {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::thread;
 
-    /// Whether the program is about to end by a signal.
+    /// True if the program is about to end by a signal.
     static ENDING: AtomicBool = AtomicBool::new(false);
 
     /// Has the signals caught from here on. `last` is done first, and may take some seconds; then `hint` is written to standard error.

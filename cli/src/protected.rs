@@ -4,7 +4,8 @@ use crate::failure::Failure;
 use crate::shell;
 use snapshots::{Draft, MANIFEST_FILE};
 use std::ffi::OsStr;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
 /// Refuses to write at `place` if it lies in a release, or in the part of one that is held back; its `papers/` are open to all.
@@ -13,10 +14,8 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     for folder in there.ancestors().skip(1) {
         let below = there.strip_prefix(folder).unwrap_or(&there);
         let is_paper = below.components().next() == Some(Component::Normal(OsStr::new("papers")));
-        let is_release = folder.join(MANIFEST_FILE).is_file() && !is_paper;
-        let is_held =
-            folder.ends_with("held") && folder.with_file_name("public").join(MANIFEST_FILE).is_file();
-        if is_release || is_held {
+        let is_held = folder.ends_with("held") && is_release(&folder.with_file_name("public"));
+        if is_held || (!is_paper && is_release(folder)) {
             return Err(Failure::malformed(format_args!(
                 "`{}` is in the release itself, {}, which would no longer verify: choose a place elsewhere",
                 place.display(),
@@ -25,6 +24,19 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// The first bytes of a manifest, which is canonical JSON. Other programs have files of that name, too.
+const MANIFEST_START: &[u8] = b"{\n  \"canary\": ";
+
+/// Tells a folder with a release's manifest from any other.
+fn is_release(folder: &Path) -> bool {
+    let start = || {
+        let mut bytes = Vec::new();
+        let limit = MANIFEST_START.len() as u64;
+        File::open(folder.join(MANIFEST_FILE))?.take(limit).read_to_end(&mut bytes).map(|_| bytes)
+    };
+    start().is_ok_and(|bytes| bytes == MANIFEST_START)
 }
 
 /// Starts the draft of a folder or file that lies in no release.
@@ -61,8 +73,10 @@ mod tests {
             fs::create_dir_all(at(folder)).expect("created");
         }
         for folder in ["new", "sealed/public"] {
-            fs::write(at(folder).join(MANIFEST_FILE), "{}").expect("written");
+            fs::write(at(folder).join(MANIFEST_FILE), MANIFEST_START).expect("written");
         }
+        fs::create_dir(at("other")).expect("created");
+        fs::write(at("other").join(MANIFEST_FILE), "{ \"name\": \"of another program\" }").expect("written");
         for inside in [
             "new/p.json",
             "new/games/a/b",
@@ -75,9 +89,16 @@ mod tests {
             assert_eq!(error.code(), crate::failure::MALFORMED);
             assert!(error.to_string().contains("is in the release itself"), "{error}");
         }
-        for outside in
-            ["new", "p.json", "a/b/c", "new/papers/talk.pdf", "new/papers/a/b", "sealed/x", "newer/x"]
-        {
+        for outside in [
+            "new",
+            "p.json",
+            "a/b/c",
+            "new/papers/talk.pdf",
+            "new/papers/a/b",
+            "sealed/x",
+            "newer/x",
+            "other/x",
+        ] {
             check(&at(outside)).expect(outside);
         }
         check(Path::new("relative.json")).expect("elsewhere");
@@ -89,7 +110,7 @@ mod tests {
         let home = tempfile::tempdir().expect("temporary folder");
         let release = home.path().join("new");
         fs::create_dir_all(release.join("games")).expect("created");
-        fs::write(release.join(MANIFEST_FILE), "{}").expect("written");
+        fs::write(release.join(MANIFEST_FILE), MANIFEST_START).expect("written");
         std::os::unix::fs::symlink(release.join("games"), home.path().join("link")).expect("linked");
         check(&home.path().join("link/x")).expect_err("inside");
     }

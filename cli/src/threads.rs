@@ -1,4 +1,4 @@
-//! How many threads work. No byte of any output depends on it.
+//! The number of threads. No byte of any output depends on it.
 
 use crate::console;
 use crate::failure::Failure;
@@ -44,7 +44,7 @@ fn usual() -> usize {
     bounded(wanted.as_deref(), cores)
 }
 
-/// What is wanted where that is a sensible number; else a thread for each core.
+/// The wanted number where that is sensible; else a thread for each core.
 fn bounded(wanted: Option<&str>, cores: usize) -> usize {
     let wanted = wanted.and_then(|text| text.parse().ok()).filter(|wanted| (1..=MOST).contains(wanted));
     wanted.unwrap_or(cores).clamp(1, MOST)

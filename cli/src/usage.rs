@@ -52,7 +52,7 @@ fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Whether `--json` is among the flags. Where the line cannot be parsed, this is all there is to go by.
+/// Returns whether `--json` is among the flags. Where the line cannot be parsed, this is all there is to go by.
 fn is_json_wanted(arguments: &[OsString]) -> bool {
     let flags = arguments.iter().take_while(|argument| *argument != OsStr::new("--"));
     flags.into_iter().any(|argument| argument == OsStr::new("--json"))

@@ -1,4 +1,4 @@
-//! What `arcade --version` prints.
+//! The text of `arcade --version`.
 
 use snapshots::version::CURRENT;
 use std::sync::LazyLock;

@@ -57,7 +57,7 @@ fn replace(path: &Path, content: impl FnOnce(&mut File) -> io::Result<()>) -> io
     sync(folder)
 }
 
-/// Where a file of this path is: links, even those to what is not there yet, lead to their targets.
+/// The place of a file of this path: links, even those to files that are not there yet, lead to their targets.
 fn destination(path: &Path) -> io::Result<PathBuf> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_symlink() => match fs::canonicalize(path) {

@@ -328,7 +328,7 @@ fn malformed_questions_are_told() {
     assert!(refusal(&["hailglass", "--player", "nil", "--out", "r"]).contains("not empty"));
 }
 
-/// What a report would refuse, `--resume` refuses too.
+/// `--resume` refuses logs that a report would refuse.
 #[test]
 fn edited_logs_are_not_certified() {
     let home = tempfile::tempdir().unwrap();

@@ -180,7 +180,7 @@ fn a_file_removed_added_or_linked_is_named() {
     assert!(text(&output.stdout).contains("games/stowaway.txt"), "{}", text(&output.stdout));
 }
 
-/// What goes along with a release may be changed and added to; nothing else may, under no pretext.
+/// Papers of a release may be changed and added to; nothing else may.
 #[test]
 fn papers_go_along_with_a_release() {
     let (folder, root) = copy();

@@ -236,7 +236,7 @@ fn tampered(home: &Path, name: &str, file: &str, change: impl FnOnce(Vec<u8>) ->
     fs::write(&path, change(content)).unwrap();
 }
 
-/// What the report says of results.
+/// The words of the report on these results.
 fn summary(home: &Path, results: &str) -> Value {
     let _ = fs::remove_dir_all(home.join("report"));
     serde_json::from_slice(&run(home, &["--json", "report", results, "--out", "report"], 0).stdout).unwrap()

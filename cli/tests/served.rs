@@ -92,7 +92,7 @@ const STUBBORN: &str = "trap '' TERM HUP INT QUIT\nsetsid sleep 600 & echo $! > 
      pwd > $1/folder\nn=0\nwhile read line; do case $line in *'\"past\":true'*) n=$((n+1));; *'\"type\":\"turn\"'*) n=$((n+1))\n\
      [ $n -gt 3 ] && [ ! -e $1/go ] && { echo $$ > $1/shell; sleep 600; }\necho '{\"action\":\"left\"}';; esac; done\nexec sleep 600\n";
 
-/// Whether a signal does what it usually does: whoever starts the tests in the background may have it ignored.
+/// Returns whether a signal does what it usually does: whoever starts the tests in the background may have it ignored.
 #[cfg(target_os = "linux")]
 fn is_heeded(signal: u32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap();
@@ -113,7 +113,7 @@ fn wait_until(what: &str, is_so: impl Fn() -> bool) {
     panic!("{what}: never");
 }
 
-/// Whether a process is gone, but for its entry in the table of processes.
+/// Returns whether a process is gone, but for its entry in the table of processes.
 #[cfg(target_os = "linux")]
 fn is_gone(pid: &str) -> bool {
     fs::read_to_string(format!("/proc/{pid}/stat")).map_or(true, |stat| stat.contains(") Z "))

@@ -272,7 +272,7 @@ fn connection(server: &Running, patience: Duration) -> TcpStream {
 
 const PATIENT: Duration = Duration::from_secs(60);
 
-/// What comes back for these bytes, to the end.
+/// Returns all that comes back for these bytes.
 fn raw(server: &Running, bytes: &str) -> String {
     let mut stream = connection(server, PATIENT);
     stream.write_all(bytes.as_bytes()).unwrap();
@@ -315,7 +315,7 @@ fn bounded(bounds: Bounds) -> Running {
 
 const HEAD: &str = "POST /v1/chat/completions HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nConnection: close\r\n";
 
-/// Who is slow is let go, with the head of a request and with its body.
+/// Slow clients are let go, with the head of a request and with its body.
 #[test]
 fn slow_clients_are_let_go() {
     let short = Duration::from_millis(200);

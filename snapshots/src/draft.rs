@@ -40,7 +40,7 @@ pub use abandoned::Abandoned;
 pub struct Draft {
     out: PathBuf,
     partial: PathBuf,
-    /// Whether everything in it is for its owner alone, and stays so when it is published.
+    /// True if everything in it is for its owner alone, and stays so when it is published.
     is_secret: bool,
     /// Closing it frees the lock, after `drop` has removed the folder.
     _lock: File,
@@ -230,7 +230,7 @@ impl Drop for Draft {
     }
 }
 
-/// Where the work on the folder `out` lies; none if that has no name of its own.
+/// The folder of the work on the folder `out`; none if that has no name of its own.
 fn partial_of(out: &Path) -> Option<PathBuf> {
     let mut name = OsString::from(out.file_name()?);
     name.push(".partial");

@@ -71,7 +71,7 @@ pub enum SnapshotError {
     NotASecret {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         source: serde_json::Error,
     },
     /// A secret that somebody made up.
@@ -81,7 +81,7 @@ pub enum SnapshotError {
     WeakSecret {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         what: String,
     },
     /// Another process is writing there.

@@ -19,7 +19,7 @@ pub struct Integrity {
     pub manifest: Manifest,
     /// All that is wrong, sorted; empty if the folder is what the manifest says.
     pub problems: Vec<Problem>,
-    /// What is there besides, which the root does not cover; nothing in an archive.
+    /// Files beside the tree, which the root does not cover; none in an archive.
     pub beside: Beside,
 }
 

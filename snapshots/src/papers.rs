@@ -17,7 +17,7 @@ use std::path::Path;
 /// The folder of the papers, at the top of a release.
 pub const PAPERS: &str = "papers/";
 
-/// How much the papers of a release may be: 1 000 files of at most 64 MiB, 256 MiB together.
+/// Limits of the papers of a release: 1 000 files of at most 64 MiB, 256 MiB together.
 pub const PAPERS_LIMITS: Limits = Limits { files: 1000, file_bytes: 64 << 20, total_bytes: 256 << 20 };
 
 /// Names that version control, file managers and downloads leave at the top of a folder. What is below is not looked at.
@@ -36,12 +36,12 @@ pub(crate) const PASSED_OVER: [&str; 12] = [
     "desktop.ini",
 ];
 
-/// What is in a release folder besides the files that its manifest lists.
+/// The files of a release folder that its manifest does not list.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Beside {
     /// The papers, by path.
     pub papers: Vec<Entry>,
-    /// What other programs left at the top, by name; not looked at.
+    /// Files that other programs left at the top, by name; not looked at.
     pub ignored: Vec<String>,
 }
 
@@ -109,7 +109,7 @@ fn licence(manifest: &Manifest) -> String {
     )
 }
 
-/// How to cite a release: [CFF 1.2.0](https://citation-file-format.github.io). The root says which bytes are meant.
+/// The citation of a release: [CFF 1.2.0](https://citation-file-format.github.io). The root says which bytes are meant.
 fn citation(manifest: &Manifest) -> String {
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
     format!(
@@ -147,7 +147,7 @@ fn quoted(text: &str) -> String {
     quoted
 }
 
-/// Where errata go.
+/// The page for errata.
 fn errata(manifest: &Manifest) -> String {
     let sealed = match manifest.kind {
         Kind::Open => "",

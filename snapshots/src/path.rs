@@ -39,7 +39,7 @@ pub enum PathProblem {
     NotUnicode,
 }
 
-/// Whether `path` may be in a release: relative, `/`-separated, at most [`MAX_PATH`] bytes and [`MAX_COMPONENTS`]
+/// Returns whether `path` may be in a release: relative, `/`-separated, at most [`MAX_PATH`] bytes and [`MAX_COMPONENTS`]
 /// components, of the characters `A-Z a-z 0-9 . _ -`, without components that are empty, `.`, `..` or end with a dot.
 ///
 /// # Errors

@@ -22,7 +22,7 @@ pub struct Recipe {
     /// The text that the seed comes from: public, so the release is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<String>,
-    /// What a secret commits to, in its place: the release is sealed.
+    /// The commitment of a secret, in its place: the release is sealed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commitment: Option<Digest>,
     /// Root digest of the release before.

@@ -130,7 +130,7 @@ impl Secret {
         Ok(self.check().err())
     }
 
-    /// Whether the chance of a witness comes from this secret, by the path that the witness names. A secret of an earlier
+    /// Returns whether the chance of a witness comes from this secret, by the path that the witness names. A secret of an earlier
     /// generation cannot tell.
     pub(crate) fn leads_to(&self, witness: &Witness) -> bool {
         let step = |seed: Seed, (purpose, index): &Step| seed.child(purpose, *index);

@@ -60,7 +60,7 @@ pub struct Verification {
     pub work: u64,
     /// Papers beside the release, which its root does not cover.
     pub papers: usize,
-    /// What other programs left beside the release, by name; not looked at.
+    /// Files that other programs left beside the release, by name; not looked at.
     pub ignored: Vec<String>,
     /// All that is wrong, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,

@@ -113,7 +113,7 @@ impl fmt::Display for MintedBy {
     }
 }
 
-/// Whether a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and so safe inside a suggested command.
+/// Returns whether a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and so safe inside a suggested command.
 pub(crate) fn is_version_number(text: &str) -> bool {
     let is_number = |part: &str| {
         (1..=9).contains(&part.len())

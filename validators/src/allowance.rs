@@ -1,4 +1,4 @@
-//! How much work a validation may be: a number of forward-model calls, shared out among the criteria.
+//! The work that a validation may be: a number of forward-model calls, shared out among the criteria.
 //!
 //! Minting needs none of this: its recipe bounds each criterion by itself. A designer names one number, and wants an answer
 //! after about as much work, whatever the game.
@@ -34,7 +34,7 @@ impl Watch for Scales {
 }
 
 impl Allowance {
-    /// So many calls for these levels: fewer where the ticks of one of them are unusually heavy. Cost: some ticks of each.
+    /// The calls allowed for these levels: fewer where the ticks of one of them are unusually heavy. Cost: some ticks of each.
     pub(crate) fn of<'a>(calls: u64, game: &Game, levels: impl IntoIterator<Item = &'a Level>) -> Allowance {
         let weigh = |level: &Level| {
             let mut state = game.start(level, Seed::from_text("weigh"));

@@ -109,7 +109,7 @@ impl Words<'_> {
         self.links.push(Evidence::new(text).advise(advice));
     }
 
-    /// Whether some rule ends sprites of the type.
+    /// Returns whether some rule ends sprites of the type.
     fn is_ended(&self, stype: SpriteType) -> bool {
         let applies = |written: SpriteType| self.analysis.applies(written, stype);
         self.analysis.encounters().iter().any(|encounter| {

@@ -173,7 +173,7 @@ pub(crate) struct Climbed {
 }
 
 impl Climbed {
-    /// How many plays were broken off because of so many calls.
+    /// The number of plays that were broken off for want of calls.
     pub(crate) fn broken_off(&self, calls: u64) -> usize {
         let is_cut = |play: &&Play| {
             play.episode.outcome == Outcome::Ongoing
@@ -199,7 +199,7 @@ impl Climb {
         (self.measure(&climbed), climbed.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 
-    /// How many plays a round has.
+    /// The number of plays of a round.
     pub(crate) fn of_a_round(&self) -> u64 {
         ROUND * self.players().count() as u64
     }

@@ -22,7 +22,7 @@ pub struct Panel {
     of_game: Vec<Box<dyn GameValidator + Send>>,
     /// The criteria, and the calls that they share, if those are bounded.
     bound: Option<(Criteria, u64)>,
-    /// How a win is searched for.
+    /// The search for a win.
     search: PortfolioConfig,
     /// Ticks of the ways that are tried on each level for rules which were never seen.
     exploration: u64,
@@ -30,11 +30,11 @@ pub struct Panel {
 
 /// Criteria that cannot be asked of a level which nobody can win.
 const NEED_A_WIN: [&str; 2] = ["length", "skill"];
-/// What is said of them then.
+/// The words for criteria that are not asked of an unwinnable level.
 const NOT_ASKED: &str = "not asked: the level cannot be won";
 /// Criteria that ask nothing of play, or whose answer is why the others are not asked.
 const OF_THE_START: [&str; 2] = ["well-formed", "readable"];
-/// What is said of the others where no play gets beyond its first tick.
+/// The words for criteria that are not asked where no play gets beyond its first tick.
 const STOPPED: &str = "not asked: the game stops in its first tick";
 /// Criteria of a game whose doubts follow from a level that nobody can win.
 const OF_RULES: [&str; 2] = ["rule-use", "ablation"];
@@ -81,12 +81,12 @@ impl Report {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
     }
 
-    /// Whether it is proved that nobody can win.
+    /// Returns whether it is proved that nobody can win.
     fn is_unwinnable(&self) -> bool {
         self.finding("winnable").is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
     }
 
-    /// Whether the engine stops the game in its first tick.
+    /// Returns whether the engine stops the game in its first tick.
     fn is_stopped(&self) -> bool {
         let verdict = self.finding("well-formed").map(|finding| &finding.verdict);
         matches!(verdict, Some(Verdict::Fail { witness: Some(episode), .. })

@@ -1,4 +1,4 @@
-//! Whether a level cannot be won only because its time is up too soon.
+//! Levels that cannot be won only because their time is up too soon.
 
 use crate::board::Board;
 use crate::evidence::{Evidence, Line};

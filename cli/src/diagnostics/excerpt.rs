@@ -19,10 +19,10 @@ pub(super) struct Excerpt {
     /// The number of the first line in `text`, from 0, and how many it has.
     first: usize,
     count: usize,
-    /// Where the problem is: line and column in the file, from 0.
+    /// The place of the problem: line and column in the file, from 0.
     line: usize,
     column: usize,
-    /// Where it is in `text`: start and length.
+    /// Its place in `text`: start and length.
     span: (usize, usize),
 }
 
@@ -100,7 +100,7 @@ impl Excerpt {
         (offset, place)
     }
 
-    /// Where the problem is in what is shown.
+    /// The place of the problem in the text that is shown.
     pub(super) fn span(&self) -> SourceSpan {
         self.span.into()
     }

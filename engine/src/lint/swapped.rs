@@ -14,7 +14,7 @@ pub struct SwappedRule {
     pub line: usize,
     /// Its sprites and its effect.
     pub span: Span,
-    /// What was most likely meant: a line for each partner.
+    /// The rule most likely meant: a line for each partner.
     pub repaired: Vec<String>,
 }
 

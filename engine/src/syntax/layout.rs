@@ -10,7 +10,7 @@ pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 pub(super) struct Line<'a> {
     /// Columns before the first character; a tab counts as one.
     pub(super) indent: usize,
-    /// Whether a tab is among them.
+    /// True if a tab is among them.
     pub(super) tabbed: bool,
     /// Without indent, comment and trailing blanks.
     pub(super) text: &'a str,

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Bytes of a log at most: a long episode of a model that reasons at length has some hundred million.
 const MAX_LOG: u64 = 1 << 30;
 
-/// What to do about a log that is not what it should be.
+/// The next move for a log that is damaged or was changed.
 pub(crate) const NEXT_MOVE: &str = "the log is damaged or was changed: get it again, or remove it and have the episode played again by `arcade evaluate` with --resume";
 
 /// The open log of an episode. Every event is on its way to the disk when [`Journal::push`] returns.

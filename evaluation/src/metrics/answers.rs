@@ -8,7 +8,7 @@ use engine::Action;
 #[derive(Debug, Default)]
 pub(super) struct Answers<'a> {
     replies: Vec<&'a Reply>,
-    /// Whether a model was asked. Programs are asked without a word in the log, which has their wrong answers only.
+    /// True if a model was asked. Programs are asked without a word in the log, which has their wrong answers only.
     is_model: bool,
 }
 

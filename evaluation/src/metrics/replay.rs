@@ -188,7 +188,7 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
     }
 }
 
-/// How an episode stands: `won`, `not over`.
+/// The state of an episode in words: `won`, `not over`.
 fn in_words(outcome: Outcome) -> String {
     match outcome {
         Outcome::Ongoing => "not over".to_owned(),

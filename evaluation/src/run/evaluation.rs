@@ -58,12 +58,12 @@ pub struct Tally {
     pub open: u64,
     /// Why the first of them was broken off.
     pub halted: Option<String>,
-    /// Whether that is the doing of network, server, disk or a player's process, rather than of a cap or of the user.
+    /// True if that is the doing of network, server, disk or a player's process, rather than of a cap or of the user.
     pub infrastructure: bool,
 }
 
 impl Evaluation {
-    /// Whether there is something to go on with: an evaluation, or the interrupted beginning of one.
+    /// Returns whether there is something to go on with: an evaluation, or the interrupted beginning of one.
     pub fn is_begun(folder: &Path) -> bool {
         [SETTINGS_FILE, LOCK_FILE].iter().any(|name| folder.join(name).exists())
     }
@@ -386,7 +386,7 @@ fn difference(recorded: &Settings, asked: &Settings) -> Option<String> {
     })
 }
 
-/// Whether there is no such file.
+/// Returns whether there is no such file.
 fn is_absent(error: &std::io::Error) -> bool {
     matches!(error.kind(), std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory)
 }

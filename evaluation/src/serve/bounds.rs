@@ -1,4 +1,4 @@
-//! How much a server takes from strangers: connections, time, memory.
+//! Bounds on what a server takes from strangers: connections, time, memory.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,9 +16,9 @@ pub struct Bounds {
     pub body: usize,
     /// Bytes of all requests at a time.
     pub bodies: usize,
-    /// How long a client may take to send the head of a request, also of the next one on the same connection.
+    /// The time a client has to send the head of a request, also of the next one on the same connection.
     pub head_time: Duration,
-    /// How long a client may take to send the body of a request, and to wait for room for it.
+    /// The time a client has to send the body of a request, waiting for room included.
     pub body_time: Duration,
 }
 

@@ -1,4 +1,4 @@
-//! Who may ask: programs on this machine, and no page of a browser that comes from elsewhere.
+//! Clients that may ask: programs on this machine, and no page of a browser that comes from elsewhere.
 //!
 //! A page from anywhere can have a browser send requests to 127.0.0.1. What tells them is the name that the browser asked for (`Host`,
 //! which a name that was bound to 127.0.0.1 afterwards cannot hide), the page that has it ask (`Origin`), and the kind of content: a
@@ -54,7 +54,7 @@ fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static
     None
 }
 
-/// Whether a name, perhaps with a port, is one of this machine.
+/// Returns whether a name, perhaps with a port, is one of this machine.
 fn is_loopback(authority: &str) -> bool {
     let is_port = |rest: &str| {
         rest.is_empty()

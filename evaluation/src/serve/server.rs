@@ -168,7 +168,7 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         .with_state(Arc::new(Serving { player, bounds, room: Room::new(bounds.bodies) }))
 }
 
-/// What an answer needs.
+/// The state that an answer needs.
 struct Serving {
     player: PromptPlayer,
     bounds: Bounds,

@@ -42,7 +42,7 @@ impl Abandoned {
         Ok(Some(Abandoned { partial: partial.to_path_buf(), lots, _lock: lock }))
     }
 
-    /// How many lots an interrupted mint has finished: what `--resume` would go on with.
+    /// The number of lots that an interrupted mint has finished, with which `--resume` goes on.
     pub fn finished_lots(&self) -> usize {
         self.lots
     }
@@ -62,7 +62,7 @@ impl Abandoned {
     }
 }
 
-/// Whether the folder, itself no link, holds what a draft holds: its lock, and work.
+/// Returns whether the folder, itself no link, holds what a draft holds: its lock, and work.
 fn holds_work(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {
         return Ok(false);

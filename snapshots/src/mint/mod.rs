@@ -307,7 +307,7 @@ mod tests {
         }
     }
 
-    /// What a dry run says is what was measured, which the page tells; a quarter more or less.
+    /// The estimate of a dry run is the measurement on the page, a quarter more or less.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
         let page = include_str!("../../../docs/recipes.md");

@@ -104,7 +104,7 @@ impl<'a> Plan<'a> {
             .collect()
     }
 
-    /// What lots cost together, roughly, in seconds of one core of the machine that docs/recipes.md tells of.
+    /// The rough cost of lots together, in seconds of one core of the machine that docs/recipes.md describes.
     pub fn seconds(&self, lots: &[Lot]) -> f64 {
         let usual = Criteria::default();
         let of = |(plain, skill): (f64, f64), levels: u32, criteria: &Criteria| {

@@ -52,7 +52,7 @@ pub struct LotFolder {
     plan: Digest,
     /// Whether the folder says so.
     is_marked: Mutex<bool>,
-    /// Whether lots are for their owner alone.
+    /// True if lots are for their owner alone.
     is_secret: bool,
 }
 
@@ -104,7 +104,7 @@ impl LotFolder {
         Ok(())
     }
 
-    /// Whether each of the lots with these names is in a folder, which may be absent and is left as it is.
+    /// Returns whether each of the lots with these names is in a folder, which may be absent and is left as it is.
     ///
     /// # Errors
     /// The folder has lots of another plan, or the file system refuses.

@@ -32,7 +32,7 @@ impl Default for Bounds {
 
 /// Counts the work of all replays of a release, from several threads.
 ///
-/// Whether the limit is passed does not depend on threads: it is if all replays together take more.
+/// True if the limit is passed does not depend on threads: it is if all replays together take more.
 pub(super) struct Meter {
     limit: u64,
     spent: AtomicU64,

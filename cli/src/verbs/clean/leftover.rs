@@ -15,7 +15,7 @@ pub(super) struct Leftover {
     pub(super) kind: Kind,
 }
 
-/// What a leftover is.
+/// The kinds of leftovers.
 pub(super) enum Kind {
     /// The folder of a release, report or export that was not finished.
     Unfinished(Abandoned),
@@ -69,7 +69,7 @@ impl Leftover {
         }
     }
 
-    /// How much disk its files take.
+    /// Bytes of disk that its files take.
     pub(super) fn bytes(&self) -> u64 {
         let (mut bytes, mut waiting) = (0, vec![self.path.clone()]);
         while let Some(path) = waiting.pop() {
@@ -107,12 +107,12 @@ fn unfinished_file(path: &Path) -> Option<File> {
     file.try_lock().ok().map(|()| file)
 }
 
-/// Whether the text may be the part of a scratch name that was drawn at random.
+/// Returns whether the text may be the part of a scratch name that was drawn at random.
 fn is_drawn(text: &str) -> bool {
     text.len() == 6 && text.chars().all(|character| character.is_ascii_alphanumeric())
 }
 
-/// How the names of players' scratch folders begin.
+/// The beginning of the names of players' scratch folders.
 const SCRATCH: &str = "arcade-player-";
 /// A folder that was touched since may be of a player that is just starting.
 const SETTLED: Duration = Duration::from_secs(3600);
@@ -129,7 +129,7 @@ pub(super) fn scratch() -> Vec<Leftover> {
     paths.into_iter().map(|path| Leftover { path, kind: Kind::Scratch }).collect()
 }
 
-/// Whether this is a scratch folder of this user's players, untouched for an hour.
+/// Returns whether this is a scratch folder of this user's players, untouched for an hour.
 fn is_scratch(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let Ok(found) = fs::symlink_metadata(path) else { return false };
@@ -145,7 +145,7 @@ fn is_settled(touched: SystemTime) -> bool {
     now.duration_since(touched).is_ok_and(|age| age > SETTLED)
 }
 
-/// Whether it belongs to the user who runs this.
+/// Returns whether it belongs to the user who runs this.
 #[cfg(unix)]
 fn is_own(found: &fs::Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;

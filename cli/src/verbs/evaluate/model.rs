@@ -299,13 +299,13 @@ pub(crate) struct Ready {
     prompters: Prompters,
     decoding: Decoding,
     reasks: u32,
-    /// Whether its price is known: without one, nobody knows what was spent.
+    /// True if its price is known: without one, nobody knows what was spent.
     pub(crate) is_priced: bool,
     /// What is spent.
     pub(crate) caps: Arc<client::Caps>,
 }
 
-/// What an evaluation will take if every episode takes all its steps.
+/// The cost of an evaluation if every episode takes all its steps.
 #[derive(Serialize)]
 pub(crate) struct Forecast {
     episodes: u64,

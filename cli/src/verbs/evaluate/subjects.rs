@@ -105,7 +105,7 @@ fn help_with(unknown: &str, games: &[Subject]) -> String {
     format!("there are {}{more}", listed.join(", "))
 }
 
-/// Whether there is a release: a folder with a manifest, or an archive.
+/// Returns whether there is a release: a folder with a manifest, or an archive.
 fn is_snapshot(place: &Path) -> bool {
     let is_file = place.metadata().is_ok_and(|found| found.is_file());
     let is_called_archive = place.to_string_lossy().ends_with(".tar.zst");

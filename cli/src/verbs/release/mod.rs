@@ -266,7 +266,7 @@ fn follow_parent(recipe: &mut Recipe, parent: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Whether a recipe is a file, not the name of one that the binary carries.
+/// Returns whether a recipe is a file, not the name of one that the binary carries.
 fn is_file(recipe: &Path) -> bool {
     recipe.extension().is_some_and(|extension| extension == "toml")
 }

@@ -10,7 +10,7 @@ use snapshots::mint::{Lot, LotFolder, MintError, Plan};
 use snapshots::{Draft, Recipe, SnapshotError, check_vacant};
 use std::path::Path;
 
-/// What would be minted, or, with `resume`, what is left to be.
+/// Tells what would be minted, or, with `resume`, what is left to be.
 pub(super) fn outline(
     plan: &Plan<'_>,
     lots: &[Lot],
@@ -87,7 +87,7 @@ pub(super) fn outline(
     Ok(true)
 }
 
-/// Which of the lots an interrupted mint has made.
+/// The lots that an interrupted mint has made.
 fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crate::failure::Failure> {
     let Some(folder) = Draft::lots_of(out) else { return Ok(vec![false; names.len()]) };
     let digest = plan.digest().map_err(failure)?;
@@ -117,7 +117,7 @@ fn words((least, most): (f64, f64)) -> String {
     }
 }
 
-/// What can be told of a sealed release without its secret.
+/// Tells what is known of a sealed release without its secret.
 pub(super) fn without_secret(recipe: &Recipe, console: &Console) -> Answer {
     console.document(&json!({ "recipe": recipe }))?;
     let games = recipe.generated.games + recipe.corpus.games;

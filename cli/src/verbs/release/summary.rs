@@ -8,7 +8,7 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::Path;
 
-/// What was minted, for a person.
+/// The minted release in words.
 pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> String {
     let Minted { manifest, cards, card } = minted;
     let tally = &card.tally;

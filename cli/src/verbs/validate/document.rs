@@ -55,7 +55,7 @@ pub(super) struct LevelDocument<'a> {
 }
 
 impl LevelDocument<'_> {
-    /// What is certain of a level of a game that does not compile.
+    /// The problems of a level that are certain although its game does not compile.
     pub(super) fn of_malformed_game(level: &Named, problems: &[Diagnostic]) -> LevelDocument<'static> {
         LevelDocument {
             level: level.name.clone(),

@@ -136,7 +136,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     }
 }
 
-/// Whether a criterion was left out, as there is nothing that it could be asked of.
+/// Returns whether a criterion was left out, as there is nothing that it could be asked of.
 fn is_not_asked(finding: &validators::Finding) -> bool {
     finding.evidence.first().is_some_and(|seen| seen.text.starts_with("not asked"))
 }

@@ -29,7 +29,7 @@ pub struct Obstacle {
     pub target: SpriteType,
     /// The index of the rule in [`Description::interactions`](crate::Description); none: a sprite makes it by itself.
     pub line: Option<usize>,
-    /// What it lacks.
+    /// The missing link.
     pub lack: Lack,
 }
 
@@ -56,15 +56,15 @@ pub enum Lack {
 pub struct Shortage {
     /// The resource.
     pub resource: SpriteType,
-    /// How many are asked for at once.
+    /// The number that is asked for at once.
     pub needed: i32,
-    /// How many one sprite can hold, if those are too few already.
+    /// The most that one sprite can hold, if that is too few already.
     pub capacity: Option<i32>,
-    /// How many can be got in all; meaningless beside a `capacity`.
+    /// The number that can be got in all; meaningless beside a `capacity`.
     pub most: i64,
     /// Indices of the rules that give it.
     pub rules: Vec<usize>,
-    /// What the level has that gives it.
+    /// The sprites of the level that give it.
     pub sources: Vec<Source>,
 }
 
@@ -73,13 +73,13 @@ pub struct Shortage {
 pub struct Source {
     /// Its type.
     pub stype: SpriteType,
-    /// Where the level places it.
+    /// The cell in which the level places it.
     pub cell: usize,
-    /// How many such sprites lie there.
+    /// The number of such sprites there.
     pub count: u32,
-    /// How many it gives.
+    /// The number that it gives.
     pub each: i64,
-    /// What keeps it from being got; none: it can be got.
+    /// The obstacle to getting it; none: it can be got.
     pub apart: Option<Apart>,
 }
 
@@ -99,7 +99,7 @@ pub struct Apart {
 pub struct Closed {
     /// Its type.
     pub stype: SpriteType,
-    /// Where it stands.
+    /// Its cell.
     pub cell: usize,
     /// What the rules lack that could end it; empty where it has been told of before in the same chain.
     pub obstacles: Vec<Obstacle>,
@@ -117,7 +117,7 @@ const MAX_DEPTH: usize = 4;
 /// In the place of a cell: the making of sprites has been told of.
 const UNMADE: usize = usize::MAX;
 
-/// Which sprites an interaction would end.
+/// The sprites that an interaction would end.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Ended {
     Side(Side),
@@ -202,7 +202,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         obstacles
     }
 
-    /// Whether an interaction would end sprites of the type, and which ones.
+    /// Returns whether an interaction would end sprites of the type, and which ones.
     fn ended(&self, encounter: &Encounter, stype: SpriteType) -> Option<Ended> {
         let rules = &*self.analysis.game().0;
         let first = self.analysis.applies(encounter.first, stype);
@@ -352,7 +352,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// What keeps sprites of a type from a cell.
+    /// The obstacle that keeps sprites of a type from a cell.
     fn apart(&self, who: SpriteType, cell: usize, told: &mut Vec<(SpriteType, usize)>) -> Apart {
         let closed = self.in_the_way(who, cell);
         let closed = closed.into_iter().take(MAX_CLOSED).map(|(stype, cell)| {
@@ -403,7 +403,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         found.into_iter().map(|(cell, stype)| (stype, cell)).collect()
     }
 
-    /// Whether sprites that a rule on `written` holds for can be there.
+    /// Returns whether sprites that a rule on `written` holds for can be there.
     fn is_alive(&self, written: SpriteType) -> bool {
         let tree = &self.analysis.game().0.types[written.index()].tree;
         tree.iter().any(|&stype| self.events.is_there(stype))
@@ -427,7 +427,7 @@ impl<'a, 'e> Chains<'a, 'e> {
 }
 
 impl Lack {
-    /// How near it is to not being lacked.
+    /// A measure of how near it is to being there.
     fn rank(&self) -> u8 {
         match self {
             Lack::Resource(_) => 0,

@@ -115,7 +115,7 @@ impl<'a> Events<'a> {
         cells.iter().for_each(|cell| self.flood.come(stype, cell, at, heading));
     }
 
-    /// What the level places.
+    /// The sprites that the level places.
     pub(super) fn placed(&self) -> &'a Placed {
         self.placed
     }
@@ -157,7 +157,7 @@ impl<'a> Events<'a> {
         gifts
     }
 
-    /// How much of each resource can be got.
+    /// The amount of each resource that can be got.
     fn resources(&mut self) -> Vec<i64> {
         let gifts = self.gifts();
         let unlimited = self.flood.model.unlimited.iter();

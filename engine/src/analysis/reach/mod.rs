@@ -184,7 +184,7 @@ impl Analysis {
         chains.unwrap_or_default()
     }
 
-    /// What the level places, and its board.
+    /// The sprites that the level places, and its board.
     fn placed(&self, level: &Level) -> (Placed, Board) {
         let board = Board { columns: level.columns() as i32, rows: level.rows() as i32 };
         let mut placed: Placed = vec![Vec::new(); self.game.0.types.len()];

@@ -25,7 +25,7 @@ use std::time::Duration;
 /// The exit status of a guard whose program could not be started.
 pub(super) const NOT_STARTED: i32 = 126;
 
-/// How the last words of such a guard begin; the reason follows.
+/// The beginning of the last message of such a guard; the reason follows.
 pub(super) const NOT_STARTED_BECAUSE: &str = "arcade player-guard: not started: ";
 
 /// Rounds in which everything that is found is killed, until nothing is found.

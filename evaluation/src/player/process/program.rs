@@ -27,7 +27,7 @@ fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), St
     }
 }
 
-/// Whether a word looks like a script: `agent.py`, but neither a flag nor an assignment.
+/// Returns whether a word looks like a script: `agent.py`, but neither a flag nor an assignment.
 fn is_script(word: &str) -> bool {
     let ending = Path::new(word).extension().and_then(OsStr::to_str);
     ending.is_some_and(|ending| SCRIPTS.contains(&ending)) && !word.starts_with('-') && !word.contains('=')

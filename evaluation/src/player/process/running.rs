@@ -20,7 +20,7 @@ pub(super) struct Running {
 }
 
 impl Running {
-    /// Whether no further player may start.
+    /// Returns whether no further player may start.
     pub(super) fn is_over(&self) -> bool {
         self.is_over
     }
