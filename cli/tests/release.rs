@@ -362,7 +362,7 @@ fn bad_recipes_are_named() {
     }
     fs::write(folder.path().join("mine.toml"), good).unwrap();
     let output = run(folder.path(), &["release", "mine.toml", "--dry-run"], 0);
-    assert!(text(&output.stdout).contains("would mint 1 new games"), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).contains("would mint 1 new game of"), "{}", text(&output.stdout));
     assert!(!folder.path().join("releases").exists());
 }
 

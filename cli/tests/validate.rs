@@ -453,7 +453,7 @@ fn levels_have_the_numbers_of_their_files() {
 #[test]
 fn a_line_without_the_avatar_is_told_with_it() {
     let hidden = GAME.replace("A > floor avatar", "A > floor").replace("avatar", "bee");
-    let line = "places the avatar `bee`: add it to a line, such as `A > floor bee`";
+    let line = "places the avatar `bee`: add it to a line, such as `A >";
     malformed(&hidden, LEVEL, "lvl0.txt", &[line]);
 }
 
