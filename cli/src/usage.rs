@@ -16,7 +16,7 @@ pub(crate) fn command() -> Command {
     numeric_flags_take_negative_numbers(Cli::command())
 }
 
-/// What these arguments ask for, or the exit status with which they are refused. Asking for help is no refusal.
+/// Parses the arguments, or returns the exit status with which they are refused. Asking for help is no refusal.
 pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
     let parsed = command()
         .try_get_matches_from(arguments)

@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// How the names of unfinished files begin and end. They lie beside their places, and `arcade clean` knows them.
+/// The beginning and end of the names of unfinished files. They lie beside their places, and `arcade clean` knows them.
 pub(crate) const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 
 /// Writes the file at `path` beside its place, waits until it is on disk, and moves it there in one step.

@@ -293,7 +293,7 @@ fn what_a_results_folder_says_is_bounded() {
     }
 }
 
-/// What a log says that follows from its steps, or from what was asked, is not believed but compared.
+/// Statements of a log that follow from its steps, or from what was asked, are compared, not believed.
 #[test]
 fn logs_are_compared_with_what_follows() {
     let home = tempfile::tempdir().unwrap();

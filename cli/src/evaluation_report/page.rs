@@ -30,7 +30,7 @@ struct Page<'a> {
     /// Style rules that show the chosen heat map.
     tab_rules: String,
     replays: Option<Replays>,
-    /// What the script of the page is known by, so that no other one runs. It follows from all that the page shows, none of which can
+    /// The nonce of the script of the page, so that no other one runs. It follows from all that the page shows, none of which can
     /// therefore name it.
     nonce: String,
 }

@@ -88,7 +88,7 @@ fn of_input(input: &GameInput, choice: &Choice<'_>) -> Result<Option<Subject>, F
     })
 }
 
-/// What may be meant by a name that no game has: a similar id or title, one that it is a part of, or else what there is.
+/// Suggestions for a name that no game has: a similar id or title, one that it is a part of, or else what there is.
 fn help_with(unknown: &str, games: &[Subject]) -> String {
     let names =
         || games.iter().flat_map(|game| [(game.id.as_str(), game), (game.facts.title.as_str(), game)]);
