@@ -1,4 +1,4 @@
-//! What all verbs have in common: exit statuses, messages about files, JSON of failures; and the verbs that tell of arcade
+//! The behaviour that all verbs share: exit statuses, messages about files, JSON of failures; and the verbs that tell of arcade
 //! itself.
 
 mod arcade;

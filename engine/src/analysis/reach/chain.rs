@@ -90,7 +90,7 @@ pub struct Apart {
     pub who: SpriteType,
     /// The place.
     pub cell: usize,
-    /// What stands on the ways there beside where sprites of the type can be, and could be ended by some rule.
+    /// Sprites on the ways there, beside cells that the type can be in, that some rule could end.
     pub closed: Vec<Closed>,
 }
 
@@ -101,7 +101,7 @@ pub struct Closed {
     pub stype: SpriteType,
     /// Its cell.
     pub cell: usize,
-    /// What the rules lack that could end it; empty where it has been told of before in the same chain.
+    /// The lacks of the rules that could end it; empty where it has been told of before in the same chain.
     pub obstacles: Vec<Obstacle>,
 }
 
@@ -154,7 +154,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chain { goal, cause, obstacles }
     }
 
-    /// What the rules lack that could end a sprite where it stands.
+    /// The lacks of the rules that could end a sprite where it stands.
     fn keeping(&self, stype: SpriteType, cell: usize, told: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
         if told.contains(&(stype, cell)) || told.len() >= MAX_DEPTH {
             return Vec::new();
@@ -176,7 +176,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         obstacles
     }
 
-    /// What the rules, and sprites, lack that could make sprites of a type.
+    /// The lacks of the rules, and sprites, that could make sprites of a type.
     fn unmade(&self, stype: SpriteType, told: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
         let makes = |encounter: &Encounter| {
             encounter.does(|deed| match deed {
@@ -228,7 +228,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// What an interaction lacks; of one that would end a sprite, to end it where it stands. None if nothing is proved.
+    /// The lack of an interaction; of one that would end a sprite, to end it where it stands. None if nothing is proved.
     fn lack(
         &self,
         encounter: &Encounter,
