@@ -297,14 +297,14 @@ pub(crate) mod tests {
         let manifest = two_files();
         check(
             &manifest,
-            include_str!("manifest/format-2.json"),
+            include_str!("format-2.json"),
             "18004ddc5792ffe7321ac8267a161b1e4b232638edf40883b17be88c300a7705",
         );
         let mut old = Manifest { format: 1, version: None, ..manifest };
         old.seal_root().expect("distinct paths");
         check(
             &old,
-            include_str!("manifest/format-1.json"),
+            include_str!("format-1.json"),
             "6871261f83a66c26cd308695d0019b0d88fce29a5d0d5c1ba27ff490c54e5175",
         );
     }
