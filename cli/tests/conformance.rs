@@ -38,6 +38,14 @@ fn every_trace_is_identical() {
     assert_eq!(last, "identical: 1122 of 1122 episodes");
 }
 
+/// The games of `corpora/`, recorded by the reference (`tests/ref/traces/README.md`).
+#[test]
+fn the_corpus_is_identical_in_every_field_of_every_tick() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let output = run(&root, &["conformance", "--games", "corpora", "--traces", "tests/ref/traces"], 0);
+    assert_eq!(text(&output.stdout).lines().last(), Some("identical: 405 of 405 episodes"));
+}
+
 #[test]
 fn a_missing_game_or_trace_is_a_malformed_question() {
     let Some(reference) = reference() else { return };

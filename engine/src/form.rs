@@ -15,7 +15,7 @@ pub(crate) struct Form {
     pub(crate) speed: f64,
     pub(crate) health: i32,
     pub(crate) max_health: i32,
-    /// Spawner: the tick of its first update.
+    /// Spawner: the tick of its first update, -1 before it.
     pub(crate) start: i32,
     /// Spawners: what they make now; updateSpawnType changes it.
     pub(crate) spawns: SpriteType,

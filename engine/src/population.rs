@@ -18,7 +18,6 @@ pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
         (flag::FROM_AVATAR, traits.is_from_avatar),
         (flag::ON_GROUND, traits.on_ground),
         (flag::FIRST_TICK, traits.is_first_tick),
-        (flag::STARTED, traits.start != -1),
         (flag::ORIENTED, traits.is_oriented),
         // Sprites of avatar classes are updated, and age, only as the player's.
         (flag::FROZEN, info.order.is_none() || is_avatar),
@@ -53,7 +52,7 @@ pub(crate) fn form(info: &TypeInfo) -> Form {
         speed: traits.speed,
         health: traits.health,
         max_health: traits.max_health,
-        start: traits.start,
+        start: -1,
         spawns: match info.class {
             Some(SpriteClass::OngoingTurningAvatar) => SpriteType(0),
             _ => traits.stypes.first().copied().unwrap_or(SpriteType::NONE),

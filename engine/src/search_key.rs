@@ -182,8 +182,7 @@ impl State {
         if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) }
     }
 
-    /// Spawners fire when their start and the tick together are a multiple of the cooldown. (A start so large that the sum
-    /// overflows makes the game one that reads the tick.)
+    /// The phase of a spawner, which fires when the sum of its start and the tick is a multiple of the cooldown.
     fn phase(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         match self.form_of(sprite).start {
             // The first update will set it.

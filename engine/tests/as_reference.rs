@@ -116,3 +116,22 @@ fn what_the_reference_dies_of_stops_the_episode() {
     assert!(Game::from_source_as_reference("Game\n").is_err());
     assert!(Game::from_source_as_reference("").is_err());
 }
+
+/// `start` belongs to the inside of a spawner (`spec/02` §8): no policy of loading lets a game set it.
+#[test]
+fn the_start_of_a_spawner_is_no_parameter() {
+    let plain = GAME.replace("    LevelMapping", "        hive > SpawnPoint stype=gold cooldown=3\n    LevelMapping\n        h > hive");
+    for class in ["SpawnPoint stype=gold", "Bomber stype=gold", "SpawnPointMultiSprite stypes=gold"] {
+        let plain = plain.replace("SpawnPoint stype=gold", class);
+        let started = plain.replace("cooldown=3", "cooldown=3 start=1");
+        let problems = Game::from_source(&started).map(drop).unwrap_err().0;
+        assert_eq!(problems.iter().map(|problem| problem.code).collect::<Vec<_>>(), ["unknown-parameter"]);
+        let (game, _, mut state) = load(&started, "Ah \n");
+        let (same, _, mut expected) = load(&plain, "Ah \n");
+        assert_eq!((state.messages(), expected.messages()), (1, 0));
+        for _ in 0..4 {
+            assert_eq!(game.step(&mut state, Action::Nil), same.step(&mut expected, Action::Nil));
+            assert_eq!(game.records(&state), same.records(&expected));
+        }
+    }
+}

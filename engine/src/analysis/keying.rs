@@ -6,7 +6,6 @@ use super::facts::Motion;
 use super::prospect::Prospect;
 use crate::game::{SpriteType, TypeInfo};
 use crate::hash::SearchKey;
-use crate::limits::MAX_TICKS;
 use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::terminations::{Condition, Decision, Termination};
@@ -83,27 +82,18 @@ impl Analysis {
             wizard_ticks.filter(|first| first_blocks.clone().any(|made| made == *first)).collect();
         let by_timeout = |end: &&Termination| matches!(end.condition, Condition::Timeout { .. });
         let mut timeouts = rules.terminations.iter().filter(by_timeout);
-        let overflows = made(SpriteClass::is_spawner).any(|traits| traits.start > i32::MAX - 2 * MAX_TICKS)
-            || self.game.sprite_types().any(|stype| self.starts_late(state, stype));
         let lose = timeouts.all(|end| end.decided_by == Decision::Line && !end.win);
         let constant = self.constant(&prospect);
         Keying {
-            tick: rules.reads_tick && (overflows || !lose),
+            tick: rules.reads_tick && !lose,
             chance: !state.is_over() && !self.is_deterministic_from(state),
             clocks: clocks.collect(),
             wizard_ticks,
             alike: self.alike(),
             faceless: self.faceless(),
             constant,
-            earlier_is_better: rules.reads_tick && !overflows && lose,
+            earlier_is_better: rules.reads_tick && lose,
         }
-    }
-
-    /// Whether a spawner of the type fires first at a tick so late that sums with it overflow.
-    fn starts_late(&self, state: &State, stype: SpriteType) -> bool {
-        let info = &self.game.0.types[stype.index()];
-        info.class.is_some_and(SpriteClass::is_spawner)
-            && state.slots(stype).any(|slot| state.form(slot).start > i32::MAX - 2 * MAX_TICKS)
     }
 
     /// By type: no sprite of it is ever changed, made or ended, by whatever can still happen.

@@ -180,7 +180,7 @@ fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause 
             speed cooldown orientation is_oriented rotate_in_place is_static only_active stationary solid width_factor
             height_factor health max_health limit_health time_to_live portal is_npc is_from_avatar last_move is_first_tick
             on_ground hidden invisible limit value age spread_probability cons fleeing max_distance prob total
-            spawn_orientation start min_ammo ammo_cost continuous off_grid mass gravity friction max_speed jump_strength
+            spawn_orientation min_ammo ammo_cost continuous off_grid mass gravity friction max_speed jump_strength
             angle_diff rotation facing facing_dir last_block_time ground_speedup air_slowdown air_steering probability
             epsilon random_target
         }

@@ -19,7 +19,7 @@ use crate::bump::barriers;
 use crate::contacts::Contacts;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
-use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TICKS, MAX_TYPES};
+use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
 use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites::{self as behaviour, Mover};
@@ -178,8 +178,7 @@ fn compile_with(
         timed: program.timed,
         finds_paths: header.obstacles.is_some(),
         obstacles,
-        reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. }))
-            || spawners().any(|traits| traits.start > i32::MAX - 2 * MAX_TICKS),
+        reads_tick: terminations.iter().any(|end| matches!(end.condition, Condition::Timeout { .. })),
         first_timeout: terminations.iter().filter_map(Termination::timeout).min().unwrap_or(i32::MAX),
         reads_counters: terminations
             .iter()

@@ -278,7 +278,6 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "prob" => traits.prob = number()?,
         "total" => traits.total = int()?,
         "spawnorientation" => traits.spawn_orientation = direction()?,
-        "start" => traits.start = int()?,
         "counter" => drop(int()?),
         "minAmmo" => traits.min_ammo = int()?,
         "ammoCost" => traits.ammo_cost = int()?,

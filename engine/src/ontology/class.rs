@@ -59,11 +59,11 @@ classes! {
     WalkerJumper: Walker, ["probability"];
     SpriteProducer: SpriteProducer, [];
     Portal: SpriteProducer, ["stype"];
-    SpawnPoint: SpriteProducer, ["stype", "prob", "total", "spawnorientation", "start", "counter"];
+    SpawnPoint: SpriteProducer, ["stype", "prob", "total", "spawnorientation", "counter"];
     Bomber: SpawnPoint, [];
     RandomBomber: SpawnPoint, [];
     BomberRandomMissile: SpawnPoint, ["stypeMissile"];
-    SpawnPointMultiSprite: SpriteProducer, ["stypes", "prob", "total", "spawnorientation", "start", "counter"];
+    SpawnPointMultiSprite: SpriteProducer, ["stypes", "prob", "total", "spawnorientation", "counter"];
     MovingAvatar: MovingAvatar, [];
     HorizontalAvatar: MovingAvatar, [];
     VerticalAvatar: MovingAvatar, [];

@@ -52,7 +52,6 @@ pub(crate) struct Traits {
     pub(crate) prob: f64,
     pub(crate) total: i32,
     pub(crate) spawn_orientation: Direction,
-    pub(crate) start: i32,
     pub(crate) min_ammo: i32,
     pub(crate) ammo_cost: i32,
     /// Continuous physics; grid physics otherwise.
@@ -136,7 +135,6 @@ impl Traits {
             prob: 1.0,
             total: 0,
             spawn_orientation: Direction::NONE,
-            start: -1,
             min_ammo: -1,
             ammo_cost: 1,
             continuous: false,
