@@ -1,5 +1,5 @@
 //! What must hold of any input whatever. Each check takes bytes, whoever chose them: the fuzz targets in `fuzz/` and the
-//! short runs in `tests/tests/robustness.rs` are one call each.
+//! short runs in `tests/tests/it/robustness.rs` are one call each.
 //!
 //! - [`text`]: any text parses, compiles or says why not, and prints canonically.
 //! - [`level`]: any text is a level of a valid game or says why not.

@@ -1,0 +1,493 @@
+//! `arcade evaluate` as users run it: with players that come with the suite, and with a model behind a server that
+//! misbehaves, is killed and resumed.
+
+use crate::arcade::{arcade, files, run, text};
+use crate::server::{Act, Asked, Server};
+use engine::Digest;
+use evaluation::log::{Event, ReplyClass, read, without_times};
+use evaluation::player::Validity;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
+
+/// A model without a will of its own: the same prompt, the same answer, and now and then none.
+fn answer(_: usize, asked: &Asked) -> Act {
+    let messages = &asked.json()["messages"];
+    let draw = Digest::of(messages.to_string().as_bytes()).to_string().as_bytes()[0] % 6;
+    let words =
+        ["ACTION: left", "ACTION: right", "ACTION: use", "I cannot say.", "I cannot see.", "I cannot."];
+    Act::completion(words[usize::from(draw)])
+}
+
+/// The logs of a results folder, without times.
+fn logs(folder: &Path) -> BTreeMap<String, Vec<Event>> {
+    let names = files(&folder.join("episodes")).into_keys();
+    let timeless = |name: &String| {
+        let events = read(&folder.join("episodes").join(name)).unwrap();
+        events.iter().map(without_times).collect()
+    };
+    names.map(|name| (name.clone(), timeless(&name))).collect()
+}
+
+fn json(output: &std::process::Output) -> Value {
+    serde_json::from_slice(&output.stdout).expect("one JSON document")
+}
+
+const STEPS: &str = "12";
+
+/// The arguments of an evaluation of a model on two small levels.
+fn asking<'a>(url: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let mut args = vec!["--json", "evaluate", "hailglass", "--levels", "0,1", "--model", "scripted"];
+    args.extend(["--base-url", url, "--max-steps", STEPS, "--out", "results"]);
+    args.extend(more);
+    args
+}
+
+#[test]
+fn players_that_come_with_the_suite() {
+    let home = tempfile::tempdir().unwrap();
+    let args = ["--json", "evaluate", "hailglass", "--levels", "0", "--max-steps", "20", "--runs", "2"];
+    let with = |player: &str, out: &str| {
+        let more = ["--player", player, "--out", out];
+        json(&run(home.path(), &[&args[..], &more].concat(), 0))
+    };
+    let played = with("mcts:20", "mcts");
+    assert_eq!((&played["entrant"]["name"], &played["tally"]["ended"]), (&"mcts:20".into(), &2.into()));
+    assert_eq!(with("nil", "nil")["entrant"]["name"], "do-nothing");
+    let log = read(&home.path().join("nil/episodes/hailglass-lvl0-run1.jsonl")).unwrap();
+    assert!(matches!(log.last(), Some(Event::End { steps: 20, .. })));
+    let played = with("random", "one");
+    let again = with("random", "two");
+    assert_eq!(played["tally"], again["tally"]);
+    assert_eq!(logs(&home.path().join("one")), logs(&home.path().join("two")));
+}
+
+/// Someone at a terminal sees what a model is shown, and may leave in the middle.
+#[test]
+fn people_play_and_come_back() {
+    use std::io::Write;
+    let home = tempfile::tempdir().unwrap();
+    let args = ["evaluate", "hailglass", "--levels", "0", "--player", "human", "--max-steps", "3"];
+    let sit = |typed: &str, more: &[&str]| {
+        let mut command = arcade(home.path());
+        command.args(args).args(["--out", "me"]).args(more);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        child.stdin.take().unwrap().write_all(typed.as_bytes()).unwrap();
+        child.wait_with_output().unwrap()
+    };
+    let left = sit("left\nfly\n", &[]);
+    assert_eq!(left.status.code(), Some(1));
+    let shown = text(&left.stderr);
+    assert!(
+        shown.contains("You win when no drifter or squall is left.") && shown.contains("`fly` is none of")
+    );
+    let ended = sit("right\nnil\n", &["--resume"]);
+    assert_eq!(ended.status.code(), Some(0), "{}", text(&ended.stderr));
+    let log = read(&home.path().join("me/episodes/hailglass-lvl0-run0.jsonl")).unwrap();
+    let actions: Vec<String> = log
+        .iter()
+        .filter_map(|event| match event {
+            Event::Step { action, .. } => Some(action.to_string()),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(actions, ["left", "right", "nil"]);
+}
+
+#[test]
+fn what_a_model_says_is_recorded_and_counted() {
+    let server = Server::start(answer);
+    for mode in ["zero-shot", "contextual"] {
+        let home = tempfile::tempdir().unwrap();
+        let played = json(&run(home.path(), &asking(&server.base_url(), &["--mode", mode]), 0));
+        assert_eq!(played["entrant"]["mode"], mode);
+        let (mut steps, mut replies, mut invalid) = (0, 0, 0);
+        for event in logs(&home.path().join("results")).into_values().flatten() {
+            match event {
+                Event::Step { validity, .. } => {
+                    steps += 1;
+                    invalid += u64::from(validity == Validity::Invalid);
+                }
+                Event::Reply(reply) => {
+                    replies += 1;
+                    assert_eq!(reply.class == ReplyClass::Invalid, reply.text.starts_with("I cannot"));
+                    assert_eq!(reply.usage.input_tokens, Some(100));
+                }
+                _ => {}
+            }
+        }
+        assert_eq!(played["spent"]["requests"], replies);
+        assert_eq!(played["spent"]["tokens"], replies * 110);
+        assert!(
+            replies > steps && invalid > 0,
+            "{mode}: {replies} replies, {steps} steps, {invalid} invalid"
+        );
+    }
+}
+
+/// Killed at many moments and resumed: the logs are those of a run that nobody disturbed, and no answer that was recorded is
+/// asked for again.
+#[test]
+fn killed_evaluations_lose_nothing() {
+    let slow = |number: usize, asked: &Asked| {
+        std::thread::sleep(Duration::from_millis(3));
+        answer(number, asked)
+    };
+    let home = tempfile::tempdir().unwrap();
+    let (whole, broken) = (home.path().join("whole"), home.path().join("broken"));
+    std::fs::create_dir_all(&whole).unwrap();
+    std::fs::create_dir_all(&broken).unwrap();
+    let undisturbed = Server::start(slow);
+    let more = ["--mode", "contextual", "--concurrency", "2", "--runs", "2"];
+    let spent = json(&run(&whole, &asking(&undisturbed.base_url(), &more), 0))["spent"].clone();
+
+    let server = Server::start(slow);
+    let url = server.base_url();
+    let kills = 20;
+    for kill in 0..kills {
+        let mut command = arcade(&broken);
+        // Nothing can be resumed before there is something.
+        command
+            .args(asking(&url, &more))
+            .args((kill > 0).then_some("--resume"))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        let answered = server.asked().len();
+        // The moment is chosen by what has happened, so that slow machines are killed in the same places.
+        while server.asked().len() < answered + 1 + kill % 7 && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(Duration::from_millis(kill as u64 % 5));
+        let _ = child.kill();
+        child.wait().unwrap();
+    }
+    let done = json(&run(&broken, &asking(&url, &[&more[..], &["--resume"]].concat()), 0));
+    assert_eq!(logs(&broken.join("results")), logs(&whole.join("results")));
+    assert_eq!(done["spent"], spent);
+    // What was under way at a kill was asked for again, and nothing else.
+    let (asked, needed) = (server.asked().len(), undisturbed.asked().len());
+    assert!(asked <= needed + 2 * kills, "{asked} requests for {needed} answers");
+}
+
+/// What servers do is never the model's doing: the episode stays open, no step is lost, and --resume goes on.
+#[test]
+fn failing_servers_leave_episodes_open() {
+    let bad: [fn() -> Act; 5] = [
+        || Act::reply(429, "slow down"),
+        || Act::reply(500, "oops"),
+        || Act::Cut(Vec::new()),
+        || Act::reply(200, ""),
+        || Act::reply(200, "<html>not now</html>"),
+    ];
+    for (kind, act) in bad.into_iter().enumerate() {
+        let home = tempfile::tempdir().unwrap();
+        let failing =
+            Server::start(move |number, asked| if number < 5 { answer(number, asked) } else { act() });
+        let once = ["--tries", "1", "--concurrency", "1"];
+        let output = run(home.path(), &asking(&failing.base_url(), &once), 3);
+        assert!(text(&output.stderr).contains("--resume goes on"), "{kind}: {}", text(&output.stderr));
+        let open = logs(&home.path().join("results"));
+        let halts = open
+            .values()
+            .flatten()
+            .filter(|event| matches!(event, Event::Halt { reason, .. } if reason == "infrastructure"));
+        assert!(halts.count() >= 1, "{kind}");
+        drop(failing);
+        // The server is back, at another port: where it is has no part in the answers of a model on this machine.
+        let server = Server::start(answer);
+        let url = server.base_url();
+        let again = [&once[..], &["--resume"]].concat();
+        let resumed = asking(&url, &again);
+        let played = json(&run(home.path(), &resumed, 0));
+        assert_eq!(played["tally"]["open"], 0);
+        let undisturbed = tempfile::tempdir().unwrap();
+        run(undisturbed.path(), &asking(&server.base_url(), &once), 0);
+        let without_halts = |folder: &Path| {
+            let mut logs = logs(&folder.join("results"));
+            logs.values_mut().for_each(|log| log.retain(|event| !matches!(event, Event::Halt { .. })));
+            logs
+        };
+        assert_eq!(without_halts(home.path()), without_halts(undisturbed.path()), "{kind}");
+    }
+}
+
+#[test]
+fn caps_hold_and_can_be_raised() {
+    let server = Server::start(answer);
+    let home = tempfile::tempdir().unwrap();
+    let url = server.base_url();
+    let capped = json(&run(home.path(), &asking(&url, &["--max-requests", "7"]), 1));
+    assert_eq!(capped["spent"]["requests"], 7);
+    assert_eq!(server.asked().len(), 7);
+    // Every count of them is the same, also where several episodes meet the cap at once.
+    assert_eq!(capped["tally"]["halted"], "the next request would exceed --max-requests 7");
+    let told = json(&run(home.path(), &["--json", "report", "results", "--out", "capped"], 0));
+    let player = &told["players"][0];
+    assert_eq!((&player["spending"]["requests"], &player["spending"]["replies"]), (&7.into(), &7.into()));
+    let done = json(&run(home.path(), &asking(&url, &["--max-requests", "1000", "--resume"]), 0));
+    assert_eq!(done["spent"]["requests"], server.asked().len());
+    assert_eq!(done["tally"]["open"], 0);
+}
+
+#[test]
+fn dry_runs_ask_nothing_and_say_what_it_would_take() {
+    let server = Server::start(answer);
+    let home = tempfile::tempdir().unwrap();
+    let forecast = json(&run(home.path(), &asking(&server.base_url(), &["--dry-run"]), 0));
+    assert_eq!((&forecast["episodes"], &forecast["requests"]), (&2.into(), &24.into()));
+    assert!(forecast["input_tokens"].as_u64().unwrap() > 24 * 300);
+    assert_eq!(forecast["power"].as_array().unwrap().len(), 3);
+    assert_eq!((&forecast["answer_tokens"], &forecast["max_output_tokens"]), (&100.into(), &Value::Null));
+    let url = server.base_url();
+    let bounded = asking(&url, &["--dry-run", "--max-output-tokens", "4000"]);
+    let forecast = json(&run(home.path(), &bounded, 0));
+    assert_eq!((&forecast["output_tokens"], &forecast["max_output_tokens"]), (&2400.into(), &96_000.into()));
+    let said = text(&run(home.path(), &bounded[1..], 0).stdout);
+    assert!(said.contains("assuming answers of 100 tokens; at most 0.10 M"), "{said}");
+    assert!(server.asked().is_empty() && !home.path().join("results").exists());
+}
+
+#[test]
+fn malformed_questions_are_told() {
+    let home = tempfile::tempdir().unwrap();
+    let refusal = |args: &[&str]| {
+        let output = run(home.path(), &[&["evaluate"], args].concat(), 2);
+        text(&output.stderr)
+    };
+    for (args, words) in [
+        (&["hailglas", "--player", "random"][..], "did you mean the corpus game `hailglass`?"),
+        (&["hailglass", "--player", "mtcs"], "did you mean `mcts`?"),
+        (&["hailglass"], "--player"),
+        (&["hailglass"], "--model"),
+        (&["corpus", "--player", "random", "--games", "jars"], "did you mean `quiet-jars`?"),
+        (&["corpus", "--player", "random", "--games", "zzzz"], "there are belfry-sling, "),
+        (&["hailglass", "--player", "random", "--runs", "1000000000"], "`runs` is 1000000000"),
+        (
+            &["hailglass", "--player", "random", "--max-steps", "18446744073709551615"],
+            "has 1 to 1000000 decisions",
+        ),
+        (&["hailglass", "--player", "random", "--jobs", "0"], "at least 1"),
+        (&["hailglass", "--player", "random", "--levels", "9"], "no level to play"),
+        (&["hailglass", "--player", "random", "--games", "hailgas"], "did you mean `hailglass`?"),
+        (&["hailglass", "hailglass", "--player", "random"], "two games are called `hailglass`"),
+        (&["hailglass", "--player", "random", "--runs", "0"], "at least 1"),
+        (&["hailglass", "--player", "replay:no.json"], "no.json: there is no such file"),
+        (&["hailglass", "--model", "gpt"], "openai:"),
+        (
+            &["hailglass", "--model", "openai:m", "--with", "grid", "--without", "grid"],
+            "both --with and --without",
+        ),
+        (&["hailglass", "--model", "openai:m", "--player", "random"], "cannot be used with"),
+        (&["hailglass", "--model", "openai:m", "--temperature", "nan"], "a number from 0 to 2, not NaN"),
+        (&["hailglass", "--model", "openai:m", "--temperature", "-1"], "a number from 0 to 2, not -1"),
+        (&["hailglass", "--model", "openai:m", "--top-p", "7"], "a number from 0 to 1, not 7"),
+        (&["hailglass", "--model", "openai:m", "--max-output-tokens", "0"], "at least 1"),
+        (&["hailglass", "--model", "openai:m", "--tries", "0"], "at least 1"),
+        (&["hailglass", "--model", "openai:m", "--prices", "nope.toml"], "nope.toml: there is no such file"),
+        (&["hailglass", "--model", "openai:m", "--jobs", "3"], "--concurrency"),
+        (&["hailglass", "--model", "m", "--base-url", "http://127.0.0.1:99999/v1"], "from 1 to 65535"),
+        (&["hailglass", "--player", "random", "--timeout", "0"], "0 is not in 1.."),
+        (&["hailglass", "--player", "random", "--max-cost", "5"], "--max-cost is for language models"),
+        (&["hailglass", "--player", "random", "--temperature", "1"], "`random` has no use for it"),
+        (&["hailglass", "--player", "random", "--with", "image"], "`random` reads none"),
+        (
+            &["hailglass", "--player", "random", "--resume", "--out", "nothere"],
+            "nothing to resume in nothere",
+        ),
+    ] {
+        let told = refusal(args);
+        assert!(told.contains(words), "{args:?}: {told}");
+    }
+    std::fs::write(home.path().join("alone.vgdl"), "BasicGame\n").unwrap();
+    assert!(refusal(&["alone.vgdl", "--player", "random"]).contains("put lvl0.txt"));
+    assert!(refusal(&["alnoe.vgdl", "--player", "random"]).contains("did you mean `alone.vgdl`?"));
+    let pasted = refusal(&["hailglass", "--model", "openai:m", "--key-variable", "sk-SECRET123"]);
+    assert!(pasted.contains("takes the name") && !pasted.contains("SECRET"), "{pasted}");
+    std::fs::create_dir(home.path().join("full")).unwrap();
+    std::fs::write(home.path().join("full/mine"), "").unwrap();
+    let full = refusal(&["hailglass", "--player", "random", "--out", "full"]);
+    assert!(full.contains("not empty") && !full.contains("--resume goes on"), "{full}");
+    // Nothing is written before a key is there.
+    let mut keyless = arcade(home.path());
+    keyless.args(["evaluate", "hailglass", "--model", "openai:m", "--out", "k"]).env_remove("OPENAI_API_KEY");
+    let told = keyless.output().unwrap();
+    assert_eq!(told.status.code(), Some(2));
+    assert!(text(&told.stderr).contains("OPENAI_API_KEY is not set") && !home.path().join("k").exists());
+    // Another question than the one that the folder holds.
+    run(home.path(), &["evaluate", "hailglass", "--levels", "0", "--player", "random", "--out", "r"], 0);
+    let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];
+    assert!(refusal(&other).contains("another player, model, prompt or decoding"));
+    assert!(refusal(&["hailglass", "--player", "nil", "--out", "r"]).contains("not empty"));
+}
+
+/// `--resume` refuses logs that a report would refuse.
+#[test]
+fn edited_logs_are_not_certified() {
+    let home = tempfile::tempdir().unwrap();
+    let args =
+        ["evaluate", "hailglass", "--levels", "0,1", "--max-steps", "9", "--player", "random", "--out", "r"];
+    run(home.path(), &args, 0);
+    let resume = [&args[..], &["--resume"]].concat();
+    run(home.path(), &resume, 0);
+    let log = |level: usize| home.path().join(format!("r/episodes/hailglass-lvl{level}-run0.jsonl"));
+    let sound = std::fs::read_to_string(log(0)).unwrap();
+    let (steps, end) = sound.trim_end().rsplit_once('\n').unwrap();
+    let mut claimed: Value = serde_json::from_str(end).unwrap();
+    claimed["outcome"] = "won".into();
+    let (first, rest) = sound.split_once('\n').unwrap();
+    let (_, rest) = rest.split_once('\n').unwrap();
+    for changed in [
+        format!("{steps}\n{claimed}\n"),
+        format!("{first}\n{rest}"),
+        std::fs::read_to_string(log(1)).unwrap(),
+    ] {
+        std::fs::write(log(0), &changed).unwrap();
+        let told = text(&run(home.path(), &resume, 2).stderr);
+        assert!(told.contains("hailglass-lvl0-run0.jsonl: line ") && told.contains("remove it"), "{told}");
+    }
+    std::fs::remove_file(log(0)).unwrap();
+    run(home.path(), &resume, 0);
+    assert_eq!(logs(&home.path().join("r")).len(), 2);
+}
+
+/// A server's count that no request can have neither meets a cap nor breaks a sum.
+#[test]
+fn counts_of_tokens_that_cannot_be_are_not_believed() {
+    let body = r#"{"choices":[{"message":{"content":"ACTION: left"},"finish_reason":"stop"}],
+        "usage":{"prompt_tokens":18446744073709551615,"completion_tokens":18446744073709551615}}"#;
+    let server = Server::start(move |_, _| Act::reply(200, body));
+    let home = tempfile::tempdir().unwrap();
+    let played = json(&run(home.path(), &asking(&server.base_url(), &["--max-tokens", "1000000"]), 0));
+    assert!(played["spent"]["tokens"].as_u64().unwrap() < 1_000_000, "{played}");
+    assert_eq!(played["spent"]["cost"], Value::Null, "its price is not known");
+    // Results of before hold such counts.
+    let log = home.path().join("results/episodes/hailglass-lvl0-run0.jsonl");
+    let before = std::fs::read_to_string(&log).unwrap();
+    let huge = before.replace("\"input_tokens\":null", "\"input_tokens\":18446744073709551615");
+    assert_ne!(before, huge);
+    std::fs::write(&log, huge).unwrap();
+    run(home.path(), &["report", "results", "--out", "told"], 0);
+}
+
+/// Whoever compares planners names each once, and a table that cannot be written does not cost the answer.
+#[test]
+fn runs_are_refused_before_they_are_played() {
+    let home = tempfile::tempdir().unwrap();
+    let refused = |more: &[&str]| {
+        text(
+            &run(home.path(), &[&["run", "hailglass", "--runs", "1", "--max-ticks", "3"], more].concat(), 2)
+                .stderr,
+        )
+    };
+    let told = refused(&["--planner", "random,random"]);
+    assert!(told.contains("`random` and `random` are the same player"), "{told}");
+    let told = refused(&["--planner", "mcts,mcts:20", "--budget", "20"]);
+    assert!(told.contains("`mcts` and `mcts:20` are the same player"), "{told}");
+    let told = refused(&["--planner", "random", "--csv", "nope/x.csv"]);
+    assert!(told.contains("its folder does not exist") && !told.contains("episodes"), "{told}");
+}
+
+/// More episodes at a time than there are: said, and not tried.
+#[test]
+fn no_more_at_a_time_than_there_are() {
+    let home = tempfile::tempdir().unwrap();
+    let args = ["evaluate", "hailglass", "--levels", "0,1", "--max-steps", "3", "--player", "random"];
+    let output = run(home.path(), &[&args[..], &["--jobs", "5000", "--out", "r"]].concat(), 0);
+    let told = text(&output.stderr);
+    assert!(told.contains("--jobs 5000") && told.contains("2 at a time"), "{told}");
+}
+
+#[test]
+fn archives_are_played_as_folders_are() {
+    let home = tempfile::tempdir().unwrap();
+    let release = |args: &[&str]| run(home.path(), args, 0);
+    release(&["release", "tiny", "--out", "tiny", "-q"]);
+    release(&["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"]);
+    let play = |subject: &str, out: &str| {
+        let args = ["--json", "evaluate", subject, "--player", "random", "--max-steps", "5", "--out", out];
+        json(&run(home.path(), &args, 0))["tally"].clone()
+    };
+    assert_eq!(play("tiny.tar.zst", "one"), play("tiny", "two"));
+    assert!(files(&home.path().join("one/games")) == files(&home.path().join("two/games")));
+    let settings =
+        |out: &str| std::fs::read_to_string(home.path().join(out).join("evaluation.json")).unwrap();
+    assert_eq!(settings("one"), settings("two"));
+    let mut bytes = std::fs::read(home.path().join("tiny.tar.zst")).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(home.path().join("bad.tar.zst"), bytes).unwrap();
+    std::fs::write(home.path().join("none.tar.zst"), "hello").unwrap();
+    for name in ["bad.tar.zst", "none.tar.zst"] {
+        let output = run(home.path(), &["evaluate", name, "--player", "random", "--out", "three"], 2);
+        assert!(text(&output.stderr).contains(name) && !home.path().join("three").exists());
+    }
+}
+
+/// A folder may be called anything.
+#[cfg(target_os = "linux")]
+#[test]
+fn results_and_reports_in_folders_that_are_no_text() {
+    use std::os::unix::ffi::OsStrExt;
+    let home = tempfile::tempdir().unwrap();
+    let name = |bytes: &[u8]| std::ffi::OsStr::from_bytes(bytes).to_owned();
+    for (flags, resume) in [(&[][..], None), (&["--json"], Some("--resume"))] {
+        let (results, report) = (name(b"r\xff"), name(b"p\xff"));
+        let mut command = arcade(home.path());
+        command.args(flags).args([
+            "evaluate",
+            "hailglass",
+            "--levels",
+            "0",
+            "--player",
+            "random",
+            "--max-steps",
+            "3",
+        ]);
+        let played = command.args(resume).arg("--out").arg(&results).output().unwrap();
+        assert_eq!(played.status.code(), Some(0), "{}", text(&played.stderr));
+        let mut command = arcade(home.path());
+        let told =
+            command.args(flags).arg("report").arg(&results).arg("--out").arg(&report).output().unwrap();
+        assert_eq!(told.status.code(), Some(0), "{}", text(&told.stderr));
+        std::fs::remove_dir_all(home.path().join(&report)).unwrap();
+    }
+}
+
+/// A disk that is full, as far as a program can tell: the limit of a file's size stands for it. It is a failure of the environment, and
+/// with room again the episode goes on where it was.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_stops_and_loses_nothing() {
+    let server = Server::start(answer);
+    let (home, url) = (tempfile::tempdir().unwrap(), server.base_url());
+    let more = ["--mode", "contextual", "--concurrency", "1"];
+    let limited = |blocks: &str| {
+        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
+        let mut command = std::process::Command::new("sh");
+        command.current_dir(home.path()).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_arcade")]);
+        command.args(asking(&url, &more)).output().unwrap()
+    };
+    let full = limited("20");
+    let told = text(&full.stderr);
+    assert_eq!(full.status.code(), Some(3), "{told}");
+    assert!(told.contains("cannot write") && told.contains("--resume goes on"), "{told}");
+    let log = home.path().join("results/episodes/hailglass-lvl0-run0.jsonl");
+    assert!(!matches!(read(&log).unwrap().last(), Some(Event::End { .. })));
+    run(home.path(), &asking(&url, &[&more[..], &["--resume"]].concat()), 0);
+    let undisturbed = tempfile::tempdir().unwrap();
+    run(undisturbed.path(), &asking(&url, &more), 0);
+    assert_eq!(logs(&home.path().join("results")), logs(&undisturbed.path().join("results")));
+    // Where not even the settings fit, there is nothing that looks like an evaluation.
+    let other = tempfile::tempdir().unwrap();
+    let script = "trap '' XFSZ; ulimit -f 0; exec \"$@\"";
+    let mut command = std::process::Command::new("sh");
+    command.current_dir(other.path()).args(["-c", script, "sh", env!("CARGO_BIN_EXE_arcade")]);
+    let none = command.args(asking(&url, &more)).output().unwrap();
+    assert_eq!(none.status.code(), Some(3), "{}", text(&none.stderr));
+    assert!(!other.path().join("results/evaluation.json").exists());
+    run(other.path(), &asking(&url, &more), 0);
+}

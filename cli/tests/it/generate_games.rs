@@ -1,0 +1,89 @@
+//! `arcade generate games`: the same bytes on any number of threads, games that validate and play, and clear refusals.
+
+use crate::arcade::{files, run, text};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// Generates games; the answer as JSON.
+#[track_caller]
+fn generate(folder: &Path, out: &str, more: &[&str], status: i32) -> Value {
+    let args = ["--json", "generate", "games", "--out", out];
+    let output = run(folder, &[&args, more].concat(), status);
+    serde_json::from_slice(&output.stdout).unwrap_or_default()
+}
+
+#[track_caller]
+fn same_bytes(method: &str) {
+    let home = tempfile::tempdir().unwrap();
+    let more = ["--method", method, "--count", "2", "--levels", "2", "--seed", "bytes"];
+    let more = [&more[..], &["--kind", "box-puzzle", "--kind", "shooter"]].concat();
+    let told = generate(home.path(), "one", &[&more[..], &["--jobs", "1"]].concat(), 0);
+    generate(home.path(), "three", &[&more[..], &["--jobs", "3"]].concat(), 0);
+    let made = files(&home.path().join("one"));
+    assert!(made == files(&home.path().join("three")), "{method} games depend on the number of threads");
+    let games = told["games"].as_array().unwrap();
+    assert_eq!(games.len(), 2);
+    assert_eq!(made.keys().filter(|name| name.ends_with("game.vgdl")).count(), 2);
+    for game in games {
+        let folder = format!("one/{}", game["id"].as_str().unwrap());
+        assert_eq!(game["levels"].as_array().unwrap().len(), 2);
+        // A win replays on its level.
+        let witness = format!("{folder}/witness/lvl1.json");
+        let picture = ["render", &folder, "1", "--episode", &witness, "-o", "-"];
+        assert!(text(&run(home.path(), &picture, 0).stdout).contains("won"));
+    }
+}
+
+#[test]
+fn constructive_games_are_the_same_on_any_number_of_threads() {
+    same_bytes("constructive");
+}
+
+#[test]
+fn searched_games_are_the_same_on_any_number_of_threads() {
+    same_bytes("search");
+}
+
+#[test]
+fn evolved_games_are_the_same_on_any_number_of_threads() {
+    same_bytes("evolutionary");
+}
+
+#[test]
+fn a_report_shows_the_games() {
+    let home = tempfile::tempdir().unwrap();
+    let more =
+        ["--count", "1", "--levels", "2", "--kind", "box-puzzle", "--seed", "bytes", "--report", "report"];
+    generate(home.path(), "new", &more, 0);
+    let report = files(&home.path().join("report"));
+    assert_eq!(report.keys().collect::<Vec<_>>(), ["report.html", "report.json", "sheet.png"]);
+    let report: Value = serde_json::from_slice(&report["report.json"]).unwrap();
+    assert_eq!(report["games"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn what_cannot_be_made_is_refused_with_the_next_move() {
+    let home = tempfile::tempdir().unwrap();
+    fs::create_dir(home.path().join("old")).unwrap();
+    fs::write(home.path().join("old/mine.txt"), "mine").unwrap();
+    let cases: [(&[&str], &[&str]); 6] = [
+        (&["--method", "magic"], &["magic", "constructive", "evolutionary"]),
+        (&["--kind", "shoter"], &["shoter", "did you mean `shooter`?"]),
+        (&["--count", "0"], &["0"]),
+        (&["--levels", "21"], &["21", "20"]),
+        (&["--jobs", "0"], &["--jobs"]),
+        (&["--report", "old"], &["old"]),
+    ];
+    for (flags, words) in cases {
+        let args = [&["generate", "games", "--out", "new"], flags].concat();
+        let message = text(&run(home.path(), &args, 2).stderr);
+        for part in words {
+            assert!(message.contains(part), "no `{part}` in: {message}");
+        }
+        assert!(!home.path().join("new").exists());
+    }
+    let message = text(&run(home.path(), &["generate", "games", "--out", "old"], 2).stderr);
+    assert!(message.contains("old"), "{message}");
+    assert_eq!(fs::read(home.path().join("old/mine.txt")).unwrap(), b"mine");
+}

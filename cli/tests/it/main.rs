@@ -1,0 +1,19 @@
+//! The `arcade` binary as its users run it.
+
+mod arcade;
+mod conformance;
+mod evaluate;
+#[cfg(feature = "parquet")]
+mod export;
+mod generate;
+mod generate_games;
+mod pictures;
+mod release;
+mod report;
+mod sealed;
+mod served;
+#[path = "../../../evaluation/tests/it/server.rs"]
+mod server;
+mod shards;
+mod usage;
+mod validate;

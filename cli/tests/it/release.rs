@@ -1,0 +1,475 @@
+//! Minting, verifying and minting again: what a release promises.
+
+use crate::arcade::{arcade, copy_tree, files, run, text};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+use std::sync::LazyLock;
+use tempfile::TempDir;
+
+/// One mint of `tiny`, shared by the tests that only read it or a copy of it.
+static TINY: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &["release", "tiny", "--out", "tiny", "--jobs", "2"], 0);
+    folder
+});
+
+/// A copy of the shared mint, to be tampered with.
+fn copy() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("tiny");
+    copy_tree(&TINY.path().join("tiny"), &root);
+    (folder, root)
+}
+
+/// A folder with a name that is not Unicode, where there are such.
+fn unusual() -> PathBuf {
+    #[cfg(target_os = "linux")]
+    {
+        PathBuf::from(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(b"one\xff"))
+    }
+    #[cfg(not(target_os = "linux"))]
+    {
+        PathBuf::from("one")
+    }
+}
+
+/// Every answer that names a place can be given, whatever the place is called.
+#[test]
+fn places_may_be_called_anything() {
+    let home = tempfile::tempdir().unwrap();
+    let out = unusual();
+    let answer = |arguments: &[&str]| -> serde_json::Value {
+        let output =
+            arcade(home.path()).args(arguments).arg("--json").arg("--out").arg(&out).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    assert_eq!(answer(&["release", "tiny", "--dry-run"])["out"], out.display().to_string());
+    assert_eq!(answer(&["release", "tiny", "--commit"])["secret"], out.display().to_string());
+}
+
+#[test]
+fn a_release_verifies_and_regenerates() {
+    let folder = TINY.path();
+    let output = run(folder, &["verify", "tiny"], 0);
+    assert!(text(&output.stdout).contains("witnesses replayed to a win"), "{}", text(&output.stdout));
+    let output = run(folder, &["regenerate", "tiny", "--out", "again"], 0);
+    assert!(text(&output.stdout).starts_with("identical"), "{}", text(&output.stdout));
+    assert_eq!(files(&folder.join("tiny")), files(&folder.join("again")));
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = unusual();
+    let mut mint = arcade(folder.path());
+    let output = mint.args(["--json", "release", "tiny", "--jobs", "1", "--out"]).arg(&out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(answer["out"], out.display().to_string());
+    assert_eq!(files(&folder.path().join(out)), files(&TINY.path().join("tiny")));
+}
+
+/// If this digest moves without a change of `seeds/tiny.toml`, GENERATION (or SEMANTICS) must be bumped.
+#[test]
+fn the_root_of_tiny_is_the_one_in_the_repository() {
+    let output = run(TINY.path(), &["--json", "verify", "tiny"], 0);
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["root"].as_str().unwrap(), include_str!("../tiny.root").trim());
+}
+
+#[test]
+fn the_version_tells_what_it_mints_and_replays() {
+    let output = run(TINY.path(), &["--version"], 0);
+    let expect = format!(
+        "arcade {} (GENERATION {}, SEMANTICS {})\n",
+        env!("CARGO_PKG_VERSION"),
+        generators::GENERATION,
+        engine::SEMANTICS
+    );
+    assert_eq!(text(&output.stdout), expect);
+    let manifest = fs::read_to_string(TINY.path().join("tiny/MANIFEST.json")).unwrap();
+    let expect = format!("\"version\": \"{}\"", snapshots::version::CURRENT.number);
+    assert!(manifest.contains(&expect), "{manifest}");
+}
+
+/// A release of another generation names the version that mints it, and the commands that install that.
+#[test]
+fn an_old_release_names_the_version_that_regenerates_it() {
+    let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/suite/snapshots/format-1");
+    let output = run(TINY.path(), &["regenerate", stored], 2);
+    let stderr = text(&output.stderr);
+    assert!(stderr.contains("minted by arcade 0.6.0 (GENERATION 6, SEMANTICS 2)"), "{stderr}");
+    let command = "git checkout ea25e6ab8ad7 && cargo install --locked --path cli";
+    assert!(stderr.contains(command), "{stderr}");
+}
+
+/// The first command of the README, in an empty folder.
+#[test]
+fn the_starter_is_minted_and_verifies() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &["release"], 0);
+    run(folder.path(), &["verify", "releases/starter"], 0);
+}
+
+/// The same seed gives the same candidates, most of which the parent has.
+#[test]
+fn what_a_release_before_has_is_not_minted_again() {
+    let folder = TINY.path();
+    let recipe = include_str!("../../../seeds/tiny.toml").replacen("\"tiny\"", "\"next\"", 1);
+    fs::write(folder.join("next.toml"), recipe).unwrap();
+    let output = run(folder, &["release", "next.toml", "--parent", "tiny", "--out", "next"], 2);
+    let said = text(&output.stderr);
+    assert!(said.contains("can be taken") && said.contains("in a release before"), "{said}");
+    let output = run(folder, &["release", "tiny", "--parent", "tiny", "--out", "next"], 2);
+    assert!(text(&output.stderr).contains("a release needs a name of its own"), "{}", text(&output.stderr));
+    // Another seed gives others; what it knows is what the parent holds.
+    let recipe = fs::read_to_string(folder.join("next.toml")).unwrap().replacen("a coin", "another coin", 1);
+    fs::write(folder.join("next.toml"), recipe).unwrap();
+    run(folder, &["release", "next.toml", "--parent", "tiny", "--out", "later"], 0);
+    let said = text(&run(folder, &["verify", "later", "--chain", "tiny"], 0).stdout);
+    assert!(said.contains("chain: sound; `next` and 1 before it"), "{said}");
+}
+
+#[test]
+fn any_flipped_byte_is_named() {
+    let (folder, root) = copy();
+    for (name, content) in files(&root).into_iter().filter(|(name, _)| !name.starts_with("papers/")) {
+        for place in [0, content.len() / 3, content.len() / 2, content.len() - 1] {
+            let mut altered = content.clone();
+            altered[place] ^= 1;
+            fs::write(root.join(&name), &altered).unwrap();
+            let output = arcade(folder.path()).args(["verify", "tiny"]).output().unwrap();
+            assert_eq!(output.status.code(), Some(1), "{name} byte {place}");
+            let said = text(&output.stdout) + &text(&output.stderr);
+            assert!(said.contains(&name), "{name} byte {place}: {said}");
+        }
+        fs::write(root.join(&name), content).unwrap();
+    }
+    run(folder.path(), &["verify", "tiny"], 0);
+}
+
+#[test]
+fn a_file_removed_added_or_linked_is_named() {
+    let (folder, root) = copy();
+    let level = files(&root).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();
+    let content = fs::read(root.join(&level)).unwrap();
+
+    fs::remove_file(root.join(&level)).unwrap();
+    let output = run(folder.path(), &["verify", "tiny"], 1);
+    assert!(text(&output.stdout).contains(&level), "{}", text(&output.stdout));
+    let output = run(folder.path(), &["regenerate", "tiny"], 1);
+    assert!(text(&output.stdout).contains(&level), "{}", text(&output.stdout));
+
+    let elsewhere = folder.path().join("elsewhere.txt");
+    fs::write(&elsewhere, &content).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&elsewhere, root.join(&level)).unwrap();
+        let output = run(folder.path(), &["verify", "tiny"], 1);
+        assert!(text(&output.stdout).contains(&level), "{}", text(&output.stdout));
+        fs::remove_file(root.join(&level)).unwrap();
+    }
+    fs::write(root.join(&level), &content).unwrap();
+
+    fs::write(root.join("games/stowaway.txt"), "x").unwrap();
+    let output = run(folder.path(), &["verify", "tiny"], 1);
+    assert!(text(&output.stdout).contains("games/stowaway.txt"), "{}", text(&output.stdout));
+}
+
+/// Papers of a release may be changed and added to; nothing else may.
+#[test]
+fn papers_go_along_with_a_release() {
+    let (folder, root) = copy();
+    let papers: Vec<String> =
+        files(&root).into_keys().filter_map(|name| Some(name.strip_prefix("papers/")?.to_owned())).collect();
+    assert_eq!(papers, ["CHANGELOG.md", "CITATION.cff", "DATASHEET.md", "LICENSE"]);
+    let digest = |out: &str| {
+        let output =
+            run(folder.path(), &["--json", "export", "tiny", "--format", "archive", "--out", out], 0);
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()["digest"].clone()
+    };
+    let before = digest("before.tar.zst");
+    fs::write(root.join("papers/LICENSE"), "CC0-1.0").unwrap();
+    fs::write(root.join("papers/doi.txt"), "10.5281/zenodo.0").unwrap();
+    fs::create_dir_all(root.join(".git/objects")).unwrap();
+    fs::write(root.join(".git/a file"), "x").unwrap();
+    fs::write(root.join(".DS_Store"), "x").unwrap();
+    let said = text(&run(folder.path(), &["verify", "tiny"], 0).stdout);
+    assert!(said.contains("papers: 5 files, not covered by the root\nignored: .DS_Store, .git\n"), "{said}");
+    assert!(text(&run(folder.path(), &["regenerate", "tiny"], 0).stdout).starts_with("identical"));
+    let chained = run(folder.path(), &["verify", "tiny", "--chain", "."], 0);
+    assert!(text(&chained.stdout).contains("is the first release"), "{}", text(&chained.stdout));
+    // The same release gives the same archive, whatever goes along with it.
+    assert_eq!(digest("after.tar.zst"), before);
+
+    fs::write(root.join("games/.DS_Store"), "x").unwrap();
+    let said = text(&run(folder.path(), &["verify", "tiny"], 1).stdout);
+    assert!(said.contains("games/.DS_Store: extra"), "{said}");
+    fs::remove_file(root.join("games/.DS_Store")).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/etc/hostname", root.join("papers/host")).unwrap();
+        let said = text(&run(folder.path(), &["verify", "tiny"], 1).stdout);
+        assert!(said.contains("papers/host: a symbolic link"), "{said}");
+    }
+}
+
+#[test]
+fn a_place_that_is_taken_is_refused_before_minting() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("mine")).unwrap();
+    fs::write(folder.path().join("mine/thesis.txt"), "x").unwrap();
+    let output = run(folder.path(), &["release", "tiny", "--out", "mine"], 2);
+    assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
+    assert_eq!(fs::read(folder.path().join("mine/thesis.txt")).unwrap(), b"x");
+    // A plan writes nothing.
+    let output = run(folder.path(), &["release", "tiny", "--out", "mine", "--dry-run"], 0);
+    let said = text(&output.stdout);
+    assert!(said.contains("would mint 2 new games") && said.contains("which is taken"), "{said}");
+}
+
+/// A job array that is run again has nothing to do, and did nothing wrong.
+#[test]
+fn a_finished_mint_is_complete() {
+    let (folder, _) = copy();
+    let resumed = ["release", "tiny", "--out", "tiny", "--resume"];
+    for arguments in [&resumed[..], &[&resumed[..], &["--dry-run"]].concat()] {
+        let said = text(&run(folder.path(), arguments, 0).stdout);
+        assert!(said.contains("already complete: tiny"), "{said}");
+    }
+    let other = text(&run(folder.path(), &["release", "starter", "--out", "tiny", "--resume"], 2).stderr);
+    assert!(other.contains("is not an empty folder"), "{other}");
+    fs::write(folder.path().join("tiny/README.md"), "x").unwrap();
+    run(folder.path(), &resumed, 2);
+}
+
+/// Whatever is written into a release keeps it from verifying; papers alone go along with it.
+#[test]
+fn nothing_is_written_into_a_release() {
+    let (folder, root) = copy();
+    for arguments in [
+        &["verify", "tiny", "--item", "MANIFEST.json", "--write-proof", "tiny/p.json"][..],
+        &["release", "tiny", "--out", "tiny/sub"],
+        &["release", "tiny", "--commit", "--out", "tiny/secret.json"],
+        &["regenerate", "tiny", "--out", "tiny/again"],
+        &["merge", "x", "--out", "tiny/merged"],
+        &["export", "tiny", "--format", "archive", "--out", "tiny/games/a.tar.zst"],
+        &["evaluate", "tiny", "--player", "random", "--out", "tiny/results"],
+        &["report", "x", "--out", "tiny/report"],
+        &["render", "hailglass", "-o", "tiny/board.png"],
+    ] {
+        let said = text(&run(folder.path(), arguments, 2).stderr);
+        assert!(said.contains("is in the release itself"), "{arguments:?}: {said}");
+    }
+    run(folder.path(), &["render", "hailglass", "-o", "tiny/papers/board.png"], 0);
+    assert_eq!(files(&root).len(), files(&TINY.path().join("tiny")).len() + 1);
+    fs::write(root.join("DOI.txt"), "x").unwrap();
+    let said = text(&run(folder.path(), &["verify", "tiny"], 1).stdout);
+    assert!(said.contains("DOI.txt: extra") && said.contains("papers/"), "{said}");
+    let said = text(
+        &run(folder.path(), &["export", "tiny", "--format", "games", "--solutions", "--out", "x"], 2).stderr,
+    );
+    assert!(said.contains("hold no solutions"), "{said}");
+}
+
+/// No version minted it, so that none can be installed to mint it again.
+#[test]
+fn a_changed_version_is_damage() {
+    let (folder, root) = copy();
+    let manifest = fs::read_to_string(root.join("MANIFEST.json")).unwrap();
+    let stated = format!("\"semantics\": {}", engine::SEMANTICS);
+    assert!(manifest.contains(&stated), "{manifest}");
+    fs::write(root.join("MANIFEST.json"), manifest.replace(&stated, "\"semantics\": 1")).unwrap();
+    let said = text(&run(folder.path(), &["regenerate", "tiny"], 2).stderr);
+    assert!(said.contains("is damaged or was changed") && !said.contains("install"), "{said}");
+}
+
+/// A shard may have nothing to do.
+#[test]
+fn more_shards_than_lots_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let shard = ["release", "tiny", "--shard", "300/300", "--out", "x", "--dry-run"];
+    let output = run(folder.path(), &shard, 0);
+    assert!(text(&output.stderr).contains("more shards than lots"), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("in 0 to 0 seconds"), "{}", text(&output.stdout));
+}
+
+/// A file that was there before is nobody's to remove.
+#[test]
+fn a_file_in_the_way_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "x").unwrap();
+    let said = |out: &str| text(&run(folder.path(), &["release", "tiny", "--out", out], 2).stderr);
+    let below = said("file/x");
+    assert!(below.contains("a folder above it is a file"), "{below}");
+    let file = said("file");
+    assert!(file.contains("choose another --out") && !file.contains("remove"), "{file}");
+    fs::write(folder.path().join("long.toml"), "x".repeat(5000)).unwrap();
+    let long = text(&run(folder.path(), &["release", "tiny", "--secret", "long.toml"], 2).stderr);
+    assert!(long.contains("is not the secret of a sealed release"), "{long}");
+}
+
+/// Killed at any moment, a mint leaves nothing that verifies.
+#[cfg(unix)]
+#[test]
+fn a_killed_mint_leaves_nothing_that_verifies() {
+    for milliseconds in [1, 20, 100, 400] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut child = arcade(folder.path())
+            .args(["release", "starter", "--out", "out", "--jobs", "1"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert!(!folder.path().join("out").exists());
+        for place in ["out", "out.partial", "out.partial/tree"] {
+            let output = arcade(folder.path()).args(["verify", place]).output().unwrap();
+            assert_ne!(output.status.code(), Some(0), "{place} after {milliseconds} ms");
+        }
+    }
+}
+
+/// A folder that is complete but was never published is no release.
+#[test]
+fn an_unpublished_tree_does_not_verify() {
+    let (folder, root) = copy();
+    fs::create_dir(folder.path().join("new.partial")).unwrap();
+    fs::rename(&root, folder.path().join("new.partial/tree")).unwrap();
+    let output = run(folder.path(), &["verify", "new.partial/tree"], 2);
+    assert!(text(&output.stderr).contains("unfinished"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn bad_recipes_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = "name = 'mine'\ndescription = 'x'\nseed = 'x'\n[generated]\ngames = 1\n";
+    for (recipe, words) in [
+        (good.replace("games", "gamse"), "gamse"),
+        (good.replace("= 1", "= 0"), "nothing to mint"),
+        (format!("{good}[corpus]\ngames = 1000\n"), "corpus.games"),
+        ("name".to_owned(), "expected"),
+    ] {
+        fs::write(folder.path().join("mine.toml"), recipe).unwrap();
+        let output = run(folder.path(), &["release", "mine.toml"], 2);
+        assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
+    }
+    fs::write(folder.path().join("mine.toml"), good).unwrap();
+    let output = run(folder.path(), &["release", "mine.toml", "--dry-run"], 0);
+    assert!(text(&output.stdout).contains("would mint 1 new game of"), "{}", text(&output.stdout));
+    assert!(!folder.path().join("releases").exists());
+}
+
+/// A release as it is kept in the repository.
+fn kept(name: &str) -> String {
+    format!("{}/../tests/suite/snapshots/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Nothing shows that its levels can be won: that is a no, unless somebody says that it is enough.
+#[test]
+fn what_was_not_replayed_is_not_verified() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = kept("other-semantics");
+    let said = text(&run(folder.path(), &["verify", &place], 1).stdout);
+    assert!(said.contains("witnesses: not replayed (needs an arcade of semantics 1"), "{said}");
+    assert!(said.contains("other-semantics: NOT verified") && said.contains("--accept-unreplayed"), "{said}");
+    run(folder.path(), &["--json", "verify", &place], 1);
+    let said = text(&run(folder.path(), &["verify", &place, "--accept-unreplayed"], 0).stdout);
+    assert!(said.contains("accepted without the replay of its witnesses"), "{said}");
+    assert!(!said.contains("verified"), "{said}");
+    // What never was is no other semantics.
+    let forged = folder.path().join("forged");
+    copy_tree(Path::new(&place), &forged);
+    let path = forged.join("MANIFEST.json");
+    let manifest = fs::read(&path).unwrap();
+    let mut manifest = snapshots::Manifest::parse(&manifest).unwrap();
+    manifest.semantics = 0;
+    manifest.seal_root().unwrap();
+    fs::write(&path, manifest.to_bytes().unwrap()).unwrap();
+    let said = text(&run(folder.path(), &["verify", "forged", "--accept-unreplayed"], 1).stdout);
+    assert!(said.contains("GENERATION 1 never had SEMANTICS 0"), "{said}");
+}
+
+/// Without a root from elsewhere nothing shows which release it is, and the answer says so.
+#[test]
+fn only_the_published_root_shows_which_release_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = kept("other-semantics");
+    let verify = ["--json", "verify", &place, "--accept-unreplayed"];
+    let told = |arguments: &[&str]| -> serde_json::Value {
+        serde_json::from_slice(&run(folder.path(), arguments, 0).stdout).unwrap()
+    };
+    let answer = told(&verify);
+    assert_eq!(answer["root_compared"], false);
+    let root = answer["root"].as_str().unwrap();
+    assert_eq!(told(&[&verify[..], &["--root", root]].concat())["root_compared"], true);
+    let said = text(&run(folder.path(), &verify[1..], 0).stdout);
+    assert!(said.contains("consistent in itself") && said.contains("give it with --root"), "{said}");
+    let said = text(&run(folder.path(), &[&verify[1..], &["--root", root]].concat(), 0).stdout);
+    run(folder.path(), &[&verify[1..], &["--root", &root.to_uppercase()]].concat(), 0);
+    assert!(said.contains("as given") && !said.contains("consistent in itself"), "{said}");
+    let other = "0".repeat(64);
+    let said = text(&run(folder.path(), &[&verify[1..], &["--root", &other]].concat(), 1).stdout);
+    assert!(said.contains(&format!("not {other}")), "{said}");
+}
+
+#[test]
+fn what_is_no_snapshot_is_named() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("passwd"), "root:x:0:0\n").unwrap();
+    fs::write(folder.join("game.vgdl"), "BasicGame\n").unwrap();
+    fs::write(folder.join("recipe.toml"), "name = 'x'\n").unwrap();
+    fs::create_dir_all(folder.join("game")).unwrap();
+    fs::write(folder.join("game/game.vgdl"), "BasicGame\n").unwrap();
+    fs::create_dir_all(folder.join("empty")).unwrap();
+    fs::create_dir_all(folder.join("sealed/public")).unwrap();
+    fs::write(folder.join("sealed/public/MANIFEST.json"), "{}").unwrap();
+    let takes = "a snapshot is a folder with MANIFEST.json, or its .tar.zst";
+    for (place, what) in [
+        ("passwd", "`passwd` is a file, and not the archive of a snapshot"),
+        ("game.vgdl", "is a text: check a game with `arcade validate`"),
+        ("recipe.toml", "mint it with `arcade release`"),
+        ("game", "is the folder of a game"),
+        ("sealed", "name its folder `public`"),
+        ("sealed/public/MANIFEST.json", "is a manifest: name the folder that it is in"),
+        ("empty", "is a folder that has no MANIFEST.json"),
+    ] {
+        let said = text(&run(folder, &["verify", place], 2).stderr);
+        assert!(said.contains(what) && said.contains(takes), "{place}: {said}");
+    }
+    let said = text(&run(folder, &["verify", "nowhere"], 2).stderr);
+    assert!(said.contains("`nowhere` does not exist"), "{said}");
+}
+
+/// The replay of witnesses is bounded, and the bound is the user's to set.
+#[test]
+fn replays_take_no_more_than_is_allowed() {
+    let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100"], 1).stdout);
+    assert!(said.contains("its witnesses take more than 100 units of work to replay"), "{said}");
+    run(TINY.path(), &["verify", "tiny", "--max-work", "100000000"], 0);
+}
+
+/// A name that is no Unicode is a name like any.
+#[cfg(target_os = "linux")]
+#[test]
+fn exports_to_any_name() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let place = kept("other-semantics");
+    for (format, out) in [("games", &b"games\xff"[..]), ("archive", &b"archive\xff"[..])] {
+        for json in [&["--json"][..], &[]] {
+            let out = folder.path().join(std::ffi::OsStr::from_bytes(out));
+            let mut export = arcade(folder.path());
+            export.args(json).args(["export", &place, "--format", format, "--out"]).arg(&out);
+            let output = export.output().unwrap();
+            assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+            assert!(text(&output.stdout).contains('\u{fffd}'), "{}", text(&output.stdout));
+            fs::remove_dir_all(&out).or_else(|_| fs::remove_file(&out)).unwrap();
+        }
+    }
+}

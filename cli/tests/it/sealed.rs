@@ -1,0 +1,297 @@
+//! Sealed releases: what is public gives nothing away, and what is revealed is what was committed to.
+
+use crate::arcade::{copy_tree, files, run, text};
+use engine::Digest;
+use snapshots::Secret;
+use std::fs;
+use std::path::Path;
+
+/// One new game, one level.
+fn recipe(commitment: &str) -> String {
+    format!(
+        "name = 'sealed'\ndescription = 'x'\ncommitment = '{commitment}'\n[generated]\ngames = 1\nlevels = 1\n\
+         candidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\ndepths = [10, 25]\nrandom_plays = 20\n"
+    )
+}
+
+/// Commits and mints into `out`; the secret as JSON.
+fn minted(folder: &Path) -> serde_json::Value {
+    fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
+    let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    fs::write(folder.join("sealed.toml"), recipe(answer["commitment"].as_str().unwrap())).unwrap();
+    run(folder, &["release", "sealed.toml", "--secret", "sealed.secret.json", "--out", "out"], 0);
+    serde_json::from_slice(&fs::read(folder.join("sealed.secret.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn a_sealed_release_is_verified_revealed_and_minted_again() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let secret = minted(folder);
+    let again = run(folder, &["release", "sealed.toml", "--commit"], 2);
+    assert!(text(&again.stderr).contains("never overwritten"), "{}", text(&again.stderr));
+    // Nor may anything be changed that was committed to.
+    let committed = fs::read_to_string(folder.join("sealed.toml")).unwrap();
+    fs::write(folder.join("changed.toml"), committed.replace("candidates = 2.0", "candidates = 3.0"))
+        .unwrap();
+    let changed =
+        run(folder, &["release", "changed.toml", "--secret", "sealed.secret.json", "--out", "x"], 2);
+    let said = text(&changed.stderr);
+    assert!(said.contains("the recipe is not the one that was committed to"), "{said}");
+    assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
+    let without = run(folder, &["release", "sealed.toml", "--out", "x"], 2);
+    assert!(text(&without.stderr).contains("--secret FILE"), "{}", text(&without.stderr));
+
+    // Nothing public tells the seed, the nonce, or how a level is won.
+    let held = files(&folder.join("out/held"));
+    let mut secrets: Vec<String> =
+        ["seed", "nonce"].map(|key| secret[key].as_str().unwrap().to_owned()).into();
+    for (_, content) in held.iter().filter(|(name, _)| *name != "secret.json") {
+        let witness: serde_json::Value = serde_json::from_slice(content).unwrap();
+        secrets.push(witness["episode"]["seed"].to_string().trim_matches('"').to_owned());
+        secrets.push(witness["episode"]["actions"].to_string().trim_matches('"').to_owned());
+    }
+    assert!(secrets.len() >= 4 && secrets.iter().all(|secret| secret.len() > 8), "{secrets:?}");
+    for (name, content) in files(&folder.join("out/public")) {
+        let content = text(&content);
+        assert!(!name.contains("witness"), "{name}");
+        assert!(!secrets.iter().any(|secret| content.contains(secret.as_str())), "{name}");
+        assert!(!content.contains("\"actions\":"), "{name}");
+    }
+
+    let output = run(folder, &["verify", "out/public"], 0);
+    assert!(text(&output.stdout).contains("held back"), "{}", text(&output.stdout));
+    let output = run(folder, &["regenerate", "out/public"], 2);
+    assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
+    // The mistakes that are easily made are named.
+    for (arguments, words) in [
+        (vec!["release", "--reveal", "out/held", "--out", "x"], "needs the public folder"),
+        (vec!["release", "out", "--reveal", "out/held", "--out", "x"], "did you mean out/public?"),
+        (vec!["release", "out/public", "--reveal", "out", "--out", "x"], "did you mean out/held?"),
+        (vec!["release", "out/public", "--reveal", "out/public", "--out", "x"], "is not the held part"),
+        (vec!["release", "out/public", "--reveal", "out/held"], "--reveal needs --out"),
+    ] {
+        let said = text(&run(folder, &arguments, 2).stderr);
+        assert!(said.contains(words), "{said}");
+    }
+    fs::write(folder.join("out/public/papers/doi.txt"), "10.5281/zenodo.0").unwrap();
+    let output = run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "revealed"], 0);
+    assert!(text(&output.stdout).contains("arcade regenerate revealed"), "{}", text(&output.stdout));
+    // The datasheet alone is another: it says that nothing is held back any more.
+    let papers = |part: &str| {
+        let mut papers = files(&folder.join(part).join("papers"));
+        assert!(papers.remove("DATASHEET.md").is_some());
+        papers
+    };
+    assert_eq!(papers("revealed"), papers("out/public"));
+    let archived = run(folder, &["export", "out/public", "--format", "archive", "--out", "x.tar.zst"], 2);
+    assert!(text(&archived.stderr).contains("pack it when it is revealed"), "{}", text(&archived.stderr));
+    let solved = ["export", "out/public", "--format", "jsonl", "--solutions", "--out", "none"];
+    let said = text(&run(folder, &solved, 2).stderr);
+    assert!(said.contains("its solutions are held back") && !folder.join("none").exists(), "{said}");
+    run(folder, &["export", "revealed", "--format", "jsonl", "--solutions", "--out", "rows"], 0);
+    let rows = files(&folder.join("rows"));
+    let (_, rows) = rows.iter().find(|(name, _)| name.ends_with(".jsonl")).unwrap();
+    assert!(!text(rows).contains("\"solution\":[]"), "solutions are exported");
+    #[cfg(unix)]
+    for place in ["out/held/secret.json", "revealed/held/secret.json"] {
+        use std::os::unix::fs::PermissionsExt;
+        assert_eq!(fs::metadata(folder.join(place)).unwrap().permissions().mode() & 0o077, 0, "{place}");
+    }
+    let output = run(folder, &["verify", "revealed"], 0);
+    assert!(text(&output.stdout).contains("replayed to a win"), "{}", text(&output.stdout));
+    run(folder, &["regenerate", "revealed"], 0);
+    let root = |snapshot: &str| {
+        let output = run(folder, &["--json", "verify", snapshot], 0);
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()["root"].clone()
+    };
+    assert_eq!(root("out/public"), root("revealed"));
+
+    // Any other seed, nonce or item is refused, by name.
+    let tampered = |file: &str, change: &dyn Fn(String) -> String| {
+        let _ = fs::remove_dir_all(folder.join("copy"));
+        copy_tree(&folder.join("out"), &folder.join("copy"));
+        let path = folder.join("copy").join(file);
+        fs::write(&path, change(fs::read_to_string(&path).unwrap())).unwrap();
+        let output = run(folder, &["release", "copy/public", "--reveal", "copy/held", "--out", "x"], 1);
+        assert!(!folder.join("x").exists());
+        text(&output.stdout)
+    };
+    for key in ["seed", "nonce"] {
+        let value = secret[key].as_str().unwrap().to_owned();
+        let other = value.chars().rev().collect::<String>();
+        let said = tampered("held/secret.json", &|text| text.replace(&value, &other));
+        assert!(said.contains("held/secret.json"), "{said}");
+    }
+    let level =
+        files(&folder.join("out/public")).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();
+    let said = tampered(&format!("public/{level}"), &|text| text.replacen('w', ".", 1));
+    assert!(said.contains(&level), "{said}");
+    let witness = held.keys().find(|name| name.ends_with("lvl0.json")).unwrap();
+    let said = tampered(&format!("held/{witness}"), &|text| text.replacen('1', "2", 1));
+    assert!(said.contains(witness.as_str()), "{said}");
+    fs::remove_dir_all(folder.join("copy")).unwrap();
+    copy_tree(&folder.join("out"), &folder.join("copy"));
+    fs::remove_file(folder.join("copy/held").join(witness)).unwrap();
+    let output = run(folder, &["release", "copy/public", "--reveal", "copy/held", "--out", "x"], 1);
+    assert!(text(&output.stdout).contains("missing"), "{}", text(&output.stdout));
+}
+
+/// A seed that somebody thought up can be guessed.
+#[test]
+fn a_secret_that_was_made_up_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
+    let drawn = Secret {
+        name: "sealed".to_owned(),
+        seed: Digest::of(b"seed").to_string(),
+        nonce: Digest::of(b"nonce"),
+        recipe: Some(Digest::of(b"recipe")),
+    };
+    let other = |change: &dyn Fn(&mut Secret)| {
+        let mut secret = drawn.clone();
+        change(&mut secret);
+        secret
+    };
+    for made_up in [
+        other(&|secret| secret.seed = "hunter2".to_owned()),
+        other(&|secret| secret.seed = "5".repeat(64)),
+        other(&|secret| secret.nonce = secret.seed.parse().unwrap()),
+    ] {
+        fs::write(folder.join("my secret.json"), serde_json::to_vec(&made_up).unwrap()).unwrap();
+        // As `arcade` before this one took it.
+        fs::write(folder.join("sealed.toml"), recipe(&made_up.commitment().to_string())).unwrap();
+        for verb in
+            [vec!["release", "sealed.toml", "--out", "x"], vec!["release", "sealed.toml", "--dry-run"]]
+        {
+            let said = text(&run(folder, &[&verb[..], &["--secret", "my secret.json"]].concat(), 2).stderr);
+            assert!(
+                said.contains("my secret.json") && said.contains("arcade release RECIPE --commit"),
+                "{said}"
+            );
+        }
+    }
+}
+
+/// The command that `--commit` proposes works, also where names have blanks; what it cannot work for is refused at once.
+#[test]
+fn what_commit_proposes_works() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let said = text(&run(folder, &["release", "sealed", "--commit"], 2).stderr);
+    assert!(said.contains("no recipe named `sealed`"), "{said}");
+    fs::create_dir(folder.join("my recipes")).unwrap();
+    let path = folder.join("my recipes/sealed.toml");
+    fs::write(&path, recipe(&"0".repeat(64))).unwrap();
+    let said = text(&run(folder, &["release", "sealed", "--commit"], 2).stderr);
+    assert!(!said.contains("to read your file"), "{said}");
+    let said = text(&run(folder, &["release", "my recipes/sealed", "--commit"], 2).stderr);
+    assert!(said.contains("name it: 'my recipes/sealed.toml'"), "{said}");
+
+    let output =
+        run(folder, &["release", "my recipes/sealed.toml", "--commit", "--out", "my secret.json"], 0);
+    let said = text(&output.stdout);
+    let line = |words: &str| said.lines().find_map(|line| line.trim().strip_prefix(words)).unwrap().trim();
+    let commitment = line("commitment =").trim_matches('"').to_owned();
+    fs::write(&path, recipe(&commitment)).unwrap();
+    let command = shlex::split(line("mint it with:")).unwrap();
+    let arguments: Vec<&str> = command.iter().skip(1).map(String::as_str).collect();
+    let output = run(folder, &[&arguments[..], &["--dry-run"]].concat(), 0);
+    assert!(text(&output.stdout).contains("would mint 1 new game of"), "{}", text(&output.stdout));
+    assert!(!text(&output.stdout).contains("corpus games"), "{}", text(&output.stdout));
+
+    // What the binary carries cannot be changed.
+    let said = text(&run(folder, &["release", "tiny", "--commit"], 0).stdout);
+    assert!(said.contains("arcade recipes show tiny > tiny.toml"), "{said}");
+    assert!(said.contains("arcade release tiny.toml --secret tiny.secret.json"), "{said}");
+}
+
+/// A shard holds winning episodes, as the part does that is held back.
+#[cfg(unix)]
+#[test]
+fn shards_of_a_sealed_release_are_their_owners() {
+    use std::os::unix::fs::PermissionsExt;
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
+    let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    fs::write(folder.join("sealed.toml"), recipe(answer["commitment"].as_str().unwrap())).unwrap();
+    let secret = ["--secret", "sealed.secret.json"];
+    for (shard, out) in [("1/2", "one"), ("2/2", "two")] {
+        let mint = [&["release", "sealed.toml", "--shard", shard, "--out", out][..], &secret].concat();
+        let said = text(&run(folder, &mint, 0).stdout);
+        assert!(said.contains("arcade merge SHARD... --out DIR --secret FILE"), "{said}");
+        let said = text(&run(folder, &[&mint[..], &["--resume"]].concat(), 0).stdout);
+        assert!(said.contains("already complete"), "{said}");
+        let shard = folder.join(out);
+        let lots = files(&shard).into_keys().map(|name| shard.join(name));
+        let places: Vec<_> = lots.chain([shard.clone(), shard.join("lots")]).collect();
+        assert_eq!(places.len(), 4, "{places:?}");
+        for place in places {
+            let mode = fs::metadata(&place).unwrap().permissions().mode();
+            assert_eq!(mode & 0o077, 0, "{}: {mode:o}", place.display());
+        }
+    }
+    run(folder, &[&["merge", "one", "two", "--out", "out"][..], &secret].concat(), 0);
+    run(folder, &["verify", "out/public"], 0);
+    let resumed = ["release", "sealed.toml", "--out", "out", "--resume"];
+    let said = text(&run(folder, &[&resumed[..], &secret].concat(), 0).stdout);
+    assert!(said.contains("already complete"), "{said}");
+    // Where a folder may not be entered, or is a loop, nobody knows what is held.
+    std::os::unix::fs::symlink("loop", folder.join("loop")).unwrap();
+    run(folder, &["release", "out/public", "--reveal", "loop", "--out", "x"], 3);
+    run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "whole"], 0);
+    let datasheet = |part: &str| fs::read_to_string(folder.join(part).join("papers/DATASHEET.md")).unwrap();
+    assert!(datasheet("out/public").contains("held back until it is revealed"));
+    let revealed = datasheet("whole");
+    assert!(revealed.contains("sealed, and revealed") && !revealed.contains("held back"), "{revealed}");
+    // A commitment that was lost is in the secret.
+    fs::write(folder.join("lost.toml"), recipe("x").replace("commitment = 'x'\n", "")).unwrap();
+    let lost = text(&run(folder, &[&["release", "lost.toml"][..], &secret].concat(), 2).stderr);
+    assert!(lost.contains(answer["commitment"].as_str().unwrap()), "{lost}");
+}
+
+/// Else seed and witnesses would be published in the belief that they are held back.
+#[test]
+fn a_secret_for_an_open_release_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    run(folder, &["release", "tiny", "--commit"], 0);
+    let output = run(folder, &["release", "tiny", "--secret", "tiny.secret.json", "--out", "x"], 2);
+    assert!(text(&output.stderr).contains("the release is open"), "{}", text(&output.stderr));
+    assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
+}
+
+/// Hours of work are not to be lost to a wrong name on the command line.
+#[test]
+fn another_recipe_does_not_go_on_with_the_lots_of_one() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let one = recipe("x").replacen("commitment", "seed", 1);
+    fs::write(folder.join("one.toml"), format!("{one}[taxonomy.goals]\ndeliver = [1.0, 1.0]\n")).unwrap();
+    run(folder, &["release", "one.toml", "--out", "out"], 2);
+    let before = files(&folder.join("out.partial/lots"));
+    assert!(before.len() > 2, "{:?}", before.keys());
+    let output = run(folder, &["release", "tiny", "--resume", "--out", "out"], 2);
+    assert!(text(&output.stderr).contains("another recipe"), "{}", text(&output.stderr));
+    assert_eq!(files(&folder.join("out.partial/lots")), before);
+    fs::write(folder.join("one.toml"), one).unwrap();
+    run(folder, &["release", "one.toml", "--out", "out", "--resume"], 0);
+}
+
+#[test]
+fn another_secret_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
+    run(folder, &["release", "sealed.toml", "--commit"], 0);
+    let output = run(folder, &["release", "sealed.toml", "--secret", "sealed.secret.json", "--out", "x"], 2);
+    assert!(
+        text(&output.stderr).contains("not the one that the recipe's `commitment`"),
+        "{}",
+        text(&output.stderr)
+    );
+}

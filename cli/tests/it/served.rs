@@ -1,0 +1,221 @@
+//! `arcade serve-player`, and agents of other people under `arcade evaluate`, as users run them.
+
+use crate::arcade::{arcade, run, text};
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+#[test]
+fn a_served_player_tells_where_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut server = arcade(folder.path())
+        .args(["serve-player", "--player", "random", "-q"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    BufReader::new(server.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    let told: Value = serde_json::from_str(&line).unwrap();
+    let port = told["port"].as_u64().unwrap();
+    let mut reply = String::new();
+    let mut stream = TcpStream::connect(("127.0.0.1", u16::try_from(port).unwrap())).unwrap();
+    stream.write_all(b"GET /v1/models HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n").unwrap();
+    stream.read_to_string(&mut reply).unwrap();
+    let taken = run(folder.path(), &["serve-player", "--player", "reflex", "--port", &port.to_string()], 3);
+    server.kill().unwrap();
+    server.wait().unwrap();
+    assert_eq!(
+        (&told["model"], &told["base_url"]),
+        (&"random".into(), &format!("http://127.0.0.1:{port}/v1").into())
+    );
+    assert!(reply.starts_with("HTTP/1.1 200") && reply.contains("\"id\":\"random\""), "{reply}");
+    assert!(text(&taken.stderr).contains(&format!("127.0.0.1:{port}")), "{}", text(&taken.stderr));
+    let unknown = run(folder.path(), &["serve-player", "--player", "refex"], 2);
+    assert!(text(&unknown.stderr).contains("did you mean `reflex`?"), "{}", text(&unknown.stderr));
+}
+
+/// The lines of the only log in a results folder.
+fn log(results: &Path) -> Vec<Value> {
+    let mut logs = fs::read_dir(results.join("episodes")).unwrap();
+    let path = logs.next().unwrap().unwrap().path();
+    fs::read_to_string(path).unwrap().lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn evaluate<'a>(player: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let fixed = [
+        "evaluate",
+        "quiet-jars",
+        "--levels",
+        "0",
+        "--max-steps",
+        "6",
+        "--out",
+        "results",
+        "--player",
+        player,
+    ];
+    fixed.into_iter().chain(more.iter().copied()).collect()
+}
+
+#[test]
+fn an_agent_of_somebody_else_plays_and_is_taken_up_again() {
+    let folder = tempfile::tempdir().unwrap();
+    // It leaves after three answers, but not the second time: past turns count.
+    fs::write(
+        folder.path().join("agent.sh"),
+        "n=0; while read line; do case $line in *'\"past\":true'*) n=9;; *'\"type\":\"turn\"'*) n=$((n+1)); \
+         [ $n = 4 ] && { echo tired >&2; exit 7; }; echo '{\"action\":\"left\"}';; esac; done\n",
+    )
+    .unwrap();
+    let player = "cmd:sh agent.sh";
+    let failed = run(folder.path(), &evaluate(player, &[]), 3);
+    let message = text(&failed.stderr);
+    assert!(message.contains("has left at step 3 (exit status: 7); its last words: tired"), "{message}");
+    run(folder.path(), &evaluate(player, &["--resume"]), 0);
+    let log = log(&folder.path().join("results"));
+    let steps = log.iter().filter(|event| event["event"] == "step");
+    let actions: Vec<&Value> = steps.map(|event| &event["action"]).collect();
+    assert_eq!(actions, vec!["left"; 6]);
+    let malformed = run(folder.path(), &evaluate("cmd:sh 'agent.sh", &["--resume"]), 2);
+    assert!(text(&malformed.stderr).contains("is no command line"), "{}", text(&malformed.stderr));
+}
+
+/// Answers three times, then waits for a file `go`; with children of its own, one of which leaves the group and the session, and deaf to
+/// what asks it to end.
+#[cfg(target_os = "linux")]
+const STUBBORN: &str = "trap '' TERM HUP INT QUIT\nsetsid sleep 600 & echo $! > $1/setsid\nsleep 600 & echo $! > $1/child\n\
+     pwd > $1/folder\nn=0\nwhile read line; do case $line in *'\"past\":true'*) n=$((n+1));; *'\"type\":\"turn\"'*) n=$((n+1))\n\
+     [ $n -gt 3 ] && [ ! -e $1/go ] && { echo $$ > $1/shell; sleep 600; }\necho '{\"action\":\"left\"}';; esac; done\nexec sleep 600\n";
+
+/// Returns whether a signal does what it usually does: whoever starts the tests in the background may have it ignored.
+#[cfg(target_os = "linux")]
+fn is_heeded(signal: u32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).unwrap();
+    u64::from_str_radix(mask.trim(), 16).unwrap() & (1 << (signal - 1)) == 0
+}
+
+/// Looks until something is so, for some twenty seconds.
+#[cfg(target_os = "linux")]
+#[track_caller]
+fn wait_until(what: &str, is_so: impl Fn() -> bool) {
+    for _ in 0..1000 {
+        if is_so() {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    panic!("{what}: never");
+}
+
+/// Returns whether a process is gone, but for its entry in the table of processes.
+#[cfg(target_os = "linux")]
+fn is_gone(pid: &str) -> bool {
+    fs::read_to_string(format!("/proc/{pid}/stat")).map_or(true, |stat| stat.contains(") Z "))
+}
+
+/// However `arcade` ends: the player, all that it has started, and its folder are gone, and `--resume` goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn players_end_with_arcade() {
+    for (name, signal) in [("INT", 2), ("TERM", 15), ("HUP", 1), ("QUIT", 3), ("KILL", 9)] {
+        if !is_heeded(signal) {
+            continue;
+        }
+        let home = tempfile::tempdir().unwrap();
+        fs::write(home.path().join("agent.sh"), STUBBORN).unwrap();
+        let player = format!("cmd:sh agent.sh {}", home.path().display());
+        let command = || {
+            let mut command = arcade(home.path());
+            command.args(evaluate(&player, &[])).stdout(Stdio::null()).stderr(Stdio::piped());
+            command
+        };
+        let child = command().spawn().unwrap();
+        let said =
+            |name: &str| fs::read_to_string(home.path().join(name)).unwrap_or_default().trim().to_owned();
+        wait_until("the player waits", || !said("shell").is_empty());
+        let [folder, shell, setsid, own] = ["folder", "shell", "setsid", "child"].map(said);
+        assert!(Path::new(&folder).exists() && ![&shell, &setsid, &own].into_iter().any(|pid| is_gone(pid)));
+        Command::new("kill").args(["-s", name, &child.id().to_string()]).status().unwrap();
+        let output = child.wait_with_output().unwrap();
+        let told = text(&output.stderr);
+        if name == "KILL" {
+            assert_eq!(output.status.code(), None);
+        } else {
+            assert_eq!(output.status.code(), Some(128 + i32::try_from(signal).unwrap()), "{name}: {told}");
+            assert!(told.contains("interrupted") && told.contains("--resume"), "{name}: {told}");
+        }
+        for pid in [&shell, &setsid, &own] {
+            wait_until(&format!("{name}: process {pid} is gone"), || is_gone(pid));
+        }
+        wait_until(&format!("{name}: the folder is gone"), || !Path::new(&folder).exists());
+        fs::write(home.path().join("go"), "").unwrap();
+        let resumed = command().arg("--resume").output().unwrap();
+        assert_eq!(resumed.status.code(), Some(0), "{name}: {}", text(&resumed.stderr));
+        let log = log(&home.path().join("results"));
+        let events: Vec<&str> = log.iter().map(|event| event["event"].as_str().unwrap()).collect();
+        assert_eq!(events, ["start", "step", "step", "step", "step", "step", "step", "end"], "{name}");
+    }
+}
+
+/// At the end of an episode nothing of its player is left either, whatever group it is in.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_leaves_the_group_ends_with_the_episode() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("agent.sh"), STUBBORN).unwrap();
+    fs::write(home.path().join("go"), "").unwrap();
+    run(home.path(), &evaluate(&format!("cmd:sh agent.sh {}", home.path().display()), &[]), 0);
+    let said = |name: &str| fs::read_to_string(home.path().join(name)).unwrap().trim().to_owned();
+    // The guard has gone before, and it goes last.
+    assert!(is_gone(&said("setsid")) && is_gone(&said("child")));
+    assert!(!Path::new(&said("folder")).exists());
+}
+
+/// A program that is not there is a malformed question, and leaves nothing in the way.
+#[cfg(unix)]
+#[test]
+fn a_misspelt_program_is_told_before_anything_is_written() {
+    use std::os::unix::fs::PermissionsExt;
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("agent.sh"), "exit 1\n").unwrap();
+    for (player, words) in [
+        ("cmd:./agnet.sh", "there is no file `./agnet.sh`; did you mean `./agent.sh`?"),
+        ("cmd:sh agnet.sh", "there is no file `agnet.sh`; did you mean `agent.sh`?"),
+        ("cmd:agent.sh", "write `./agent.sh` for the file that is here"),
+        ("cmd:no-such-program-anywhere", "there is no program `no-such-program-anywhere` in PATH"),
+    ] {
+        for more in [&[][..], &["--resume"], &["--dry-run"]] {
+            let told = text(&run(home.path(), &evaluate(player, more), 2).stderr);
+            assert!(told.contains(words), "{told}");
+        }
+        assert!(!home.path().join("results").exists());
+    }
+    // What only the system can tell is told as before.
+    fs::write(home.path().join("broken"), "\u{1}").unwrap();
+    fs::set_permissions(home.path().join("broken"), fs::Permissions::from_mode(0o755)).unwrap();
+    let told = text(&run(home.path(), &evaluate("cmd:./broken", &[]), 3).stderr);
+    assert!(told.contains("`./broken` cannot be started: ") && !told.contains("player-guard"), "{told}");
+}
+
+#[test]
+#[allow(clippy::print_stdout, reason = "a skipped test says so")]
+fn the_example_in_the_page_plays() {
+    if Command::new("python3").arg("--version").output().is_err() {
+        println!("SKIPPED: no python3");
+        return;
+    }
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/agents.md")).unwrap();
+    let (_, example) = page.split_once("```python\n").unwrap();
+    let (example, _) = example.split_once("```").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("my_agent.py"), example).unwrap();
+    run(folder.path(), &evaluate("cmd:python3 my_agent.py", &[]), 0);
+    let log = log(&folder.path().join("results"));
+    let steps: Vec<&Value> = log.iter().filter(|event| event["event"] == "step").collect();
+    assert_eq!(steps.len(), 6);
+    assert!(steps.iter().all(|step| step["validity"] == "valid"));
+}

@@ -1,0 +1,172 @@
+//! A release made in slices, interrupted and resumed: the same bytes.
+
+use crate::arcade::{arcade, files, run, text};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// Three lots, each within a second or two.
+const RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'slices'\n[generated]\ngames = 1\nlevels = 1\n\
+    candidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\n\
+    depths = [10, 25]\nrandom_plays = 20\n";
+
+fn recipe(folder: &Path) {
+    fs::write(folder.join("slices.toml"), RECIPE).unwrap();
+}
+
+#[test]
+fn shards_in_any_order_give_the_bytes_of_one_process() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    recipe(folder);
+    let output = run(folder, &["release", "slices.toml", "--out", "the whole"], 0);
+    // What is proposed can be pasted.
+    assert!(text(&output.stdout).contains("arcade verify 'the whole'"), "{}", text(&output.stdout));
+    fs::rename(folder.join("the whole"), folder.join("whole")).unwrap();
+    for shard in ["3/3", "1/3", "2/3"] {
+        run(
+            folder,
+            &["release", "slices.toml", "--shard", shard, "--out", &format!("shard{}", &shard[..1])],
+            0,
+        );
+    }
+    run(folder, &["merge", "shard2", "shard3", "shard1", "--out", "merged"], 0);
+    assert_eq!(files(&folder.join("whole")), files(&folder.join("merged")));
+    run(folder, &["regenerate", "merged"], 0);
+
+    let said = |arguments: &[&str]| text(&run(folder, arguments, 2).stderr);
+    assert!(said(&["merge", "shard1", "shard3", "--out", "x"]).contains("shards are missing: 2/3"));
+    assert!(
+        said(&["merge", "shard1", "shard2", "shard3", "shard1", "--out", "x"])
+            .contains("they are the same shard")
+    );
+    assert!(said(&["merge", "whole", "--out", "x"]).contains("not a shard"));
+    assert!(said(&["release", "slices.toml", "--shard", "4/3", "--out", "x"]).contains("K from 1 to N"));
+    assert!(said(&["release", "slices.toml", "--shard", "1/3"]).contains("--shard needs --out"));
+    fs::write(folder.join("other.toml"), RECIPE.replace("'slices'", "'others'")).unwrap();
+    run(folder, &["release", "other.toml", "--shard", "2/3", "--out", "other2"], 0);
+    assert!(said(&["merge", "shard1", "other2", "shard3", "--out", "x"]).contains("different recipes"));
+
+    let (lot, content) =
+        files(&folder.join("shard1")).into_iter().find(|(name, _)| name.starts_with("lots/")).unwrap();
+    let mut altered = content.clone();
+    altered[content.len() / 2] ^= 1;
+    fs::write(folder.join("shard1").join(&lot), altered).unwrap();
+    let said = said(&["merge", "shard1", "shard2", "shard3", "--out", "x"]);
+    assert!(said.contains(&lot) && said.contains("changed after it was made"), "{said}");
+    assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
+
+    // `arcade clean` lists shards and removes them on request, but not one that somebody has put something into.
+    fs::write(folder.join("shard2/notes.txt"), "mine").unwrap();
+    let clean = |flags: &[&str]| {
+        let output = arcade(folder).env("TMPDIR", folder).arg("clean").args(flags).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    assert!(clean(&[]).contains("kept ./shard1: shard 1/3 of `slices`"));
+    assert!(clean(&["--shards"]).contains("3 of 3 removed"));
+    let is_there = |name: &str| folder.join(name).exists();
+    assert!(!is_there("shard1") && !is_there("shard3") && !is_there("other2"));
+    assert!(is_there("shard2/SHARD.json") && is_there("whole") && is_there("merged"));
+}
+
+/// Interrupts a mint into the folder `out`, kills it again and again, and goes on with it; what is made is not thrown away unless that is
+/// asked for.
+#[cfg(unix)]
+fn kill_and_resume(folder: &Path, mint: &[&str]) {
+    let start = |resume: &[&str]| {
+        let mut command = arcade(folder);
+        command.args(mint).args(["--out", "out", "--jobs", "1"]).args(resume);
+        command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let is_lot = |entry: &fs::DirEntry| entry.path().extension().is_some_and(|end| end == "json");
+    let lots = || {
+        let there = fs::read_dir(folder.join("out.partial/lots"));
+        there.map_or(0, |there| there.flatten().filter(is_lot).count())
+    };
+    let mut child = start(&[]);
+    // Until a lot is there, however long that takes.
+    while lots() == 0 && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains(&format!("interrupted; go on with: arcade {}", mint.join(" "))), "{said}");
+    assert!(said.contains("--resume"), "{said}");
+    assert!(lots() > 0 && !folder.join("out").exists());
+    let said = text(&run(folder, &[mint, &["--out", "out"]].concat(), 2).stderr);
+    assert!(said.contains("go on with --resume"), "{said}");
+    if mint[0] == "release" {
+        let plan = |resume: &[&str]| {
+            let output = run(folder, &[mint, &["--out", "out", "--dry-run", "--json"], resume].concat(), 0);
+            serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+        };
+        let (whole, left) = (plan(&[]), plan(&["--resume"]));
+        let minutes = |plan: &serde_json::Value| plan["core_minutes"].as_f64().unwrap();
+        assert!(minutes(&left) < minutes(&whole), "{left} {whole}");
+        assert_eq!(left["lots_made"], lots());
+        let said = text(&run(folder, &[mint, &["--out", "out", "--dry-run", "--resume"]].concat(), 0).stdout);
+        assert!(said.contains(&format!("of which {} are made", lots())), "{said}");
+    }
+    for milliseconds in [1, 30, 300] {
+        let mut child = start(&["--resume"]);
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    if !folder.join("out").exists() {
+        let output = run(folder, &[mint, &["--out", "out", "--resume"]].concat(), 0);
+        assert!(text(&output.stderr).contains("lots were made before"), "{}", text(&output.stderr));
+    }
+    assert!(!folder.join("out.partial").exists());
+}
+
+/// A mint that was interrupted gives the bytes of one that was left alone, and so does one that mints a release again.
+#[cfg(unix)]
+#[test]
+fn a_killed_mint_goes_on() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    recipe(folder);
+    run(folder, &["release", "slices.toml", "--out", "alone"], 0);
+    for mint in [["release", "slices.toml"], ["regenerate", "alone"]] {
+        kill_and_resume(folder, &mint);
+        assert_eq!(files(&folder.join("out")), files(&folder.join("alone")));
+        fs::remove_dir_all(folder.join("out")).unwrap();
+    }
+}
+
+/// A disk without room ends a mint with the command that goes on with it.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_says_how_to_go_on() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    recipe(folder);
+    // Files of at most a kilobyte or so: no lot has room.
+    let script = "trap '' XFSZ; ulimit -f 2; exec \"$0\" release slices.toml --out 'my release'";
+    let binary = env!("CARGO_BIN_EXE_arcade");
+    let output = Command::new("sh").args(["-c", script, binary]).current_dir(folder).output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("go on with: arcade release slices.toml --out 'my release' --resume"), "{said}");
+}
+
+/// What is made is kept when only the choice is asked for otherwise.
+#[test]
+fn more_candidates_go_on_from_those_that_were_made() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    // More games than there are candidates for: a kind that no game of one pattern set can fill twice over.
+    let greedy = format!("{RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
+    fs::write(folder.join("slices.toml"), greedy).unwrap();
+    let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);
+    assert!(said.contains("avatar watches 0 (asked 2 to 2)"), "{said}");
+    recipe(folder);
+    let output = run(folder, &["release", "slices.toml", "--out", "out", "--resume"], 0);
+    assert!(text(&output.stderr).contains("4 of 4 lots were made before"), "{}", text(&output.stderr));
+    run(folder, &["verify", "out"], 0);
+}

@@ -1,0 +1,140 @@
+//! Loading a file with faults as the reference does (`spec/01` §1, §10): what is dropped, ignored, counted.
+
+use engine::{Action, Game, Level, Outcome, Seed, State};
+
+const GAME: &str = "\
+BasicGame
+    SpriteSet
+        wall > Immovable
+        gold > Immovable
+        avatar > MovingAvatar
+    LevelMapping
+        g > gold
+    InteractionSet
+        avatar wall > stepBack
+        gold avatar > killSprite scoreChange=1
+    TerminationSet
+        SpriteCounter stype=gold win=True
+        Timeout limit=5 win=False
+";
+
+fn load(source: &str, level: &str) -> (Game, Level, State) {
+    let game = Game::from_source_as_reference(source).unwrap_or_else(|problems| panic!("{problems}"));
+    let level = game.level(level).unwrap_or_else(|problems| panic!("{problems}"));
+    let state = game.start(&level, Seed::from_text("any"));
+    (game, level, state)
+}
+
+/// Loads a faulty game, which strictly is an error, walks right into the gold, and returns score, outcome and messages.
+#[track_caller]
+fn play(source: &str) -> (f64, Outcome, u32) {
+    assert!(Game::from_source(source).is_err(), "strict loading must refuse this");
+    let (game, _, mut state) = load(source, "Ag \n");
+    let messages = state.messages();
+    game.step(&mut state, Action::Right);
+    (state.score(), state.outcome(), messages)
+}
+
+#[test]
+fn a_game_without_faults_is_the_same_game() {
+    let (game, _, mut state) = load(GAME, "Ag \n");
+    assert_eq!(game.digest(), Game::from_source(GAME).unwrap().digest());
+    assert_eq!(game.step(&mut state, Action::Right), Outcome::Won);
+}
+
+#[test]
+fn an_unknown_effect_ends_the_reading() {
+    // Before the gold's rule: no score, no termination.
+    let early = GAME.replace("avatar wall > stepBack", "avatar wall > stepBackwards");
+    assert_eq!(play(&early), (0.0, Outcome::Ongoing, 1));
+    // After it: the rule counts, the terminations are missing.
+    let late = GAME.replace("scoreChange=1\n", "scoreChange=1\n        avatar gold > vanish\n");
+    assert_eq!(play(&late), (1.0, Outcome::Ongoing, 1));
+}
+
+#[test]
+fn an_unknown_sprite_ends_the_reading_after_its_left_neighbours() {
+    let partner = GAME.replace("gold avatar > kill", "gold avatar ghost > kill");
+    assert_eq!(play(&partner), (1.0, Outcome::Ongoing, 1));
+    let counted = GAME.replace("SpriteCounter stype=gold", "SpriteCounter stype=silver");
+    assert_eq!(play(&counted), (1.0, Outcome::Ongoing, 1));
+}
+
+#[test]
+fn an_unknown_parameter_is_a_message_and_a_wrong_type_is_none() {
+    assert_eq!(play(&GAME.replace("scoreChange=1", "scoreChange=1 bonus=3")), (1.0, Outcome::Won, 1));
+    assert_eq!(play(&GAME.replace("gold > Immovable", "gold > Immovable shine=3")), (1.0, Outcome::Won, 1));
+    assert_eq!(
+        play(&GAME.replace("gold > Immovable", "gold > Immovable cooldown=2.0")),
+        (1.0, Outcome::Won, 0)
+    );
+}
+
+#[test]
+fn of_two_declarations_the_last_one_counts() {
+    let twice =
+        GAME.replace("gold > Immovable\n", "gold > Immovable\n        gold > Missile orientation=RIGHT\n");
+    let (game, _, mut state) = load(&twice, "Ag  \n");
+    game.step(&mut state, Action::Nil);
+    game.step(&mut state, Action::Nil);
+    let gold = game.sprite_type("gold").unwrap();
+    let place = game.records(&state).into_iter().find(|record| record.stype == gold.0).unwrap().rect.x;
+    assert_eq!(place / state.block(), 2);
+}
+
+#[test]
+fn a_line_indented_deeper_is_ignored() {
+    assert_eq!(
+        play(&GAME.replace("        gold avatar", "          gold avatar")),
+        (0.0, Outcome::Ongoing, 0)
+    );
+}
+
+#[test]
+fn undefined_characters_are_messages_and_too_many_end_the_game() {
+    let (game, _, mut state) = load(GAME, "A??g\n");
+    assert_eq!(state.messages(), 2);
+    assert_eq!(game.step(&mut state, Action::Nil), Outcome::Ongoing);
+    let (game, _, mut state) = load(GAME, &format!("A{}g\n", "?".repeat(26)));
+    assert_eq!(game.step(&mut state, Action::Nil), Outcome::Ended);
+}
+
+#[test]
+fn surplus_avatars_are_removed_with_a_message() {
+    let (game, _, mut state) = load(GAME, "A gA\n");
+    assert_eq!((state.messages(), state.avatar_id()), (1, Some(0)));
+    assert_eq!(game.records(&state).len(), 2);
+    game.step(&mut state, Action::Right);
+    assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
+}
+
+#[test]
+fn what_the_reference_dies_of_stops_the_episode() {
+    let classless = GAME.replace("gold > Immovable", "gold >");
+    let (_, _, state) = load(&classless, "Ag \n");
+    assert!(matches!(state.outcome(), Outcome::Stopped(_)));
+    assert!(Game::from_source_as_reference("Game\n").is_err());
+    assert!(Game::from_source_as_reference("").is_err());
+}
+
+/// `start` belongs to the inside of a spawner (`spec/02` §8): no policy of loading lets a game set it.
+#[test]
+fn the_start_of_a_spawner_is_no_parameter() {
+    let plain = GAME.replace(
+        "    LevelMapping",
+        "        hive > SpawnPoint stype=gold cooldown=3\n    LevelMapping\n        h > hive",
+    );
+    for class in ["SpawnPoint stype=gold", "Bomber stype=gold", "SpawnPointMultiSprite stypes=gold"] {
+        let plain = plain.replace("SpawnPoint stype=gold", class);
+        let started = plain.replace("cooldown=3", "cooldown=3 start=1");
+        let problems = Game::from_source(&started).map(drop).unwrap_err().0;
+        assert_eq!(problems.iter().map(|problem| problem.code).collect::<Vec<_>>(), ["unknown-parameter"]);
+        let (game, _, mut state) = load(&started, "Ah \n");
+        let (same, _, mut expected) = load(&plain, "Ah \n");
+        assert_eq!((state.messages(), expected.messages()), (1, 0));
+        for _ in 0..4 {
+            assert_eq!(game.step(&mut state, Action::Nil), same.step(&mut expected, Action::Nil));
+            assert_eq!(game.records(&state), same.records(&expected));
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The engine against the test vectors of the specification, and under hostile input.
+
+mod any_parameters;
+mod as_reference;
+mod board;
+mod effect_vectors;
+mod loop_vectors;
+mod motion_vectors;
+mod search_key;
+mod sprite_vectors;
+mod time_and_edges;
+mod vector;
+mod vectors;

@@ -1,0 +1,201 @@
+//! Boards, legends and pictures that models are shown.
+
+use crate::walk::{Walk, corpus, game, public_games};
+use engine::{Action, Observation};
+use evaluation::legend::{AVATAR, Legend, LegendOptions, Standing};
+use evaluation::prompt::{PromptSettings, Prompter};
+use evaluation::{Subject, SubjectFacts, encoding};
+use std::collections::BTreeMap;
+
+/// Names by symbol, for the reader of a board; none for an empty cell.
+fn by_symbol(legend: &Legend) -> BTreeMap<char, &str> {
+    let told = legend.entries().iter().filter(|entry| entry.standing != Standing::Floor);
+    told.map(|entry| (entry.symbol, entry.name.as_str())).collect()
+}
+
+#[test]
+fn legends_have_a_character_for_each_thing() {
+    for subject in corpus() {
+        for (tracking, shuffled) in [(false, None), (true, None), (false, Some(3)), (true, Some(4))] {
+            let options = LegendOptions { tracking, shuffled };
+            let legend = Legend::new(&subject.analysis, &options);
+            let told = legend.entries().iter().filter(|entry| entry.standing != Standing::Floor);
+            let (avatars, things): (Vec<_>, Vec<_>) =
+                told.partition(|entry| entry.standing == Standing::Avatar);
+            let expected = things.len() + if tracking { avatars.len() } else { 1 };
+            assert_eq!(by_symbol(&legend).len(), expected, "{}: {:?}", subject.id, legend.lines());
+            assert!(things.iter().all(|entry| entry.symbol.is_ascii_graphic() && entry.symbol != '.'));
+        }
+    }
+}
+
+/// What a reader makes of the grid and the lines on piles: the names in each cell, from the lowest to the uppermost.
+fn read_back(seen: &Observation, legend: &Legend) -> Vec<Vec<String>> {
+    let names = by_symbol(legend);
+    let grid = encoding::grid(seen, legend);
+    assert_eq!(grid.lines().count(), seen.rows);
+    let cell = |symbol: char| if symbol == '.' { Vec::new() } else { vec![names[&symbol].to_owned()] };
+    let mut cells: Vec<Vec<String>> = grid.lines().flat_map(str::chars).map(cell).collect();
+    for line in encoding::stacks(seen, legend) {
+        let (pile, places) = line.split_once(": ").unwrap();
+        for place in places.split(' ') {
+            let (x, y) = place.trim_matches(['(', ')']).split_once(',').unwrap();
+            let (x, y): (usize, usize) = (x.parse().unwrap(), y.parse().unwrap());
+            cells[y * seen.columns + x] = pile.rsplit(" over ").map(str::to_owned).collect();
+        }
+    }
+    cells
+}
+
+/// All that is no floor is told, and the avatar where it is.
+fn tells_everything(subject: &Subject, legend: &Legend, seen: &Observation) {
+    let id = &subject.id;
+    let own = |name: &str| seen.avatar.as_ref().is_some_and(|avatar| avatar.name == name);
+    for (cell, (read, all)) in read_back(seen, legend).iter().zip(&seen.cells).enumerate() {
+        let place = ((cell % seen.columns) as i32, (cell / seen.columns) as i32);
+        let is_here = seen.avatar.as_ref().is_some_and(|avatar| (avatar.column, avatar.row) == place);
+        let entry =
+            |name: &String| legend.entry(name).unwrap_or_else(|| panic!("{id}: {name} is not in the legend"));
+        // What is in the observation and drawn nowhere (`invisible=`) is shown to nobody.
+        let game = &subject.game;
+        let seen =
+            |name: &str| !game.sprite_type(name).is_some_and(|stype| subject.analysis.facts(stype).hidden);
+        let others =
+            all.iter().filter(|name| !own(name) && seen(name) && entry(name).standing != Standing::Floor);
+        let others: Vec<&str> = others.map(String::as_str).collect();
+        // All states of the avatar are one to the reader of a board.
+        let (below, top) = if is_here { read.split_at(read.len() - 1) } else { (&read[..], &[][..]) };
+        assert!(
+            top.iter().all(|name| entry(name).standing == Standing::Avatar),
+            "{id}: {read:?} at {place:?}"
+        );
+        let dead = |name: &String| entry(name).standing == Standing::Avatar && below.len() == 1;
+        assert!(below == others || below.iter().any(dead), "{id}: {below:?} for {others:?} at {place:?}");
+    }
+}
+
+#[test]
+fn boards_read_back_tell_everything() {
+    for subject in corpus() {
+        let legend = Legend::new(&subject.analysis, &LegendOptions::default());
+        for level in 0..subject.levels.len() {
+            let mut walk = Walk::new(&subject, level);
+            for _ in 0..40 {
+                tells_everything(&subject, &legend, &walk.now);
+                if !walk.step() {
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// Games that nobody wrote with prompts in mind: the same holds, and every prompt can be written.
+#[test]
+fn public_games_are_told() {
+    for subject in public_games() {
+        let settings =
+            [PromptSettings::default(), PromptSettings { masked_names: true, ..PromptSettings::default() }];
+        let [plain, masked] = settings.map(|settings| {
+            Prompter::new(&subject, settings).unwrap_or_else(|e| panic!("{}: {e}", subject.id))
+        });
+        let mut walk = Walk::new(&subject, 0);
+        for turn in 0..60 {
+            tells_everything(&subject, plain.legend(), &walk.now);
+            if turn % 20 == 0 {
+                for prompter in [&plain, &masked] {
+                    let prompt = prompter.prompt(&walk.turn(), &[], &[]);
+                    assert!(!prompt.shown.contains("\n\n\n"), "{}", subject.id);
+                    assert!(walk.turn().actions.iter().all(|action| prompter.actions().contains(action)));
+                }
+            }
+            if !walk.step() {
+                break;
+            }
+        }
+    }
+}
+
+/// A player who becomes another one by taking a key, and then can shoot.
+const KNIGHT: &str = "BasicGame
+  SpriteSet
+    moss > Immovable
+    keys > Immovable
+    spark > Missile
+    knight >
+      squire > MovingAvatar
+      rider > ShootAvatar stype=spark
+    imp > Immovable
+  LevelMapping
+    . > moss
+    k > moss keys
+    i > moss imp
+    A > moss squire
+  InteractionSet
+    squire keys > transformTo stype=rider killSecond=True
+    knight imp > stepBack
+    imp spark > killSprite
+    spark EOS > killSprite
+  TerminationSet
+    SpriteCounter stype=imp win=True
+";
+
+fn knight() -> Subject {
+    let levels = [(0, "k.A.i\n".to_owned(), None)];
+    Subject::read("knight", KNIGHT, &levels, SubjectFacts::default()).unwrap()
+}
+
+#[test]
+fn states_of_the_avatar_share_a_character_or_have_their_own() {
+    let subject = knight();
+    let lines = |options| Legend::new(&subject.analysis, &options).lines();
+    let united = lines(LegendOptions::default());
+    assert_eq!(united, [". nothing or moss", "@ you: squire or rider", "k keys", "s spark", "i imp"]);
+    let apart = lines(LegendOptions { tracking: true, shuffled: None });
+    assert_eq!(apart, [". nothing or moss", "A squire", "r rider", "k keys", "s spark", "i imp"]);
+    let shuffled = lines(LegendOptions { tracking: false, shuffled: Some(1) });
+    assert_eq!(shuffled, lines(LegendOptions { tracking: false, shuffled: Some(1) }));
+    assert_ne!(shuffled, lines(LegendOptions { tracking: false, shuffled: Some(2) }));
+    assert!(
+        shuffled[1].ends_with("you: squire or rider") && !shuffled[1].starts_with(AVATAR),
+        "{shuffled:?}"
+    );
+}
+
+#[test]
+fn what_can_be_chosen_now_is_told_where_it_changes() {
+    let subject = knight();
+    let prompter =
+        Prompter::new(&subject, PromptSettings { feedback: Some(true), ..PromptSettings::default() })
+            .unwrap();
+    assert_eq!(prompter.actions().last(), Some(&Action::Use));
+    let mut walk = Walk::new(&subject, 0);
+    assert_eq!(
+        prompter.prompt(&walk.turn(), &[], &[]).shown,
+        "## Turn\nTick 0 of at most 1000. Score 0.\nYou are the squire at (2,0).\nActions now: nil, up, left, down, \
+         right\n\n## Board\nk.@.i\n\n## Around you\nup: edge of the board\nleft: 1 free, then keys\ndown: edge of the \
+         board\nright: 1 free, then imp\nkeys: (0,0)\nimp: (4,0)"
+    );
+    walk.play(Action::Left);
+    walk.play(Action::Left);
+    let shown = prompter.prompt(&walk.turn(), &[], &[]).shown;
+    let start = "## Turn\nTick 2 of at most 1000. Score 0.\nYou are the rider at (0,0), facing right.\n\n## Last action\nleft \
+                 was played. You moved here from (1,0). ";
+    assert!(shown.starts_with(start) && shown.contains("You became the rider."), "{shown}");
+    assert!(shown.contains("## Board\n@...i\n"), "{shown}");
+}
+
+#[test]
+fn pictures_show_what_is_seen() {
+    let subject = game("first-ice");
+    let legend = Legend::new(&subject.analysis, &LegendOptions::default());
+    let mut walk = Walk::new(&subject, 1);
+    let first = encoding::picture(&walk.now, &legend, 16).unwrap();
+    assert_eq!(first, encoding::picture(&walk.now, &legend, 16).unwrap());
+    assert!(first.png.starts_with(b"\x89PNG") && first.width as usize >= walk.now.columns * 16);
+    for _ in 0..5 {
+        walk.step();
+    }
+    assert_ne!(first, encoding::picture(&walk.now, &legend, 16).unwrap());
+    assert!(encoding::picture(&walk.now, &legend, 2).is_err());
+}

@@ -1,0 +1,225 @@
+//! Evaluations of built-in players: what is written, and that an interruption leaves no trace.
+
+use crate::games::corridor;
+use agents::Budget;
+use engine::{Action, Episode, SEMANTICS};
+use evaluation::log::{Status, read, without_times};
+use evaluation::player::{Contestant, Replay};
+use evaluation::run::{FORMAT, Left, Progress, Tally, Task};
+use evaluation::{Entrant, Evaluation, EvaluationError, Event, Halt, Settings, Subject};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+struct Silent;
+
+impl Progress for Silent {
+    fn episode(&self, _: &Task<'_>, _: &Left) {}
+}
+
+fn settings(subjects: &[Subject]) -> Settings {
+    Settings {
+        format: FORMAT,
+        semantics: SEMANTICS,
+        suite: "test".into(),
+        snapshot: None,
+        entrant: Entrant {
+            name: "mcts:60".into(),
+            mode: None,
+            aids: Vec::new(),
+            details: serde_json::Value::Null,
+        },
+        seed: "test".into(),
+        runs: 2,
+        max_steps: 25,
+        games: Evaluation::entries(subjects),
+    }
+}
+
+fn planner(name: &str) -> Contestant {
+    Contestant::Planner { spec: name.parse().unwrap(), budget: Budget(60) }
+}
+
+fn evaluate(folder: &Path) -> Tally {
+    let subjects = vec![corridor()];
+    let evaluation = Evaluation::create(folder, settings(&subjects), subjects).unwrap();
+    evaluation.run(|_| Ok(planner("mcts")), &Silent).unwrap()
+}
+
+fn logs(folder: &Path) -> Vec<(PathBuf, Vec<Event>)> {
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(folder.join("episodes")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let timeless = |path: PathBuf| {
+        let events = read(&path).unwrap().iter().map(without_times).collect();
+        (PathBuf::from(path.file_name().unwrap()), events)
+    };
+    paths.into_iter().map(timeless).collect()
+}
+
+#[test]
+fn a_results_folder_holds_all_that_a_replay_needs() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("results");
+    let tally = evaluate(&folder);
+    assert_eq!((tally.episodes, tally.ended, tally.open), (4, 4, 0));
+    let evaluation = Evaluation::open(&folder).unwrap();
+    for task in evaluation.tasks() {
+        let events = evaluation.events(&task).unwrap();
+        let Some(Event::Start { seed, game_digest, level_digest, .. }) = events.first() else { panic!() };
+        let Some(Event::End { outcome, score, steps, status }) = events.last() else { panic!() };
+        let (mut actions, mut hashes) = (Vec::new(), Vec::new());
+        for event in &events {
+            if let Event::Step { action, hash, .. } = event {
+                actions.push(*action);
+                hashes.push(*hash);
+            }
+        }
+        assert_eq!(*steps, actions.len() as u64);
+        let (outcome, score) = (*outcome, *score);
+        let (game, level, seed) = (*game_digest, *level_digest, *seed);
+        let episode = Episode { game, level, seed, actions, hashes, outcome, score };
+        let state = episode.replay(&task.subject.game, &task.level.level).unwrap();
+        assert_eq!(*status == Status::Over, state.is_over());
+    }
+}
+
+/// Seeds are those of game, level and run: players meet the same chance.
+#[test]
+fn players_are_paired() {
+    let subjects = [corridor()];
+    let home = tempfile::tempdir().unwrap();
+    let starts = |name: &str| {
+        let folder = home.path().join(name);
+        let evaluation = Evaluation::create(&folder, settings(&subjects), subjects.to_vec()).unwrap();
+        evaluation.run(|_| Ok(planner(name)), &Silent).unwrap();
+        logs(&folder).into_iter().map(|(_, events)| events[0].clone()).collect::<Vec<_>>()
+    };
+    let (random, idle) = (starts("random"), starts("do-nothing"));
+    assert_eq!(random, idle);
+    assert_ne!(random[0], random[1]);
+}
+
+/// Whatever was written when the program was killed: the resumed evaluation has the same logs.
+#[test]
+fn interrupted_evaluations_are_taken_up_again() {
+    let home = tempfile::tempdir().unwrap();
+    let whole = home.path().join("whole");
+    evaluate(&whole);
+    let undisturbed = logs(&whole);
+    let subjects = vec![corridor()];
+    for (part, cut) in [0, 1, 5, 9].into_iter().enumerate() {
+        let folder = home.path().join(format!("cut{part}"));
+        Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
+        // One log whole, one cut within a line, the rest not begun.
+        for (at, (name, _)) in undisturbed.iter().take(2).enumerate() {
+            let bytes = fs::read(whole.join("episodes").join(name)).unwrap();
+            let kept = if at == 0 { bytes.len() } else { bytes.len() * cut / 10 };
+            fs::write(folder.join("episodes").join(name), &bytes[..kept]).unwrap();
+        }
+        let evaluation = Evaluation::resume(&folder, &settings(&subjects)).unwrap();
+        let tally = evaluation.run(|_| Ok(planner("mcts")), &Silent).unwrap();
+        assert_eq!(tally.ended, 4);
+        assert_eq!(logs(&folder), undisturbed);
+    }
+}
+
+#[test]
+fn an_agents_episode_is_taken_up_where_it_ends() {
+    let home = tempfile::tempdir().unwrap();
+    let subjects = vec![corridor()];
+    let actions = vec![Action::Right; 3];
+    let agent = || {
+        let level = &subjects[0].levels[1];
+        let (mut episode, _) =
+            Episode::begin(&subjects[0].game, &level.level, engine::Seed::from_text("any"));
+        episode.actions.clone_from(&actions);
+        Contestant::Agent(Box::new(Replay::of(&episode)))
+    };
+    let whole = home.path().join("whole");
+    let evaluation = Evaluation::create(&whole, settings(&subjects), subjects.clone()).unwrap();
+    assert_eq!(evaluation.run(|_| Ok(agent()), &Silent).unwrap().won, 2);
+    let undisturbed = logs(&whole);
+    let bytes = fs::read(whole.join("episodes").join(&undisturbed[2].0)).unwrap();
+    for cut in (0..bytes.len()).step_by(97) {
+        let folder = home.path().join(format!("cut{cut}"));
+        Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
+        fs::write(folder.join("episodes").join(&undisturbed[2].0), &bytes[..cut]).unwrap();
+        let evaluation = Evaluation::resume(&folder, &settings(&subjects)).unwrap();
+        evaluation.run(|_| Ok(agent()), &Silent).unwrap();
+        assert_eq!(logs(&folder), undisturbed, "cut at byte {cut}");
+    }
+}
+
+/// An episode that network or server breaks off stays open, and is gone on with later.
+#[test]
+fn environment_failures_are_not_the_players_fault() {
+    let home = tempfile::tempdir().unwrap();
+    let subjects = vec![corridor()];
+    let folder = home.path().join("results");
+    let evaluation = Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
+    let down = |task: &Task<'_>| match task.level.number {
+        0 => Err(Halt::Infrastructure("the server is down".into())),
+        _ => Ok(planner("random")),
+    };
+    let tally = evaluation.run(down, &Silent).unwrap();
+    assert_eq!((tally.ended, tally.open, tally.infrastructure), (2, 2, true));
+    assert_eq!(tally.halted.as_deref(), Some("the server is down"));
+    drop(evaluation);
+    let evaluation = Evaluation::resume(&folder, &settings(&subjects)).unwrap();
+    assert_eq!(evaluation.run(|_| Ok(planner("random")), &Silent).unwrap().ended, 4);
+}
+
+fn refusal(result: Result<Evaluation, EvaluationError>) -> String {
+    result.expect_err("refused").to_string()
+}
+
+#[test]
+fn results_folders_are_guarded() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("results");
+    let subjects = vec![corridor()];
+    let evaluation = Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
+    let again = Evaluation::create(&folder, settings(&subjects), subjects.clone());
+    assert!(refusal(again).contains("--resume goes on"));
+    let busy = Evaluation::resume(&folder, &settings(&subjects));
+    assert!(refusal(busy).contains("another `arcade evaluate` is writing"));
+    drop(evaluation);
+    let other = Settings { runs: 7, ..settings(&subjects) };
+    assert!(refusal(Evaluation::resume(&folder, &other)).contains("another --runs"));
+    assert!(refusal(Evaluation::open(home.path())).contains("no results of an evaluation here"));
+
+    fs::write(folder.join("games/corridor/lvl1.txt"), "wwww\nwAew\nwwww\n").unwrap();
+    assert!(refusal(Evaluation::open(&folder)).contains("lvl1.txt is not the one that was played"));
+    let settings_file = folder.join("evaluation.json");
+    let text = fs::read_to_string(&settings_file).unwrap();
+    fs::write(&settings_file, text.replace("\"corridor\"", "\"../corridor\"")).unwrap();
+    assert!(refusal(Evaluation::open(&folder)).contains("no name of a game"));
+    fs::write(&settings_file, "{}").unwrap();
+    assert!(refusal(Evaluation::open(&folder)).contains("not the settings of an evaluation"));
+}
+
+/// A log whose steps lead elsewhere is not gone on with.
+#[test]
+fn damaged_logs_are_told() {
+    let home = tempfile::tempdir().unwrap();
+    let subjects = vec![corridor()];
+    let evaluation =
+        Evaluation::create(home.path().join("r").as_path(), settings(&subjects), subjects).unwrap();
+    let tasks = evaluation.tasks();
+    let path = home.path().join("r/episodes").join(tasks[0].file_name());
+    let agent = |_: &Task<'_>| {
+        let (subject, level) = (&tasks[0].subject, &tasks[0].level.level);
+        let (episode, _) = Episode::begin(&subject.game, level, engine::Seed::from_text("any"));
+        Ok(Contestant::Agent(Box::new(Replay::of(&episode))))
+    };
+    evaluation.run(agent, &Silent).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    let damaged: Vec<&str> = text.lines().take(4).collect();
+    fs::write(&path, damaged.join("\n").replace("\"action\":\"nil\"", "\"action\":\"right\"") + "\n")
+        .unwrap();
+    let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
+    assert!(error.contains("step 0 leads elsewhere than recorded"), "{error}");
+    fs::write(&path, "no log\n").unwrap();
+    let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
+    assert!(error.contains(": line 1 is not an event of an episode"), "{error}");
+}

@@ -1,0 +1,4 @@
+//! Searches and measures of the generators.
+
+mod evolution;
+mod measures;

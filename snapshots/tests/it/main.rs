@@ -1,0 +1,4 @@
+//! Releases: in hostile hands, as twins.
+
+mod trust;
+mod twins;

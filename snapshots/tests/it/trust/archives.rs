@@ -1,0 +1,441 @@
+//! Archives: the same release gives the same bytes, and no other bytes are taken for it.
+
+use super::small::{Small, home, small};
+use snapshots::archive::{Archive, pack};
+use snapshots::{Draft, MANIFEST_FILE, SnapshotError, check_integrity, verify};
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use tar::{Builder, EntryType, Header};
+
+/// A release as entries of an archive, to be altered before they are packed by hand.
+struct Entries {
+    name: String,
+    list: Vec<(Header, Vec<u8>)>,
+}
+
+fn header(path: &str, size: u64) -> Header {
+    let mut header = Header::new_ustar();
+    header.set_path(path).expect("short");
+    header.set_size(size);
+    header.set_mode(0o644);
+    header.set_uid(0);
+    header.set_gid(0);
+    header.set_mtime(0);
+    header.set_entry_type(EntryType::Regular);
+    header.set_cksum();
+    header
+}
+
+impl Entries {
+    fn of(release: &Small) -> Entries {
+        let name = release.manifest.name.clone();
+        let mut list = Vec::new();
+        let manifest = (MANIFEST_FILE.to_owned(), release.manifest.to_bytes().expect("sound"));
+        let mut files = release.files.clone();
+        files.sort();
+        for (path, content) in [manifest].into_iter().chain(files) {
+            list.push((header(&format!("{name}/{path}"), content.len() as u64), content));
+        }
+        Entries { name, list }
+    }
+
+    fn add(&mut self, place: usize, path: &str, content: &[u8]) {
+        let path = format!("{}/{path}", self.name);
+        self.list.insert(place, (header(&path, content.len() as u64), content.to_vec()));
+    }
+
+    fn tar(&self) -> Vec<u8> {
+        let mut builder = Builder::new(Vec::new());
+        for (header, content) in &self.list {
+            let mut header = header.clone();
+            header.set_cksum();
+            builder.append(&header, content.as_slice()).expect("in memory");
+        }
+        builder.into_inner().expect("in memory")
+    }
+}
+
+/// Compressed and sealed as an archive is.
+pub(crate) fn compress(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = zstd::Encoder::new(Vec::new(), 3).expect("in memory");
+    encoder.window_log(23).expect("legal");
+    encoder.include_checksum(true).expect("legal");
+    encoder.include_contentsize(true).expect("legal");
+    encoder.set_pledged_src_size(Some(bytes.len() as u64)).expect("legal");
+    encoder.write_all(bytes).expect("in memory");
+    seal(&encoder.finish().expect("in memory"))
+}
+
+/// With the frame at its end that tells of accidents.
+fn seal(compressed: &[u8]) -> Vec<u8> {
+    let digest = engine::Digest::of(compressed);
+    [compressed, &[0x50, 0x2a, 0x4d, 0x18, 32, 0, 0, 0], digest.as_bytes()].concat()
+}
+
+#[test]
+fn packed_and_unpacked_a_release_is_the_same() {
+    let home = home();
+    let release = small("mole", None);
+    let folder = release.write_in(&home);
+    let file = home.path().join("mole.tar.zst");
+    let packed = pack(&folder, &file).expect("packed");
+    assert_eq!(packed.root, release.manifest.root);
+    assert_eq!(packed.size, fs::metadata(&file).expect("there").len());
+    let archive = Archive::open(&file).expect("sound");
+    assert!(archive.integrity.is_sound());
+    assert_eq!((archive.digest, archive.unpacked), (packed.digest, packed.unpacked));
+    archive.unpack(&home.path().join("again")).expect("unpacked");
+    let again = check_integrity(&home.path().join("again")).expect("readable");
+    assert!(again.is_sound() && again.manifest == release.manifest);
+    let verification = verify(&file).expect("readable");
+    assert!(verification.problems.is_empty(), "{:?}", verification.problems);
+    assert_eq!(verification.witnesses, snapshots::Witnesses::Replayed(1));
+
+    // Times and modes of the folder do not matter; a second archive has the same bytes.
+    let other = home.path().join("other");
+    release.write(&other);
+    let second = pack(&other, &home.path().join("second.tar.zst")).expect("packed");
+    assert_eq!(second, packed);
+    assert_eq!(fs::read(&file).expect("there"), fs::read(home.path().join("second.tar.zst")).expect("there"));
+    // What is between the lines of zstd is the tar that the page of the format describes.
+    let mut tar = Vec::new();
+    zstd::stream::copy_decode(fs::File::open(&file).expect("there"), &mut tar).expect("zstd");
+    assert_eq!(tar, Entries::of(&release).tar());
+    assert_eq!(engine::Digest::of(&tar), packed.digest);
+}
+
+/// The digest of the archive of a fixed release: it moves only with the format.
+#[test]
+fn packing_is_fixed() {
+    let home = home();
+    let folder = super::old::unpacked("format-1", &home);
+    let packed = pack(&folder, &home.path().join("a.tar.zst")).expect("packed");
+    assert_eq!(packed.digest.to_string(), super::old::FORMAT_1_ARCHIVE);
+}
+
+#[test]
+fn packing_is_careful() {
+    let home = home();
+    let release = small("mole", None);
+    let folder = release.write_in(&home);
+    let file = home.path().join("mole.tar.zst");
+    fs::write(&file, "mine").expect("written");
+    assert!(matches!(pack(&folder, &file), Err(SnapshotError::Taken { .. })));
+    assert_eq!(fs::read(&file).expect("there"), b"mine");
+    fs::remove_file(&file).expect("removed");
+    // What a killed run left is replaced, and nothing else: not what is empty, nor what begins as an archive does.
+    let partial = home.path().join("mole.tar.zst.partial");
+    for mine in [&b"mine"[..], b"", &[&b"\x28\xb5\x2f\xfd"[..], &[7; 100_000]].concat()] {
+        fs::write(&partial, mine).expect("written");
+        assert!(matches!(pack(&folder, &file), Err(SnapshotError::Foreign { .. })));
+        assert_eq!(fs::read(&partial).expect("there"), mine);
+    }
+    fs::remove_file(&partial).expect("removed");
+    drop(Draft::create(&file).expect("vacant"));
+    pack(&folder, &file).expect("packed");
+    assert!(Archive::open(&file).expect("sound").integrity.is_sound());
+    assert!(!partial.exists());
+    fs::write(folder.join("README.md"), "other").expect("written");
+    let error = pack(&folder, &home.path().join("b.tar.zst")).expect_err("altered").to_string();
+    assert!(error.contains("README.md: wrong size"), "{error}");
+    assert!(!home.path().join("b.tar.zst").exists());
+}
+
+/// A way to spoil a list of entries.
+type Change<'a> = &'a dyn Fn(&mut Entries);
+
+#[track_caller]
+fn check(change: Change, names: &str, what: &str) {
+    let home = home();
+    let mut entries = Entries::of(&small("mole", None));
+    change(&mut entries);
+    check_bytes(&home.path().join("mole.tar.zst"), &compress(&entries.tar()), names, what);
+}
+
+#[track_caller]
+fn check_bytes(file: &Path, bytes: &[u8], names: &str, what: &str) {
+    fs::write(file, bytes).expect("written");
+    let said = match verify(file) {
+        Ok(verification) => verification.problems.join("\n"),
+        Err(error) => error.to_string(),
+    };
+    assert!(said.contains(names) && said.contains(what), "expected `{names}` and `{what}`: {said}");
+}
+
+#[test]
+fn entries_that_no_release_has() {
+    let level = "games/mole-";
+    // The entries: manifest, the release's card, README, card, game, level, witness.
+    check(&|e| drop(e.list.remove(5)), "witness/lvl0.json", "out of order");
+    check(&|e| drop(e.list.remove(6)), level, "witness/lvl0.json: missing");
+    check(&|e| e.list.truncate(1), "CARD.json", "missing");
+    check(&|e| e.list.clear(), "MANIFEST.json", "");
+    check(&|e| e.list.swap(0, 1), "MANIFEST.json", "it has to come first, and `mole/CARD.json` does");
+    check(&|e| e.list.swap(3, 4), "game.vgdl", "out of order");
+    check(&|e| e.add(3, "README.md", b"other"), "README.md", "a second time");
+    check(&|e| e.add(7, "README.md", b"other"), "README.md", "a second time");
+    check(&|e| e.add(7, MANIFEST_FILE, b"other"), MANIFEST_FILE, "a second time");
+    check(&|e| e.add(7, "games/x", b"other"), "games/x", "extra");
+    check(&|e| e.add(1, "A", b"other"), "A", "extra");
+    check(&|e| e.list[2].1.push(b'x'), "README.md", "");
+    check(&|e| e.list[2].1[3] ^= 1, "README.md", "altered");
+    check(
+        &|e| {
+            let (header, content) = &mut e.list[2];
+            content.push(b'x');
+            header.set_size(content.len() as u64);
+        },
+        "README.md",
+        "wrong size",
+    );
+}
+
+#[test]
+fn headers_that_no_release_has() {
+    check(&|e| e.list[2].0.set_mode(0o755), "README.md", "another owner, mode");
+    check(&|e| e.list[2].0.set_uid(1000), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_gid(1000), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_mtime(1), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_username("me").expect("short"), "README.md", "another owner");
+    check(&|e| e.list[2].0.set_device_major(1).expect("ustar"), "README.md", "another owner");
+    check(&|e| e.list[0].0.set_mode(0o600), "MANIFEST.json", "another owner");
+    let kind = |kind: EntryType| move |e: &mut Entries| e.list[2].0.set_entry_type(kind);
+    check(&kind(EntryType::Symlink), "README.md", "symbolic link");
+    check(&kind(EntryType::Link), "README.md", "hard link");
+    check(&kind(EntryType::Char), "README.md", "neither a file nor a folder");
+    check(&kind(EntryType::Block), "README.md", "neither a file nor a folder");
+    check(&kind(EntryType::Fifo), "README.md", "neither a file nor a folder");
+    check(&kind(EntryType::Directory), "README.md", "a folder");
+    check(&kind(EntryType::GNUSparse), "README.md", "sparse");
+    check(&kind(EntryType::Continuous), "README.md", "contiguous");
+    check(&kind(EntryType::XHeader), "README.md", "pax");
+    check(&kind(EntryType::XGlobalHeader), "README.md", "pax");
+    check(&kind(EntryType::GNULongName), "README.md", "long names");
+    check(&kind(EntryType::new(b'Z')), "README.md", "unknown kind 0x5a");
+    check(
+        &|e| {
+            e.list[2].0.set_entry_type(EntryType::Symlink);
+            e.list[2].0.set_link_name("../../etc/passwd").expect("short");
+        },
+        "README.md",
+        "symbolic link",
+    );
+    let kind = |kind: EntryType| move |e: &mut Entries| e.list[0].0.set_entry_type(kind);
+    check(&kind(EntryType::Symlink), "MANIFEST.json", "symbolic link");
+    check(&kind(EntryType::XGlobalHeader), "MANIFEST.json", "pax");
+}
+
+/// Names are written into the header as they are: the `tar` crate would refuse some of them.
+#[test]
+fn names_that_lead_elsewhere() {
+    let name = |path: &'static str| {
+        move |e: &mut Entries| {
+            let field = &mut e.list[2].0.as_ustar_mut().expect("ustar").name;
+            *field = [0; 100];
+            field[..path.len()].copy_from_slice(path.as_bytes());
+        }
+    };
+    check(&name("mole/../../etc/passwd"), "../../etc/passwd", "unsafe name");
+    check(&name("/etc/passwd"), "/etc/passwd", "absolute");
+    check(&name("mole/a\u{1b}b"), "a\\u{1b}b", "unsafe name");
+    check(&name("other/README.md"), "other/README.md", "not in the folder `mole`");
+    check(&name("mole//README.md"), "/README.md", "absolute");
+    check(&name("./mole/README.md"), "README.md", "unsafe name");
+    check(&name("README.md"), "README.md", "not in the folder");
+    let top = |path: &'static str| {
+        move |e: &mut Entries| {
+            let field = &mut e.list[0].0.as_ustar_mut().expect("ustar").name;
+            *field = [0; 100];
+            field[..path.len()].copy_from_slice(path.as_bytes());
+        }
+    };
+    check(&top("../MANIFEST.json"), "MANIFEST.json", "has to come first");
+    check(&top("/MANIFEST.json"), "MANIFEST.json", "has to come first");
+    check(&top("MANIFEST.json"), "MANIFEST.json", "has to come first");
+    check(&top("a/b/MANIFEST.json"), "MANIFEST.json", "has to come first");
+    check(&top("vole/MANIFEST.json"), "MANIFEST.json", "its folder is `vole`, its release `mole`");
+}
+
+#[test]
+fn ends() {
+    let home = home();
+    let file = home.path().join("mole.tar.zst");
+    let tar = Entries::of(&small("mole", None)).tar();
+    let sound = compress(&tar);
+    check_bytes(&file, &sound, "", "");
+    assert!(verify(&file).expect("readable").problems.is_empty());
+    check_bytes(&file, &[&sound[..], b"x"].concat(), "mole.tar.zst: not as packed", "bytes after its seal");
+    check_bytes(
+        &file,
+        &[&sound[..], &sound[..]].concat(),
+        "mole.tar.zst: not as packed",
+        "bytes after its seal",
+    );
+    let skippable = [0x50, 0x2a, 0x4d, 0x18, 1, 0, 0, 0, 7];
+    check_bytes(
+        &file,
+        &[&sound[..], &skippable[..]].concat(),
+        "mole.tar.zst: not as packed",
+        "bytes after its seal",
+    );
+    let unsealed = &sound[..sound.len() - 40];
+    check_bytes(&file, unsealed, "mole.tar.zst: not as packed", "its seal is missing");
+    check_bytes(
+        &file,
+        &seal(&[unsealed, unsealed].concat()),
+        "mole.tar.zst: not as packed",
+        "its seal is missing or damaged",
+    );
+    check_bytes(
+        &file,
+        &[unsealed, &seal(b"")].concat(),
+        "mole.tar.zst: not as packed",
+        "not those that were sealed",
+    );
+    check_bytes(&file, &[&skippable[..], &sound[..]].concat(), "mole.tar.zst", "does not begin as");
+    check_bytes(
+        &file,
+        &compress(&[&tar[..], &[0; 512]].concat()),
+        "mole.tar.zst: not as packed",
+        "more after its end",
+    );
+    check_bytes(
+        &file,
+        &compress(&tar[..tar.len() - 512]),
+        "mole.tar.zst: not as packed",
+        "cut off before its end",
+    );
+    check_bytes(
+        &file,
+        &compress(&tar[..tar.len() - 1024]),
+        "mole.tar.zst: not as packed",
+        "cut off before its end",
+    );
+    let mut padded = tar.clone();
+    let last = padded.len() - 1025;
+    padded[last] = 1;
+    check_bytes(&file, &compress(&padded), "witness/lvl0.json", "not zero");
+    for length in 0..sound.len() {
+        fs::write(&file, &sound[..length]).expect("written");
+        let passed = verify(&file).is_ok_and(|verification| verification.problems.is_empty());
+        assert!(!passed, "cut to {length} of {} bytes", sound.len());
+    }
+    // Other ways to compress the same bytes are not ours.
+    let plain = zstd::encode_all(&tar[..], 3).expect("in memory");
+    check_bytes(&file, &plain, "mole.tar.zst", "not as packed");
+    // By its name an archive, it is a damaged one; by another name, it is none.
+    fs::write(&file, "BasicGame").expect("written");
+    assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
+    fs::write(&file, "").expect("written");
+    assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
+    let file = home.path().join("mole.vgdl");
+    fs::write(&file, "BasicGame").expect("written");
+    assert!(matches!(verify(&file), Err(SnapshotError::NotASnapshot { .. })));
+}
+
+/// Little that says it is much is refused before it is unpacked.
+#[test]
+fn bombs() {
+    let home = home();
+    let file = home.path().join("mole.tar.zst");
+    let zeros = compress(&vec![0; 64 << 20]);
+    assert!(zeros.len() < 16_384);
+    check_bytes(&file, &zeros, "mole.tar.zst", "it would unpack to 67108864 bytes");
+    // A frame that says less than it holds, and one that says more.
+    let tar = Entries::of(&small("mole", None)).tar();
+    let sound = compress(&tar);
+    let mut lies = sound[..sound.len() - 40].to_vec();
+    assert_eq!(lies[4] >> 6, 1, "two bytes of size");
+    for size in [0_u16, 300, u16::MAX] {
+        lies[5..7].copy_from_slice(&size.to_le_bytes());
+        fs::write(&file, seal(&lies)).expect("written");
+        assert!(!verify(&file).is_ok_and(|verification| verification.problems.is_empty()), "{size}");
+    }
+    // An entry that says it is large.
+    check(&|e| e.list[0].0.set_size(1 << 40), "MANIFEST.json", "larger than 67108864 bytes");
+    check(&|e| e.list[0].0.set_size(1 << 20), "MANIFEST.json", "too short");
+    check(&|e| e.list[2].0.set_size(1 << 40), "README.md", "wrong size (1099511627776 bytes");
+}
+
+/// Half a megabyte that took three gigabytes: a manifest of 99,999 items, each in 124 folders of its own.
+#[test]
+fn manifests_of_deep_paths() {
+    let honest = small("mole", None);
+    let text = String::from_utf8(honest.manifest.to_bytes().expect("sound")).expect("JSON");
+    let (start, end) =
+        (text.find("\"items\": [").expect("items"), text.find("\n  ],\n  \"kind\"").expect("kind"));
+    let digest = engine::Digest::of(b"");
+    let folders = "/a".repeat(124);
+    let item = |n| {
+        format!(
+            "\n    {{\n      \"digest\": \"{digest}\",\n      \"path\": \"g{n:05}{folders}\",\n      \"size\": 0\n    }}"
+        )
+    };
+    let items: Vec<String> = (0..99_999).map(item).collect();
+    let bomb = format!("{}\"items\": [{}{}", &text[..start], items.join(","), &text[end..]).into_bytes();
+    drop(items);
+    let size = bomb.len() as u64;
+    let mut entries = Entries::of(&honest);
+    entries.list = vec![(header("mole/MANIFEST.json", size), bomb)];
+    let home = home();
+    let file = home.path().join("mole.tar.zst");
+    fs::write(&file, compress(&entries.tar())).expect("written");
+    drop(entries);
+    let mut error = None;
+    let memory = allocation_counter::measure(|| error = verify(&file).err());
+    let error = error.expect("too deep").to_string();
+    assert!(error.contains("more than 16 components"), "{error}");
+    // The manifest's bytes while they come, and its items once.
+    assert!(memory.bytes_max < 4 * size, "{memory:?}, for {size} bytes");
+}
+
+/// A recipe may be any JSON. One that nests deeply would be indented to hundreds of times its size, and is not read that
+/// far; here within the ratio that archives may have, 14 MB in some 2 kB.
+#[test]
+fn recipes_that_nest_deeply() {
+    let honest = small("mole", None);
+    let text = String::from_utf8(honest.manifest.to_bytes().expect("sound")).expect("JSON");
+    let nested = format!("{}{}", "[".repeat(120), "]".repeat(120));
+    let bomb = format!("\"deep\": [{}],\n    \"seed\": ", vec![nested; 60_000].join(","));
+    let bomb = text.replacen("\"seed\": ", &bomb, 1).into_bytes();
+    assert!(bomb.len() > 14_000_000);
+    let home = home();
+    let folder = honest.write_in(&home);
+    fs::write(folder.join(MANIFEST_FILE), &bomb).expect("written");
+    let mut entries = Entries::of(&honest);
+    entries.list[0] = (header("mole/MANIFEST.json", bomb.len() as u64), bomb);
+    let file = home.path().join("mole.tar.zst");
+    fs::write(&file, compress(&entries.tar())).expect("written");
+    for place in [folder, file] {
+        let error = verify(&place).expect_err("too deep");
+        assert!(error.to_string().contains(MANIFEST_FILE), "{error}");
+        let source = std::error::Error::source(&error).expect("a place").to_string();
+        assert!(source.contains("the recipe is nested deeper than 16 levels"), "{source}");
+    }
+}
+
+/// What is wide and flat costs as much as it is large, and is read.
+#[test]
+fn recipes_that_are_wide() {
+    let mut wide = small("mole", None);
+    wide.manifest.recipe["zeros"] = vec![0; 1_000_000].into();
+    wide.manifest.seal_root().expect("distinct paths");
+    let home = home();
+    let folder = wide.write_in(&home);
+    assert!(check_integrity(&folder).expect("readable").is_sound());
+    wide.manifest.recipe["zeros"] = vec![0; 2_000_000].into();
+    wide.manifest.seal_root().expect("distinct paths");
+    let error = wide.manifest.to_bytes().expect_err("too wide").to_string();
+    assert!(error.contains("more than 1048576 values in the recipe"), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_not_opened() {
+    let home = home();
+    let socket = home.path().join("mole.tar.zst");
+    let _bound = std::os::unix::net::UnixListener::bind(&socket).expect("bound");
+    assert!(verify(&socket).is_err());
+    assert!(Archive::open(&socket).is_err());
+}

@@ -1,0 +1,485 @@
+//! What a release says of itself, by a forger who states the digests of what is there.
+
+use super::small::{Small, home, json, small, witness, won};
+use engine::Digest;
+use serde_json::json;
+use snapshots::canonical::to_canonical_json;
+use snapshots::export::{Export, Format, export};
+use snapshots::released::Released;
+use snapshots::{
+    Bounds, COVERING, Draft, Kind, SECRET_FILE, Secret, Verification, Witnesses, canary, reveal, verify,
+    verify_within,
+};
+use std::fs;
+
+/// The file at the path that ends so, changed.
+fn change(release: &mut Small, end: &str, change: impl Fn(String) -> String) {
+    let (_, content) = release.files.iter_mut().find(|(path, _)| path.ends_with(end)).expect("there");
+    *content = change(String::from_utf8(content.clone()).expect("a text")).into_bytes();
+}
+
+#[track_caller]
+fn check(alter: impl FnOnce(&mut Small), problems: &[&str]) {
+    let home = home();
+    let mut release = small("2026-12", None);
+    alter(&mut release);
+    release.files.sort();
+    release.seal();
+    let verification = verify(&release.write_in(&home)).expect("readable");
+    assert_eq!(verification.problems.len(), problems.len(), "{:?}", verification.problems);
+    for (problem, words) in verification.problems.iter().zip(problems) {
+        assert!(problem.contains(words), "{problem} lacks {words}");
+    }
+}
+
+#[test]
+fn the_manifest_says_what_its_recipe_says() {
+    check(|_| {}, &[]);
+    check(|release| release.manifest.name = "2027-01".into(), &["its `name` is not that of its recipe"]);
+    check(
+        |release| release.manifest.parent = Some(Digest::of(b"x")),
+        &["its `parent` is not", "`known` names no release, but there is a parent"],
+    );
+    check(
+        |release| release.manifest.recipe = json!("a pie"),
+        &["its `name` is not that of its recipe", "its `canary` is not that of its recipe"],
+    );
+}
+
+#[test]
+fn every_file_carries_the_canary() {
+    for file in ["README.md", "game.vgdl"] {
+        let expect = format!("{file}: without the release's canary");
+        check(
+            |release| {
+                let mark = release.manifest.canary.clone();
+                change(release, file, |text| text.replace(&mark, "-"));
+            },
+            &[&expect],
+        );
+    }
+}
+
+#[test]
+fn cards_tell_of_the_episode_that_wins() {
+    let expect = &["card.json: not the ticks and score of the episode that wins lvl0.txt"][..];
+    check(
+        |release| {
+            change(release, "card.json", |text| text.replace("\"witness_ticks\": 3", "\"witness_ticks\": 4"))
+        },
+        &[expect[0], "CARD.json: its `witness_ticks` is not what the cards"],
+    );
+    check(
+        |release| {
+            change(release, "card.json", |text| text.replace("\"witness_score\": 1", "\"witness_score\": 2"))
+        },
+        expect,
+    );
+}
+
+/// A secret for the release `2026-12`, whose recipe says nothing but its name.
+fn secret(chance: u8) -> Secret {
+    let recipe = Digest::of(&json(&json!({ "name": "2026-12" })));
+    Secret::draw("2026-12", recipe, [chance; 64])
+}
+
+/// The same release sealed: its secret and witness are held back, or there.
+fn seal(release: &mut Small) {
+    seal_with(release, &secret(7), &secret(7));
+}
+
+/// Sealed with one secret, and its witness played under another.
+fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
+    let mark = canary(&secret.commitment());
+    let old = std::mem::replace(&mut release.manifest.canary, mark.clone());
+    release.manifest.kind = Kind::Sealed;
+    release.manifest.commitment = Some(secret.commitment());
+    release.manifest.recipe = json!({ "name": "2026-12", "commitment": secret.commitment() });
+    let episode = won("2026-12", played.root_seed().child("search", 0).child("play", 3));
+    for (path, content) in &mut release.files {
+        *content = String::from_utf8(content.clone()).expect("a text").replace(&old, &mark).into_bytes();
+        if path.contains("/witness/") {
+            *content = json(&witness(&mark, episode.clone(), &[("search", 0), ("play", 3)]));
+        }
+        if let Some((game, level)) = path.clone().split_once("/witness/") {
+            *path = format!("held/{}/{level}", game.trim_start_matches("games/"));
+        }
+    }
+    release.files.push((SECRET_FILE.to_owned(), json(secret)));
+}
+
+/// A secret that has nothing to do with the games, a recipe that was changed after it was committed to, a secret that was made
+/// up: each is told without minting again.
+#[test]
+fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
+    check(
+        |release| seal_with(release, &secret(7), &secret(8)),
+        &["lvl0.json: its chance does not come from the release's secret"],
+    );
+    check(
+        |release| {
+            seal(release);
+            release.manifest.recipe["corpus"] = json!({ "games": 3 });
+        },
+        &["held/secret.json: the manifest's recipe is not the one that was committed to"],
+    );
+    let made_up = Secret { seed: "hunter2".to_owned(), ..secret(7) };
+    check(
+        |release| seal_with(release, &made_up, &made_up),
+        &["held/secret.json: its `seed` is not 64 lower-case hexadecimal digits"],
+    );
+    let pair = Secret { recipe: None, ..secret(7) };
+    check(
+        |release| {
+            seal_with(release, &pair, &pair);
+            release.manifest.generation = COVERING;
+        },
+        &["held/secret.json: it names no recipe"],
+    );
+    // As releases of earlier generations were sealed.
+    check(
+        |release| {
+            seal_with(release, &pair, &secret(8));
+            release.manifest.generation = COVERING - 1;
+            release.manifest.format = 1;
+            release.manifest.version = None;
+        },
+        &[],
+    );
+}
+
+#[test]
+fn a_sealed_release_commits_to_a_witness_of_every_level() {
+    check(seal, &[]);
+    let without = |part: &'static str| {
+        move |release: &mut Small| {
+            seal(release);
+            release.files.retain(|(path, _)| !path.contains(part));
+        }
+    };
+    check(without("held/mole"), &["lvl0.json: not committed to"]);
+    check(without("held/secret"), &["held/secret.json: not committed to"]);
+    check(without("held/"), &["lvl0.json: not committed to", "secret.json: not committed to"]);
+    check(
+        |release| {
+            seal(release);
+            release.files.push(("held/notes.bin".to_owned(), b"x".to_vec()));
+        },
+        &["held/notes.bin: a sealed release has no such file"],
+    );
+    check(
+        |release| {
+            seal(release);
+            release.manifest.recipe = json!({ "name": "2026-12", "commitment": Digest::of(b"x") });
+        },
+        &["its `commitment` is not that of its recipe"],
+    );
+}
+
+/// What is told of a release that is there is told before it is: the two parts are joined only if they belong together.
+#[test]
+fn two_parts_that_do_not_belong_together_are_not_joined() {
+    let joined = |secret: &Secret, played: &Secret, change: &dyn Fn(&mut Small)| {
+        let home = home();
+        let mut release = small("2026-12", None);
+        seal_with(&mut release, secret, played);
+        change(&mut release);
+        release.files.sort();
+        release.seal();
+        let whole = release.write_in(&home);
+        let (held, out) = (home.path().join("held"), home.path().join("out"));
+        fs::rename(whole.join("held"), &held).expect("moved");
+        reveal(&whole, &held, &Draft::create(&out).expect("vacant")).map_err(|error| error.to_string())
+    };
+    assert!(joined(&secret(7), &secret(7), &|_| {}).is_ok());
+    let refused = |secret: &Secret, played: &Secret, change: &dyn Fn(&mut Small), words: &str| {
+        let error = joined(secret, played, change).expect_err(words);
+        assert!(error.contains(words), "{error}");
+    };
+    refused(&secret(7), &secret(8), &|_| {}, "its chance does not come from the release's secret");
+    let other = |release: &mut Small| release.manifest.recipe["board"] = json!({ "rows": [5, 6] });
+    refused(&secret(7), &secret(7), &other, "the manifest's recipe is not the one that was committed to");
+    let made_up = Secret { seed: "hunter2".to_owned(), ..secret(7) };
+    refused(&made_up, &made_up, &|_| {}, "is not 64 lower-case hexadecimal digits");
+}
+
+#[test]
+fn what_is_revealed_is_replayed() {
+    let home = home();
+    let mut release = small("2026-12", None);
+    seal(&mut release);
+    release.files.sort();
+    release.seal();
+    let verification = verify(&release.write_in(&home)).expect("readable");
+    assert_eq!(verification.witnesses, Witnesses::Replayed(1));
+}
+
+fn verified(release: &mut Small, bounds: &Bounds) -> Verification {
+    release.files.sort();
+    release.seal();
+    verify_within(&release.write_in(&home()), bounds).expect("readable")
+}
+
+/// At least these problems, whatever follows from them.
+#[track_caller]
+fn complains(alter: impl FnOnce(&mut Small), words: &[&str]) {
+    let mut release = small("2026-12", None);
+    alter(&mut release);
+    let problems = verified(&mut release, &Bounds::RELEASE).problems;
+    for words in words {
+        assert!(problems.iter().any(|problem| problem.contains(words)), "no `{words}` in {problems:?}");
+    }
+}
+
+/// The card of the game, changed as JSON.
+fn change_card(release: &mut Small, alter: impl Fn(&mut serde_json::Value)) {
+    change(release, "/card.json", |text| {
+        let mut card = serde_json::from_str(&text).expect("JSON");
+        alter(&mut card);
+        to_canonical_json(&card).expect("plain data")
+    });
+}
+
+#[test]
+fn semantics_that_never_were_are_no_excuse() {
+    for semantics in [0, engine::SEMANTICS - 1, engine::SEMANTICS + 1, u32::MAX] {
+        let expect =
+            format!("MANIFEST.json: GENERATION {} never had SEMANTICS {semantics}", generators::GENERATION);
+        check(|release| release.manifest.semantics = semantics, &[&expect]);
+    }
+    check(|release| release.manifest.generation = 0, &["GENERATION 0 never had SEMANTICS"]);
+    let number = snapshots::version::CURRENT.number;
+    let expect = format!("is minted by version {number}, not 0.1.0");
+    check(|release| release.manifest.version = Some("0.1.0".to_owned()), &[&expect]);
+    // Of a later arcade, and of an earlier one: these can be, and were not replayed here.
+    let later = (engine::SEMANTICS + 1, generators::GENERATION + 1, "0.99.0");
+    for (semantics, generation, version) in [later, (2, 8, "0.8.0")] {
+        let mut release = small("2026-12", None);
+        (release.manifest.semantics, release.manifest.generation) = (semantics, generation);
+        release.manifest.version = Some(version.to_owned());
+        let verification = verified(&mut release, &Bounds::RELEASE);
+        assert_eq!(verification.problems, [""; 0]);
+        assert_eq!(verification.witnesses, Witnesses::NotReplayed { semantics });
+    }
+}
+
+#[test]
+fn numbers_that_no_judge_finds() {
+    let of_level = |key: &'static str, value: serde_json::Value, words: &str| {
+        complains(
+            |release| change_card(release, |card| card["levels"][0][key] = value.clone()),
+            &[&format!("card.json: lvl0.txt: {words}")],
+        );
+    };
+    of_level("difficulty", json!(1e300), "a difficulty of 1000");
+    of_level("difficulty", json!(-0.5), "a difficulty of -0.5");
+    of_level("columns", json!(7), "a board of 7 by 3, where it has 6 by 3");
+    of_level("optimal_ticks", json!(4), "a shortest win of 4 ticks beside a witness of 3");
+    of_level("optimal_ticks", json!(0), "a shortest win of 0 ticks");
+    of_level("witness_score", json!(1e300), "a score of 1000");
+    for who in ["mcts", "random", "idle"] {
+        let rate = json!({ "calls": 0, "interval": [0.0, 0.5], "mean_score": 0.0, "plays": 4, "wins": 99 });
+        of_level(who, rate, &format!("`{who}` has 99 wins in 4 plays"));
+        let rate = json!({ "calls": 0, "interval": [0.0, 0.5], "mean_score": 0.0, "plays": 4, "wins": 0 });
+        of_level(who, rate, &format!("`{who}` has the interval 0 to 0.5"));
+    }
+    let ladder = json!({ "rungs": [], "held_out": [], "ease": 1e300, "difficulty": "medium" });
+    of_level("ladder", ladder, "an ease out of 0 to 1");
+}
+
+#[test]
+fn large_cards_are_not_read() {
+    complains(
+        |release| change_card(release, |card| card["title"] = json!("x".repeat(1 << 20))),
+        &["card.json: 1049", "a card has at most 1048576"],
+    );
+    let patterns =
+        json!({ "from": "generated", "generator": "x", "patterns": vec!["a"; 2000], "candidate": 0 });
+    complains(
+        |release| change_card(release, |card| card["origin"] = patterns.clone()),
+        &["more than 1024 patterns"],
+    );
+}
+
+#[test]
+fn a_release_tells_of_itself() {
+    for file in ["README.md", "CARD.json"] {
+        complains(
+            |release| release.files.retain(|(path, _)| path != file),
+            &[&format!("{file}: missing: a release has one")],
+        );
+    }
+    complains(
+        |release| change(release, "CARD.json", |_| "{".to_owned()),
+        &["CARD.json: not the card of a release: EOF"],
+    );
+    complains(|release| change(release, "CARD.json", |_| "[]".to_owned()), &["it is no object"]);
+    let with = |key: &'static str, value: serde_json::Value, words: &str| {
+        complains(
+            |release| {
+                change(release, "CARD.json", |text| {
+                    let mut card: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+                    card[key] = value.clone();
+                    to_canonical_json(&card).expect("plain data")
+                });
+            },
+            &[&format!("CARD.json: {words}")],
+        );
+    };
+    with("games", json!(7), "its `games` is 7, and the release has 1");
+    with("levels", json!("many"), "its `levels` is \"many\", and the release has 1");
+    with("canary", json!("x"), "its canary is not the release's");
+    with("more", json!(1), "not the card of a release: unknown field `more`");
+    with("generators", json!({ "search": 1 }), "its `generators` is not what");
+    with("goals", json!({}), "its `goals` is not what");
+    with("difficulty", json!({ "easy": 1 }), "its `difficulty` is not what");
+}
+
+#[test]
+fn the_canary_is_that_of_the_recipe() {
+    check(
+        |release| {
+            let mark = release.manifest.canary.clone();
+            release.manifest.canary = canary(&Digest::of(b"another"));
+            for (_, content) in &mut release.files {
+                let text = String::from_utf8(content.clone()).expect("a text");
+                *content = text.replace(&mark, &release.manifest.canary).into_bytes();
+            }
+        },
+        &["MANIFEST.json: its `canary` is not that of its recipe"],
+    );
+}
+
+/// The level of the release again, so many times.
+fn repeat_level(release: &mut Small, times: usize) {
+    change_card(release, |card| {
+        let levels = (0..times).map(|number| {
+            let mut level = card["levels"][0].clone();
+            level["file"] = json!(format!("lvl{number}.txt"));
+            level
+        });
+        card["levels"] = levels.collect();
+    });
+    for (path, content) in release.files.clone() {
+        for number in 1..times {
+            if path.contains("lvl0.") {
+                release.files.push((path.replace("lvl0.", &format!("lvl{number}.")), content.clone()));
+            }
+        }
+    }
+}
+
+/// The game of the release again, under another name.
+fn repeat_game(release: &mut Small, name: &str) {
+    for (path, content) in release.files.clone() {
+        if path.contains("mole-") {
+            let text = String::from_utf8(content).expect("a text").replace("\"mole-", &format!("\"{name}-"));
+            release.files.push((path.replace("mole-", &format!("{name}-")), text.into_bytes()));
+        }
+    }
+}
+
+/// Identical slow levels cost a verifier the replay of one.
+#[test]
+fn what_is_there_twice_is_a_problem_and_replayed_once() {
+    let once = verified(&mut small("2026-12", None), &Bounds::RELEASE);
+    assert!(once.work > 0);
+    let mut release = small("2026-12", None);
+    repeat_level(&mut release, 260);
+    let verification = verified(&mut release, &Bounds::RELEASE);
+    assert_eq!(verification.work, once.work);
+    assert_eq!(verification.witnesses, Witnesses::Replayed(1));
+    let again = verification.problems.iter().filter(|one| one.contains("the same level as lvl0.txt"));
+    assert_eq!(again.count(), 259);
+
+    let mut release = small("2026-12", None);
+    for number in 0..50 {
+        repeat_game(&mut release, &format!("vole{number}"));
+    }
+    let verification = verified(&mut release, &Bounds::RELEASE);
+    assert_eq!(verification.work, once.work);
+    let again = verification.problems.iter().filter(|one| one.contains("the same game as games/mole-"));
+    assert_eq!(again.count(), 50);
+}
+
+/// The bound is on all replays together, and what is beyond it is not played.
+#[test]
+fn replays_are_bounded() {
+    let work = verified(&mut small("2026-12", None), &Bounds::RELEASE).work;
+    let bounds = |work, work_per_level| Bounds { work, work_per_level };
+    let fits = verified(&mut small("2026-12", None), &bounds(work - 1, 1));
+    assert_eq!((fits.problems.len(), fits.work), (0, work));
+    let over = verified(&mut small("2026-12", None), &bounds(work - 1, 0));
+    assert_eq!(over.work, work - 1);
+    let expect = format!("its witnesses take more than {} units of work to replay", work - 1);
+    assert!(over.problems[0].contains(&expect), "{:?}", over.problems);
+    // What any release may take grows with what it declares.
+    assert_eq!(Bounds::RELEASE.of(600), (1 << 31) + 600 * (1 << 21));
+}
+
+/// Refused before its first tick.
+#[test]
+fn no_witness_is_longer_than_an_episode_can_be() {
+    let lengthen = |release: &mut Small, times: usize| {
+        change(release, "witness/lvl0.json", |text| {
+            let mut witness: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+            for key in ["actions", "hashes"] {
+                let list = witness["episode"][key].as_array_mut().expect("a list");
+                let last = list.last().expect("not empty").clone();
+                list.resize(times, last);
+            }
+            to_canonical_json(&witness).expect("plain data")
+        });
+        change_card(release, |card| card["levels"][0]["witness_ticks"] = json!(times));
+    };
+    complains(
+        |release| lengthen(release, 2001),
+        &["lvl0.json: the episode has 2001 ticks", "a witness of 2001 ticks, where 1 to 2000 can be"],
+    );
+    complains(|release| lengthen(release, 4), &["goes on after its end, which tick 3 was"]);
+    let mut release = small("2026-12", None);
+    lengthen(&mut release, 2001);
+    assert_eq!(verified(&mut release, &Bounds::RELEASE).work, 0);
+}
+
+#[test]
+fn what_is_known_fits_the_parent() {
+    let first = small("2026-12", None);
+    let second = small("2027-01", Some(&first));
+    assert_eq!(verified(&mut second.clone(), &Bounds::RELEASE).problems, [""; 0]);
+    let known = |value: serde_json::Value, words: &str| {
+        let mut release = second.clone();
+        release.manifest.recipe["known"] = value;
+        let problems = verified(&mut release, &Bounds::RELEASE).problems;
+        assert!(problems.iter().any(|problem| problem.contains(words)), "{problems:?}");
+    };
+    known(json!({}), "`known` names no release, but there is a parent");
+    known(json!("nothing"), "`known` is not what one is");
+    known(json!({ "releases": ["2026-12", "2026-12"] }), "names a release twice, or itself");
+    known(json!({ "releases": ["2027-01"] }), "names a release twice, or itself");
+    let mut orphan = first;
+    orphan.manifest.recipe["known"] = json!({ "releases": ["2026-11"] });
+    let problems = verified(&mut orphan, &Bounds::RELEASE).problems;
+    assert!(problems.iter().any(|problem| problem.contains("but there is no parent")), "{problems:?}");
+}
+
+/// Solutions that are held back cannot be exported, and no empty ones are.
+#[test]
+fn no_solutions_of_what_is_sealed() {
+    let sealed = |keep: bool| {
+        let mut release = small("2026-12", None);
+        seal(&mut release);
+        release.files.sort();
+        release.seal();
+        if !keep {
+            release.files.retain(|(path, _)| !path.starts_with("held/"));
+        }
+        let home = home();
+        let released = Released::read(&release.write_in(&home)).expect("sound");
+        let rows = Export { format: Format::JsonLines, solutions: true, twin: None };
+        export(&released, &rows).map(|exported| exported.levels)
+    };
+    assert_eq!(sealed(true).expect("revealed"), 1);
+    let error = sealed(false).expect_err("held back").to_string();
+    assert!(error.contains("`2026-12` is sealed") && error.contains("--reveal"), "{error}");
+}

@@ -1,0 +1,37 @@
+//! The hostile set (`tests/suite/hostile/`): each case ends as its file says, under both ways to load a game.
+//!
+//! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` writes the ends anew; the diff is to be read like code.
+
+use tests::hostile::Case;
+
+#[test]
+fn every_case_ends_as_expected() {
+    let cases = Case::all();
+    assert!(cases.len() > 90, "{} cases", cases.len());
+    let bless = std::env::var_os("BLESS").is_some();
+    let mut wrong = Vec::new();
+    for case in cases {
+        if bless {
+            case.bless();
+        } else if case.got() != case.expect {
+            wrong.push(format!(
+                "{} is expected to end so:\n{}but ends so:\n{}",
+                case.name,
+                case.expect,
+                case.got()
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// What is made of a game beside playing it ends, too: its warnings, its description and its canonical print.
+#[test]
+fn every_game_is_described_or_refused() {
+    for case in Case::all() {
+        tests::robustness::text(case.source.as_bytes());
+        if let Ok(game) = engine::Game::from_source(&case.source) {
+            let _ = engine::describe(&game);
+        }
+    }
+}
