@@ -1,19 +1,10 @@
 //! Snapshots as datasets: what users get of `tiny`.
 
-use crate::arcade::{files, run, text};
+use crate::arcade::{TINY, files, run, text};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::sync::LazyLock;
-use tempfile::TempDir;
-
-/// One mint of `tiny`, which tests only read.
-static TINY: LazyLock<TempDir> = LazyLock::new(|| {
-    let folder = tempfile::tempdir().unwrap();
-    run(folder.path(), &["release", "tiny", "--out", "tiny"], 0);
-    folder
-});
 
 /// The files of an export.
 fn export(out: &str, flags: &[&str]) -> BTreeMap<String, Vec<u8>> {

@@ -1,18 +1,10 @@
 //! Minting, verifying and minting again: what a release promises.
 
-use crate::arcade::{arcade, copy_tree, files, run, text};
+use crate::arcade::{TINY, arcade, copy_tree, files, run, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
-use std::sync::LazyLock;
 use tempfile::TempDir;
-
-/// One mint of `tiny`, shared by the tests that only read it or a copy of it.
-static TINY: LazyLock<TempDir> = LazyLock::new(|| {
-    let folder = tempfile::tempdir().unwrap();
-    run(folder.path(), &["release", "tiny", "--out", "tiny", "--jobs", "2"], 0);
-    folder
-});
 
 /// A copy of the shared mint, to be tampered with.
 fn copy() -> (TempDir, PathBuf) {

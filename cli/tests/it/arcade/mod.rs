@@ -4,6 +4,15 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
+use tempfile::TempDir;
+
+/// A folder with one mint of the recipe `tiny` in `tiny`, shared by the tests that only read it or a copy of it.
+pub(crate) static TINY: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &["release", "tiny", "--out", "tiny", "--jobs", "2"], 0);
+    folder
+});
 
 /// The binary under test, in a folder of its own.
 pub(crate) fn arcade(folder: &Path) -> Command {
@@ -26,7 +35,6 @@ pub(crate) fn text(bytes: &[u8]) -> String {
 }
 
 /// The reference's games and traces, which are not part of the repository; None (and a note) where they are missing.
-#[allow(dead_code, reason = "not every test file plays the reference's games")]
 #[allow(clippy::print_stdout, reason = "a skipped test says so")]
 pub(crate) fn reference() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/gvgai");
@@ -38,7 +46,6 @@ pub(crate) fn reference() -> Option<PathBuf> {
 }
 
 /// All files of a folder with their content.
-#[allow(dead_code, reason = "not every test looks at files")]
 pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -57,7 +64,6 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 /// A copy of a folder, to be tampered with.
-#[allow(dead_code, reason = "not every test copies folders")]
 pub(crate) fn copy_tree(from: &Path, to: &Path) {
     for (name, content) in files(from) {
         let path = to.join(name);
