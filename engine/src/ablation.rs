@@ -1,7 +1,7 @@
-//! A game with one interaction disabled: what would be different without it?
+//! A game with one interaction disabled, to measure the difference that the interaction makes.
 //!
-//! The interaction still happens and still draws from the chance what it drew before, but nothing follows from it. So an
-//! episode of the two games is the same up to the first consequence: chance does not shift.
+//! The interaction still takes place and draws the same random numbers as before, but has no consequences. An episode of
+//! the two games is therefore the same up to the first consequence: the random stream does not shift.
 
 use crate::Digest;
 use crate::bump::barriers;
@@ -11,9 +11,9 @@ use crate::rest::foresight;
 use std::sync::{Arc, OnceLock};
 
 impl Game {
-    /// The game in which nothing follows from interaction `line` (index into
-    /// [`Description::interactions`](crate::Description)), though it draws what it drew. Levels of the one fit the other. The
-    /// digest is one of its own: it belongs to no text. Cost: a copy of the rules.
+    /// The game in which interaction `line` (index into [`Description::interactions`](crate::Description)) has no
+    /// consequences but still draws its random numbers. Levels of one game fit the other. The digest does not belong to
+    /// any text. Cost: a copy of the rules.
     ///
     /// # Panics
     /// If there is no such line.
@@ -31,7 +31,7 @@ impl Game {
             timed.score_change = 0;
             timed.apply_score = false;
         }
-        // What puts nothing back lets nothing rest.
+        // Sprites sleep only if a rule puts them back.
         rules.foresight = foresight(&rules.types, &rules.passes, &rules.effects);
         rules.any_rests = rules.foresight.iter().any(|of_type| of_type.rests);
         rules.any_flies = rules.foresight.iter().any(|of_type| of_type.flies);
@@ -65,7 +65,7 @@ mod tests {
         assert!(episode(&game, &level, &right).1 >= 4.0);
         let (outcome, score, ..) = episode(&game.without(0), &level, &right);
         assert_eq!((outcome, score), (Outcome::Ongoing, 0.0));
-        // A rule that draws and then does nothing, because its odds are none, is a disabled one.
+        // A rule that draws and then does nothing, because its probability is 0, is a disabled one.
         let never = Game::from_source(&GAME.replace("prob=0.5", "prob=0.0")).unwrap();
         let without = game.without(2);
         assert_eq!(episode(&without, &level, &wait), episode(&never, &level, &wait));

@@ -1,4 +1,4 @@
-//! Positions that are put together rather than played.
+//! Positions that are constructed instead of played.
 
 use crate::game::{Game, SpriteType};
 use crate::geometry::Direction;
@@ -7,8 +7,8 @@ use crate::seed::Seed;
 use crate::state::{NONE, State};
 
 impl Game {
-    /// [`Game::start`] with the avatar facing some way and holding something: for players that know a position from what
-    /// they were shown of it. Resources come on top of what the avatar starts with, if it does.
+    /// [`Game::start`] with the avatar facing `facing` and holding some resources: for players that reconstruct a
+    /// position from an observation. The resources are added to what the avatar starts with.
     pub fn start_as(
         &self,
         level: &Level,

@@ -1,10 +1,10 @@
-//! What single sprites have: resources, and their own entries in the list of what they make. Few have any, so all are in two
-//! sorted lists of the state.
+//! Side tables for data of single sprites: the resources that they hold, and changed entries in the list of types that
+//! they make. Few sprites have such data, so it lies in two sorted lists of the state.
 
 use crate::game::{Rules, SpriteType};
 use crate::state::{Slot, State};
 
-/// A number of a resource that a sprite holds; entries stay at 0 (`spec/02` §1.1).
+/// An amount of a resource that a sprite holds; entries stay at 0 (`spec/02` §1.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Held {
     pub(crate) holder: Slot,
@@ -12,7 +12,7 @@ pub(crate) struct Held {
     pub(crate) amount: i32,
 }
 
-/// An entry of the list of a BomberRandomMissile that is another one now.
+/// An entry of a BomberRandomMissile's list that has been replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Replaced {
     pub(crate) holder: Slot,
@@ -22,17 +22,17 @@ pub(crate) struct Replaced {
 }
 
 impl State {
-    /// Where the entry of a resource is, or would be.
+    /// Finds the entry of a resource, or the index at which to insert it.
     fn find_held(&self, holder: Slot, resource: SpriteType) -> Result<usize, usize> {
         self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
     }
 
-    /// How much of a resource a sprite holds.
+    /// The amount of a resource that a sprite holds.
     pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
         self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
     }
 
-    /// Adds to a resource, not below 0; the entry is made even for 0.
+    /// Adds to a resource; the amount stays at 0 or above. The entry is made even for 0.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         match self.find_held(holder, resource) {
             Ok(at) => self.held[at].amount = self.held[at].amount.wrapping_add(change).max(0),
@@ -40,21 +40,21 @@ impl State {
         }
     }
 
-    /// Takes from a resource that is there, also below 0.
+    /// Takes from a resource that the sprite holds; the amount may go below 0.
     pub(crate) fn overdraw(&mut self, holder: Slot, resource: SpriteType, cost: i32) {
         if let Ok(at) = self.find_held(holder, resource) {
             self.held[at].amount = self.held[at].amount.saturating_sub(cost);
         }
     }
 
-    /// What a sprite holds, by resource.
+    /// The resources that a sprite holds, by resource.
     pub(crate) fn held_by(&self, holder: Slot) -> &[Held] {
         let start = self.held.partition_point(|held| held.holder < holder);
         let end = self.held.partition_point(|held| held.holder <= holder);
         &self.held[start..end]
     }
 
-    /// A sprite that goes leaves nothing behind.
+    /// Removes the entries of a sprite that is being released.
     #[inline]
     pub(crate) fn release_belongings(&mut self, holder: Slot) {
         if !self.held.is_empty() {
@@ -69,7 +69,7 @@ impl State {
         }
     }
 
-    /// One of the types that a BomberRandomMissile makes.
+    /// The type at a place of a BomberRandomMissile's list.
     pub(crate) fn missile(&self, rules: &Rules, slot: Slot, place: usize) -> SpriteType {
         let own = |_| rules.types[self.sprite(slot).stype.index()].traits.stypes[place];
         self.find_replaced(slot, place).map_or_else(own, |at| self.replaced[at].stype)
@@ -86,7 +86,7 @@ impl State {
         &self.replaced[start..end]
     }
 
-    /// Replaces the first entry of a BomberRandomMissile's list that is `before`.
+    /// Replaces the first entry of a BomberRandomMissile's list that equals `before`.
     pub(crate) fn replace_missile(
         &mut self,
         rules: &Rules,

@@ -1,13 +1,13 @@
-//! Bumps: steps into what puts the sprite back before any other rule has noticed.
+//! Deferred moves: steps into a barrier that puts the sprite back before any other rule has looked at it.
 //!
-//! A character walks into a wall, and a rule steps it back. Until then the event phase has not asked where it is, and when it
-//! goes on, the character is where it was. So it is not entered in the wall's cell and taken out again: it stands there for
-//! those who read its place, and when the rule's turn comes, one look at the cell tells that it is executed. If the wall is
-//! gone by then, if a rule before it is looked at at all, or if something happens that may concern all, the step is made up
-//! for: from then on it is a move like any other.
+//! A character walks into a wall, and a rule steps it back. Until then the event phase does not look up its position, and
+//! afterwards the character is where it was. So the sprite is not entered into the wall's cell and taken out again. Only
+//! its rectangle changes, and when the rule's turn comes, one look at the cell decides that the rule is executed. If the
+//! wall is gone by then, if another rule may apply first, or if something happens that may affect any sprite, the
+//! deferred move is carried out: from then on it is a move like any other.
 //!
-//! No one can tell the difference (`spec/01` §4, `spec/03` §4): a rule that is about the sprite's type is never looked at while
-//! the sprite is not entered where it is.
+//! The result is the same (`spec/01` §4, `spec/03` §4): no rule that involves the sprite's type is looked at while the
+//! sprite is not entered at its position.
 
 use crate::contacts::Contacts;
 use crate::game::{EffectInfo, Pass, SpriteType, TypeInfo};
@@ -19,30 +19,30 @@ use crate::ontology::sprites::Mover;
 use crate::state::{NONE, Slot, State, flag};
 use crate::step::{Step, Watch};
 
-/// The pass of no bump.
+/// The value of `next_bump` without deferred moves.
 pub(crate) const NEVER: usize = usize::MAX;
-/// Rules that a bump waits for, at most.
+/// The maximum number of rules that a deferred move can wait for.
 const MAX_GATES: usize = 8;
 
-/// What a rule does to a sprite of the type whose [`Barriers`] it is among.
+/// The effect of a rule on a sprite of the type whose [`Barriers`] it is among.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum GateKind {
-    /// It puts the sprite where it was.
+    /// It puts the sprite back to its last place.
     Back,
     /// It puts the sprite beside its partner.
     Flush,
-    /// It ends sprites, and moves and makes none.
+    /// It kills sprites, and neither moves nor makes any.
     Deadly,
-    /// Anything.
+    /// Any other effect.
     Other,
 }
 
-/// A rule that is about a type, in a pass of the event phase.
+/// A rule that involves a type, as a pass of the event phase.
 #[derive(Clone, Copy, Debug)]
 struct Gate {
     pass: u16,
     kind: GateKind,
-    /// The bits of the types with which it is about this one (`contacts.rs`).
+    /// The bits of the types with which the rule pairs this one (`contacts.rs`).
     bits: u64,
 }
 
@@ -52,27 +52,27 @@ impl Gate {
     }
 }
 
-/// What puts sprites of a type back, and what else is about them before.
+/// The rules that put sprites of a type back, and the rules that involve the type before them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Barriers {
-    /// The bits of those that do not put it back.
+    /// The bits of the partners that do not put it back.
     others: u64,
-    /// In the order of the event phase, up to the last that puts it back.
+    /// The rules in the order of the event phase, up to the last one that puts the sprite back.
     gates: Vec<Gate>,
 }
 
-/// A sprite that has stepped into a barrier in this tick, and is entered where it comes from.
+/// A sprite that has stepped into a barrier in this tick and is still entered at its old position.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bump {
     slot: Slot,
-    /// The next rule that is about it: one of the gates of its type.
+    /// The next rule that involves it: one of the gates of its type.
     gate: u16,
-    /// The cell of its corner, and how it lies there.
+    /// The cell of its new corner, and the flags of how it lies there.
     cell: u32,
     flags: u32,
 }
 
-/// The barriers of each type, noted in its kind as well. Cost: O(passes × types).
+/// Computes the barriers of each type, and notes them in its kind as well. Cost: O(passes × types).
 pub(crate) fn barriers(
     types: &[TypeInfo],
     passes: &[Pass],
@@ -135,7 +135,7 @@ pub(crate) fn barriers(
 }
 
 impl State {
-    /// The bits of all that cover cells that a small sprite covers.
+    /// The bits of all types in the cells that a small sprite covers.
     #[inline(always)]
     fn bits_under(&self, cell: usize, flags: u32) -> u64 {
         let bits = |cell: usize| self.masks[cell];
@@ -150,7 +150,7 @@ impl State {
 }
 
 impl Step<'_> {
-    /// Steps into a barrier, if there is one where the sprite is about to go; false: it is a move like any other.
+    /// Defers a move into a barrier. Returns `false` if there is none: the move is like any other.
     #[inline(always)]
     pub(crate) fn bump(&mut self, slot: Slot, aim: Rect, from: Located, to: Located) -> bool {
         let barriers = self.rules.contacts.kinds[self.state.sprite(slot).stype.index()].barriers;
@@ -180,7 +180,7 @@ impl Step<'_> {
             return false;
         }
         if barriers.others != 0 {
-            // Two that are in the same place might meet there before they are put back.
+            // Two sprites in the same place might meet there before they are put back.
             let crowded = |bump: &Bump| self.state.sprite(bump.slot).rect.intersects(aim);
             let under = self.state.bits_under(before, from.flags) | self.state.bits_under(cell, flags);
             let own = self.rules.contacts.kinds[sprite.stype.index()].own;
@@ -200,12 +200,12 @@ impl Step<'_> {
         true
     }
 
-    /// Whether something at rest has an eye on cells that a small sprite covers: it would be woken.
+    /// Tests whether a sleeping sprite watches a cell that a small sprite covers: it would be woken.
     fn is_watched(&self, cell: usize, flags: u32) -> bool {
         self.state.span(cell, flags).cells().any(|cell| self.state.watched[cell] > 0)
     }
 
-    /// The turn of the next pass that is about somebody who has bumped. `looked_at`: whether the pass is possible.
+    /// Settles the deferred moves that wait for the next pass. `looked_at` tells whether the pass is possible.
     #[inline(never)]
     pub(crate) fn settle_bumps(&mut self, looked_at: bool, watch: &mut impl Watch) {
         let rules = self.rules;
@@ -240,7 +240,8 @@ impl Step<'_> {
         }
     }
 
-    /// Whether a rule puts a sprite back that has bumped, or is not about it; None: it is to be entered where it is.
+    /// Tests whether a rule puts a sprite with a deferred move back; `Some(false)` if the rule does not apply to it,
+    /// `None` if the move is to be carried out.
     fn meets(&self, bump: &Bump, gate: Gate, looked_at: bool) -> Option<bool> {
         let state = &*self.state;
         let sprite = state.sprite(bump.slot);
@@ -259,7 +260,8 @@ impl Step<'_> {
             _ if !under => Some(false),
             GateKind::Back => Some(true),
             GateKind::Flush => {
-                // Beside a barrier that fills its cell is where the sprite was, if it came over the border of its own.
+                // The place beside a barrier that fills its cell is where the sprite was, if it crossed the border of its
+                // own cell.
                 let last = state.last(bump.slot);
                 let (x, y) = (sprite.rect.x - last.x, sprite.rect.y - last.y);
                 let lay = if y == 0 { flag::RIGHT } else { flag::BELOW };
@@ -278,7 +280,7 @@ impl Step<'_> {
         self.work_of_effect();
     }
 
-    /// All bumps become moves like any other.
+    /// Carries out all deferred moves.
     pub(crate) fn carry_out_bumps(&mut self) {
         if self.next_bump != NEVER {
             self.next_bump = NEVER;
@@ -288,7 +290,7 @@ impl Step<'_> {
         }
     }
 
-    /// Enters a sprite where it has stepped, if it has bumped.
+    /// Carries out the deferred move of a sprite, if it has one.
     #[inline(never)]
     pub(crate) fn carry_out(&mut self, slot: Slot) {
         let last = self.state.last(slot);

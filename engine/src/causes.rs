@@ -1,4 +1,4 @@
-//! One cause, one problem: what only follows from another problem of the same file is not told.
+//! One cause, one problem: problems that only follow from another problem of the same file are not reported.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, line_start};
 use crate::limits::MAX_PROBLEMS;
@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 const HIDES_DECLARATIONS: [&str; 4] = ["missing-section", "missing-arrow", "stray-line", "too-deep"];
 /// Problems that make it uncertain which word a line starts with.
 const HIDES_START: [&str; 4] = ["missing-arrow", "bad-mapping", "bad-interaction", "bad-termination"];
-/// Problems of a name: told once, however often it is used.
+/// Problems of a name: reported once, however often the name is used.
 const OF_A_NAME: [&str; 2] = ["unknown-sprite", "parent-sprite"];
 
-/// All problems of a file whose text gave `read` and whose rules gave `compiled`, sorted by place, without those that follow
-/// from others. What a problem speaks of is what its message and its help quote.
+/// All problems of a file whose text gave `read` and whose rules gave `compiled`, sorted by place, without those that
+/// follow from others. The subject of a problem is the word that its message and its help quote.
 pub(crate) fn told(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
     let unread = Diagnostics::has_errors(&read);
     let all = Diagnostics::sorted(read.into_iter().chain(once_each(compiled)).collect()).0;
@@ -25,26 +25,26 @@ pub(crate) fn told(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &st
             "no-win" => unread,
             _ => roots.iter().any(|root| follows(&problem, root, source)),
         };
-        // Those beyond the limit are only counted.
+        // Problems beyond the limit are only counted.
         if told.len() > MAX_PROBLEMS || !hidden() {
             told.push(problem);
         }
     }
     if faulty && !Diagnostics::has_errors(&told) {
-        // All errors come from how lines are indented.
+        // All errors come from the indentation.
         let roots = told.iter_mut().filter(|problem| is_uneven(problem));
         roots.for_each(|root| root.severity = Severity::Error);
     }
     Diagnostics(told).shortened(source.len())
 }
 
-/// Whether other problems may follow from this one.
+/// Tests whether other problems may follow from this one.
 fn is_root(problem: &Diagnostic) -> bool {
     let warns = ["ignored-class", "empty-mapping"].contains(&problem.code);
     problem.severity == Severity::Error || warns || is_uneven(problem)
 }
 
-/// Whether the problem is that of a sprite's indent: who is whose subtype is uncertain then.
+/// Tests whether the problem is the indent of a sprite, which makes parents and subtypes uncertain.
 fn is_uneven(problem: &Diagnostic) -> bool {
     problem.code == "uneven-indent" && !problem.message.ends_with("sections")
 }
@@ -54,17 +54,17 @@ fn follows(problem: &Diagnostic, root: &Diagnostic, source: &str) -> bool {
     let same_line = || line(problem) == line(root);
     match problem.code {
         "unknown-sprite" => HIDES_DECLARATIONS.contains(&root.code),
-        // Of a word that is no character, the first one.
+        // For a word that is not a character, the first character.
         "duplicate-mapping" => root.code == "bad-mapping" && quoted(root).starts_with(quoted(problem)),
         "no-class" => root.code != problem.code && same_line(),
-        // What is missing is there, misspelt; for subtypes, maybe on the line of their parent.
+        // The missing parameter is there, but misspelt; for subtypes it may be on the line of their parent.
         "missing-parameter" => {
             let key = problem.message.split('`').find_map(|quoted| quoted.strip_suffix('='));
             let (help, key) = (root.help.as_deref().unwrap_or_default(), key.unwrap_or_default());
             let names = help.contains(&format!("`{key}`")) || help.contains(&format!("`{key}="));
             root.code != problem.code && names && line(root) <= line(problem)
         }
-        // The word that a line lacks has left its blanks.
+        // The missing word has left its blanks behind.
         "uneven-indent" | "stray-indent" => HIDES_START.contains(&root.code) && same_line(),
         "ignored-class" => is_uneven(root),
         "parent-sprite" => {
@@ -80,12 +80,12 @@ fn follows(problem: &Diagnostic, root: &Diagnostic, source: &str) -> bool {
     }
 }
 
-/// What a problem speaks of.
+/// The subject of a problem: the first word that its message quotes.
 fn quoted(problem: &Diagnostic) -> &str {
     problem.message.split('`').nth(1).unwrap_or_default()
 }
 
-/// A name that several places use wrongly is told of at the first of them.
+/// Reports a name that is used wrongly in several places only at the first one.
 fn once_each(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let problems = Diagnostics::sorted(problems).0;
     let mut places: BTreeMap<(&str, String), usize> = BTreeMap::new();
@@ -113,7 +113,7 @@ mod tests {
 
     const GAME: &str = "BasicGame\n    SpriteSet\n        den > SpawnPoint stype=fox\n        fox > RandomNPC\n        egg > Resource limit=3\n        hen > MovingAvatar\n    LevelMapping\n        d > den\n        e > egg\n        A > hen\n    InteractionSet\n        egg hen > collectResource\n        hen fox > killSprite\n    TerminationSet\n        SpriteCounter stype=egg win=True\n        Timeout limit=90\n";
 
-    /// What is wrong once a part of the game is something else: code and line, errors in upper case.
+    /// Checks the problems after a part of the game is replaced: code and line, errors in upper case.
     #[track_caller]
     fn check(part: &str, other: &str, expect: &[&str]) {
         assert!(GAME.contains(part), "{part}");
@@ -161,7 +161,7 @@ mod tests {
         check("    LevelMapping", "        LevelMapping", &["STRAY-INDENT 7"]);
         let unindented = GAME.replace("\n    ", "\n");
         check(GAME, &unindented, &["STRAY-INDENT 2"]);
-        // Its parent has another class, and is one now.
+        // The parent has another class, and is now a parent.
         check("        egg > ", "            egg > ", &["IGNORED-CLASS 5"]);
         check("        egg > ", "          egg > ", &["UNEVEN-INDENT 5"]);
         check("        hen > ", "         hen > ", &["UNEVEN-INDENT 6"]);

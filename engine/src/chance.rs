@@ -1,4 +1,4 @@
-//! The chance of a game: the 48-bit linear congruential generator that VGDL games of the reference draw from
+//! The random number generator of a game: the 48-bit linear congruential generator of the reference's VGDL games
 //! (`spec/01` §7.1; the algorithm is the published one of `java.util.Random`).
 
 const MULTIPLIER: u64 = 0x5_DEEC_E66D;
@@ -6,7 +6,7 @@ const MASK: u64 = (1 << 48) - 1;
 /// Bits of a draw of [`Chance::float`].
 pub(crate) const DRAW: u32 = 24;
 
-/// Eight bytes of state; part of every [`State`](crate::State).
+/// The generator: eight bytes of state, part of every [`State`](crate::State).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Chance(pub(crate) u64);
 
@@ -27,7 +27,7 @@ impl Chance {
         (self.0 >> (48 - bits)) as i32
     }
 
-    /// Uniform in `0..bound`: one draw for powers of two, seldom more for others.
+    /// A uniform number in `0..bound`: one draw for powers of two, seldom more for others.
     pub fn below(&mut self, bound: i32) -> i32 {
         debug_assert!(bound > 0, "a choice needs at least one option");
         let mut draw = self.next(31);
@@ -44,12 +44,12 @@ impl Chance {
         }
     }
 
-    /// Uniform in [0, 1) with 24 bits: one draw.
+    /// A uniform number in [0, 1) with 24 bits: one draw.
     pub fn float(&mut self) -> f32 {
         self.next(DRAW) as f32 / (1 << DRAW) as f32
     }
 
-    /// Uniform in [0, 1) with 53 bits: two draws.
+    /// A uniform number in [0, 1) with 53 bits: two draws.
     pub fn double(&mut self) -> f64 {
         let high = i64::from(self.next(26)) << 27;
         let low = i64::from(self.next(27));

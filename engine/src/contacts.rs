@@ -1,27 +1,28 @@
-//! Which interactions can happen at all at the moment: kept as sprites come and go, so that a tick looks only at rules whose
-//! two sides share a cell somewhere.
+//! The interactions that are currently possible: maintained as sprites appear and disappear, so that a tick looks only at
+//! rules whose two sides share a cell somewhere.
 //!
-//! Every type that takes part in a rule has a bit. Each cell of the board knows the bits of the sprites in it; each pair of
-//! bits that a rule is about knows in how many cells both are; each pass of the event phase knows how many of its pairs are
-//! together anywhere. A pass without any is skipped. Sprites larger than a cell are in the masks with one cell only, so a pass
-//! with such a sprite on either side counts as possible too; which cells they cover is noted apart.
+//! Every type that takes part in a rule has a bit. Each cell of the board stores the bits of the sprites in it. Each pair
+//! of bits with a rule counts the cells that contain both. Each pass of the event phase counts its pairs that share a
+//! cell anywhere, and a pass without any is skipped. Sprites larger than a cell are in the masks with one cell only, so a
+//! pass with such a sprite on either side counts as possible too; the cells that they cover are stored separately.
 
 use crate::game::{Pass, Rules, SpriteType, TypeInfo};
 use crate::state::{NONE, Slot, State, flag};
 
 /// No pair.
 const NO: u16 = u16::MAX;
-/// Types beyond share the last bit: their rules are looked at more often than needed, and found right all the same.
+/// The number of bits. Further types share the last bit: their rules are tested more often than needed, with the same
+/// results.
 const BITS: usize = 64;
 
-/// A type in masks.
+/// The bits of a type.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Kind {
-    /// Its bit; 0 for types of no rule.
+    /// Its bit; 0 for types without rules.
     pub(crate) own: u64,
-    /// The bits of types that a rule pairs it with.
+    /// The bits of the types that a rule pairs it with.
     partners: u64,
-    /// The bits of types that put it back (`bump.rs`).
+    /// The bits of the types that put it back (`bump.rs`).
     pub(crate) barriers: u64,
 }
 
@@ -30,7 +31,7 @@ impl Kind {
         self.own.trailing_zeros() as usize
     }
 
-    /// Whether someone is in a cell of such a mask that a rule pairs the type with.
+    /// Tests whether a cell with this mask contains a type that a rule pairs this one with.
     pub(crate) fn has_partners_among(&self, mask: u64) -> bool {
         mask & self.partners != 0
     }
@@ -44,20 +45,20 @@ pub(crate) struct Contacts {
     bits: usize,
     /// By two bits: the pair's number.
     pair: Vec<u16>,
-    /// By pair: the passes that are about it.
+    /// By pair: the passes that involve it.
     passes: Vec<Box<[u16]>>,
     /// By pair: its two bits.
     ends: Vec<(u8, u8)>,
-    /// By type: the passes that are about it.
+    /// By type: the passes that involve it.
     of_type: Vec<Box<[u16]>>,
     /// By pass: the bits of its first and second side.
     sides: Vec<(u64, u64)>,
-    /// Passes that are always looked at: testing what lies below is an effect of its own for some classes.
+    /// Passes that are always possible: for some classes, testing the ground below is an effect in itself.
     always: Vec<u16>,
 }
 
 impl Contacts {
-    /// Cost: O(types² + passes × the largest trees).
+    /// Computes the tables. Cost: O(types² + passes × the largest trees).
     pub(crate) fn of(types: &[TypeInfo], passes: &[Pass]) -> Contacts {
         let mut contacts = Contacts { kinds: vec![Kind::default(); types.len()], ..Contacts::default() };
         for pass in passes {
@@ -123,7 +124,7 @@ impl Contacts {
         self.sides[pass]
     }
 
-    /// Whether any rule is about sprites of the two types.
+    /// Tests whether any rule pairs the two types.
     pub(crate) fn has_rule(&self, one: SpriteType, two: SpriteType) -> bool {
         self.kinds[one.index()].partners & self.kinds[two.index()].own != 0
     }
@@ -133,12 +134,12 @@ impl Contacts {
         self.kinds[stype].own & !(1 << (BITS - 1))
     }
 
-    /// The passes that are about a type, in their order.
+    /// The passes that involve a type, in order.
     pub(crate) fn passes_of(&self, stype: SpriteType) -> &[u16] {
         &self.of_type[stype.index()]
     }
 
-    /// How many pairs there are.
+    /// The number of pairs.
     pub(crate) fn pairs(&self) -> usize {
         self.passes.len()
     }
@@ -148,7 +149,7 @@ impl Contacts {
     }
 }
 
-/// The numbers of the bits that are set, upwards.
+/// The indices of the set bits, in ascending order.
 fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let bit = bits.trailing_zeros() as usize;
@@ -158,7 +159,7 @@ fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
 }
 
 impl State {
-    /// Nothing is anywhere yet.
+    /// Resets the tables to an empty board.
     pub(crate) fn empty_contacts(&mut self, contacts: &Contacts) {
         self.masks = vec![0; self.cells.len()];
         self.crowds.clear();
@@ -171,7 +172,7 @@ impl State {
         }
     }
 
-    /// A sprite has come to cover a cell.
+    /// Notes that a sprite has started to cover a cell.
     #[inline(always)]
     pub(crate) fn arrive(&mut self, contacts: &Contacts, kind: &Kind, cell: usize) {
         let mask = &mut self.masks[cell];
@@ -188,7 +189,7 @@ impl State {
         }
     }
 
-    /// A sprite does not cover a cell any more; the chains tell so already.
+    /// Notes that a sprite has stopped covering a cell; the chains are already up to date.
     #[inline(always)]
     pub(crate) fn depart(&mut self, contacts: &Contacts, kind: &Kind, cell: usize) {
         let partners = if self.crowds_in(cell) & kind.own == 0 {
@@ -206,7 +207,7 @@ impl State {
         }
     }
 
-    /// The bits of the types of which several sprites cover a cell.
+    /// The bits of the types with several sprites in a cell.
     #[inline(always)]
     pub(crate) fn crowds_in(&self, cell: usize) -> u64 {
         self.crowds.get(cell).copied().unwrap_or(0)
@@ -219,7 +220,7 @@ impl State {
         self.crowds[cell] |= kind.own;
     }
 
-    /// How many sprites with the bit cover a cell; counts to two.
+    /// The number of sprites with the bit that cover a cell; stops counting at two.
     #[inline(never)]
     fn count_in(&self, contacts: &Contacts, cell: usize, own: u64) -> u32 {
         let stride = (self.columns + 2) as usize;
@@ -272,13 +273,13 @@ impl State {
         }
     }
 
-    /// Whether any sprite of a type of that bit may share a cell with any of the bits.
+    /// Tests whether any sprite with this bit may share a cell with any of `others`.
     #[inline]
     pub(crate) fn may_meet(&self, own: u64, others: u64) -> bool {
         self.meets[own.trailing_zeros() as usize] & others != 0 || self.big_bits & (own | others) != 0
     }
 
-    /// Notes the cells that a sprite covers that is larger than one.
+    /// Notes the cells that a large sprite covers.
     pub(crate) fn cover(&mut self, kind: &Kind, slot: Slot) {
         let mut covered = std::mem::take(&mut self.covered);
         covered.resize(self.cells.len(), 0);
@@ -288,7 +289,7 @@ impl State {
         self.covered = covered;
     }
 
-    /// Forgets the cells that large sprites have left, once they have left so many that it pays.
+    /// Recomputes the cells that large sprites cover, once they have left enough of them to make it worthwhile.
     #[inline]
     pub(crate) fn tidy_covered(&mut self, rules: &Rules) {
         if self.left_behind as usize > 4 * self.big as usize + self.cells.len() / 16 {
@@ -317,14 +318,14 @@ impl State {
         }
     }
 
-    /// The first sprite of the type that is larger than a cell.
+    /// Notes that a type has its first sprite larger than a cell.
     pub(crate) fn enlarged(&mut self, contacts: &Contacts, stype: usize) {
         for &pass in &contacts.of_type[stype] {
             self.allow(pass);
         }
     }
 
-    /// There is no such sprite any more.
+    /// Notes that a type has no such sprite any more.
     pub(crate) fn reduced(&mut self, contacts: &Contacts, stype: usize) {
         for &pass in &contacts.of_type[stype] {
             self.forbid(pass);
@@ -345,7 +346,7 @@ impl State {
         }
     }
 
-    /// The first pass from `from` on that can do something.
+    /// The first possible pass from `from` on.
     pub(crate) fn next_possible(&self, from: usize) -> Option<usize> {
         let mut word = from / 64;
         let mut bits = self.possible.get(word)? & (u64::MAX << (from % 64));
@@ -356,7 +357,7 @@ impl State {
         Some(word * 64 + bits.trailing_zeros() as usize)
     }
 
-    /// The same, computed from nothing: what tests hold the running counts against. Cost: O(sprites).
+    /// The same tables, computed from scratch: tests compare the incremental ones with these. Cost: O(sprites).
     pub(crate) fn contacts_from_scratch(&self, rules: &Rules) -> State {
         let mut state = self.clone();
         state.cells.fill(NONE);

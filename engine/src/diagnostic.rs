@@ -1,10 +1,10 @@
-//! What can be wrong with a VGDL file, as plain data; `cli` renders it.
+//! The problems that a VGDL file can have, as plain data; `cli` renders them.
 
 use crate::limits::MAX_PROBLEMS;
 use serde::Serialize;
 use std::fmt;
 
-/// A range of bytes in a source text. The default span is "nowhere": made, not read.
+/// A range of bytes in a source text. The default span marks generated nodes, which have no source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize)]
 pub struct Span {
     /// First byte.
@@ -20,30 +20,30 @@ impl Span {
     }
 }
 
-/// How bad it is.
+/// The severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// The file does not make a game or level.
     Error,
-    /// Legal, but surely not meant.
+    /// The file is legal, but surely not as intended.
     Warning,
 }
 
-/// One problem: a stable code, where it is, what is wrong, and the next move.
+/// One problem: a stable code, a place, a message and the next step.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnostic {
-    /// Stable, kebab-case: `unknown-sprite`.
+    /// The stable code, in kebab-case: `unknown-sprite`.
     pub code: &'static str,
     /// Error or warning.
     pub severity: Severity,
-    /// What is wrong, naming the thing; lower-case, no full stop.
+    /// The message, which names the faulty word; lower-case, no full stop.
     pub message: String,
-    /// Where.
+    /// The place.
     pub span: Span,
-    /// What to write under the caret; may be empty.
+    /// The text under the caret; may be empty.
     pub label: String,
-    /// The next move, if there is a likely one.
+    /// The suggested next step, if there is one.
     pub help: Option<String>,
 }
 
@@ -59,17 +59,17 @@ impl Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, span, message) }
     }
 
-    /// With words under the caret.
+    /// Sets the text under the caret.
     pub fn label(self, label: impl Into<String>) -> Diagnostic {
         Diagnostic { label: label.into(), ..self }
     }
 
-    /// With the next move.
+    /// Sets the suggested next step.
     pub fn help(self, help: impl Into<String>) -> Diagnostic {
         Diagnostic { help: Some(help.into()), ..self }
     }
 
-    /// [`Diagnostic::suggest`] for those of a list that are shown; for the others nothing is looked up.
+    /// [`Diagnostic::suggest`] for the problems of a list that will be shown; for the others nothing is looked up.
     pub(crate) fn suggest_after<'a>(
         self,
         found: usize,
@@ -79,7 +79,7 @@ impl Diagnostic {
         if found < MAX_PROBLEMS { self.suggest(wrong, candidates) } else { self }
     }
 
-    /// With "did you mean" if one of `candidates` is close to `wrong`.
+    /// Adds "did you mean" if one of `candidates` is close to `wrong`.
     pub fn suggest<'a>(self, wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Diagnostic {
         match nearest(wrong, candidates) {
             Some(name) => self.help(format!("did you mean `{name}`?")),
@@ -88,7 +88,7 @@ impl Diagnostic {
     }
 }
 
-/// The candidate that `wrong` most likely stands for: with the same words in another order, or few letters off.
+/// The candidate that `wrong` most likely stands for: the same words in another order, or a few letters off.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (key, parts) = (wrong.to_lowercase(), words(wrong));
     let length = key.chars().count();
@@ -100,7 +100,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
     };
     candidates
         .into_iter()
-        // The distance is at least the difference in length, which costs less to know.
+        // The distance is at least the difference in length, which is cheaper to compute.
         .filter(|name| name.chars().count().abs_diff(length) <= near(name) || same_words(name))
         .map(|name| (distance(name), name))
         .filter(|&(distance, name)| distance <= near(name))
@@ -126,14 +126,14 @@ fn words(name: &str) -> Vec<String> {
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// Sorted by place.
+    /// Sorts the problems by place.
     pub fn sorted(mut list: Vec<Diagnostic>) -> Diagnostics {
         list.sort_by(|a, b| (a.span, a.code).cmp(&(b.span, b.code)));
         list.dedup();
         Diagnostics(list)
     }
 
-    /// The first [`MAX_PROBLEMS`], and how many more there are; `end` is the end of the text.
+    /// Keeps the first [`MAX_PROBLEMS`] and adds the number of the others; `end` is the end of the text.
     pub(crate) fn shortened(mut self, end: usize) -> Diagnostics {
         let Some(rest) = self.0.len().checked_sub(MAX_PROBLEMS).filter(|&rest| rest > 0) else { return self };
         let severity = self.0.iter().map(|problem| problem.severity).min().unwrap_or(Severity::Error);
@@ -145,7 +145,7 @@ impl Diagnostics {
         self
     }
 
-    /// Whether `list` holds an error.
+    /// Tests whether `list` contains an error.
     pub fn has_errors(list: &[Diagnostic]) -> bool {
         list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
@@ -174,7 +174,7 @@ pub fn line_and_column(source: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// Where the line of byte `offset` starts.
+/// The start of the line that contains byte `offset`.
 pub(crate) fn line_start(source: &str, offset: usize) -> usize {
     let before = &source.as_bytes()[..offset.min(source.len())];
     before.iter().rposition(|byte| b"\n\r".contains(byte)).map_or(0, |newline| newline + 1)

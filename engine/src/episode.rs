@@ -1,12 +1,12 @@
-//! An episode: what was played, and enough to replay and check it bit for bit.
+//! Episodes: recorded play that can be replayed and checked bit for bit.
 
 use crate::game::{Action, Game, Outcome};
 use crate::level::Level;
 use crate::{Digest, Seed, State, StateHash};
 use serde::{Deserialize, Serialize};
 
-/// Actions and what they led to. Serves as a validator's witness, an evaluation's log and a golden trace alike: all
-/// three are checked by [`Episode::replay`].
+/// The actions of an episode and their results. It serves as a validator's witness, an evaluation's log and a golden
+/// trace alike: all three are checked by [`Episode::replay`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Episode {
@@ -14,67 +14,67 @@ pub struct Episode {
     pub game: Digest,
     /// The level's digest.
     pub level: Digest,
-    /// Decides the game's chance.
+    /// The seed of the game's random numbers.
     pub seed: Seed,
     /// One action a tick.
     pub actions: Vec<Action>,
     /// The state hash after each tick.
     pub hashes: Vec<StateHash>,
-    /// How it stood in the end.
+    /// The final outcome.
     pub outcome: Outcome,
-    /// The score in the end.
+    /// The final score.
     pub score: f64,
 }
 
-/// Where a replay left the record.
+/// The first difference between a replay and the record.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Divergence {
     /// The record is of another game.
     #[error("the episode was recorded on game {recorded}, not on {given}")]
     Game {
-        /// In the record.
+        /// The value in the record.
         recorded: Digest,
-        /// The one it was replayed on.
+        /// The digest given to the replay.
         given: Digest,
     },
     /// The record is of another level.
     #[error("the episode was recorded on level {recorded}, not on {given}")]
     Level {
-        /// In the record.
+        /// The value in the record.
         recorded: Digest,
-        /// The one it was replayed on.
+        /// The digest given to the replay.
         given: Digest,
     },
-    /// Actions and hashes do not go together.
+    /// The numbers of actions and hashes differ.
     #[error("the episode has {actions} actions but {hashes} state hashes")]
     Lengths {
-        /// How many actions.
+        /// The number of actions.
         actions: usize,
-        /// How many hashes.
+        /// The number of hashes.
         hashes: usize,
     },
     /// A state differs.
     #[error("the state after tick {tick} has hash {got}, the episode says {recorded}")]
     Hash {
-        /// Counted from 0.
+        /// The tick, counted from 0.
         tick: usize,
-        /// In the record.
+        /// The value in the record.
         recorded: StateHash,
-        /// Replayed.
+        /// The value in the replay.
         got: StateHash,
     },
-    /// The end differs.
+    /// The final outcome or score differs.
     #[error(
         "the episode ends {got:?} with score {score}, the record says {recorded:?} with {recorded_score}"
     )]
     End {
-        /// In the record.
+        /// The value in the record.
         recorded: Outcome,
-        /// In the record.
+        /// The value in the record.
         recorded_score: f64,
-        /// Replayed.
+        /// The value in the replay.
         got: Outcome,
-        /// Replayed.
+        /// The value in the replay.
         score: f64,
     },
 }

@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 
 impl Step<'_> {
     pub(crate) fn events(&mut self, watch: &mut impl Watch) {
-        // What moves now is moved by an effect.
+        // From here on, effects move sprites.
         self.bumps = false;
         if !self.state.timers.is_empty() {
             self.timers(watch);
@@ -51,7 +51,7 @@ impl Step<'_> {
         }
     }
 
-    /// Effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
+    /// Runs the effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
     fn timers(&mut self, watch: &mut impl Watch) {
         while let Some(&Timer { due, timed: number }) = self.state.timers.last() {
             if due > self.state.tick {
@@ -59,7 +59,7 @@ impl Step<'_> {
             }
             self.state.timers.pop();
             self.rouse_all();
-            // Also for those that find no sprite: one that repeats at once would never end.
+            // Counts also if there is no sprite: a timer that repeats at once would never end.
             self.work_of_effect();
             let timed = &self.rules.timed[usize::from(number)];
             match timed.target {
@@ -82,13 +82,14 @@ impl Step<'_> {
         }
     }
 
-    /// [`State::plan`](crate::State::plan), which moves timers along in memory.
+    /// Calls [`State::plan`](crate::State::plan), and counts the work of shifting timers in memory.
     pub(crate) fn plan(&mut self, timer: Timer) {
         self.work(self.state.timers.len() / 64);
         self.state.plan(timer);
     }
 
-    /// A timed effect on every sprite of a type and its relatives; the score is the line's own, whatever the effect did.
+    /// Runs a timed effect on every sprite of a type and its relatives; the score change is the line's own, whatever the
+    /// effect did.
     fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut impl Watch) {
         let rules = self.rules;
         let info = &rules.effects[usize::from(timed.effect)];
@@ -116,7 +117,7 @@ impl Step<'_> {
         }
     }
 
-    /// What an execution adds to score and counters; `remembered` says what applies.
+    /// Adds the result of an execution to score and counters; `remembered` tells which parts apply.
     fn credit(&mut self, info: &EffectInfo, remembered: u8, times: i32) {
         self.score(info, remembered, times);
         if let Some(counting) = &info.counting {
@@ -153,8 +154,8 @@ impl Step<'_> {
         }
     }
 
-    /// Every sprite of the tree that is not wholly on the screen. An effect that adds to the group being visited ends
-    /// that visit, with a message.
+    /// Visits every sprite of the tree that is not wholly on the screen. An effect that adds to the group being visited
+    /// ends that visit, with a message.
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut impl Watch) {
         let rules = self.rules;
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
@@ -191,7 +192,7 @@ impl Step<'_> {
         if !self.state.shields.is_empty() && effects::is_shielded(self, pass) {
             return;
         }
-        // Sprites made from here on by this pass do not take part in it.
+        // Sprites that this pass makes do not take part in it.
         let newborn = self.state.next_id;
         let size = |side: Side<'_>| {
             side.family.tree.iter().map(|&t| u32::from(self.state.group(t).count)).sum::<u32>()
@@ -272,7 +273,7 @@ impl Step<'_> {
         self.work(visited);
     }
 
-    /// The same meetings in the same order, found from the second side because it has fewer sprites.
+    /// Runs the same meetings in the same order, found from the second side because it has fewer sprites.
     fn visit_second_side(
         &mut self,
         pass: &Pass,
@@ -320,7 +321,7 @@ impl Step<'_> {
         }
     }
 
-    /// The second check before a hit counts: the first sprite is not dead and still there.
+    /// Checks once more before a hit counts: the first sprite is not dead and still there.
     fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut impl Watch) {
         if self.rules.types[self.state.sprite(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
@@ -352,7 +353,7 @@ impl Step<'_> {
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
-    /// Tells which sprites an execution is about to happen to.
+    /// Reports the sprites of an execution that is about to happen.
     #[cold]
     fn tell(&self, watch: &mut impl Watch, line: usize, one: Slot, two: Option<Slot>) {
         let first = self.state.present(one);
@@ -361,7 +362,7 @@ impl Step<'_> {
         watch.meeting(Meeting { line, first: first.stype, second, cell });
     }
 
-    /// All partners at once; the score counts as often as the effect says.
+    /// Executes an effect on all partners at once; the score counts as often as the effect says.
     fn execute_batch(&mut self, effect: u16, one: Slot, partners: &mut Partners, watch: &mut impl Watch) {
         let info = &self.rules.effects[usize::from(effect)];
         watch.interaction(info.line);
@@ -382,8 +383,8 @@ impl Step<'_> {
         self.credit(info, self.state.memory[usize::from(effect)], times);
     }
 
-    /// The partners of a sprite that notices what it stands on: testing a solid one just below it is what it notices.
-    /// Returns how many cells and sprites it looked at.
+    /// The partners of a sprite whose class detects the ground: testing a solid sprite just below it is how it detects
+    /// it. Returns the number of cells and sprites that it looked at.
     fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) -> usize {
         if !self.state.may_stand_on(second, self.state.sprite(slot), GROUND) {
             return 1;
@@ -398,7 +399,7 @@ impl Step<'_> {
         looked
     }
 
-    /// `spec/02` §2.5.
+    /// Detects solid ground below a sprite (`spec/02` §2.5).
     fn notice_ground(&mut self, one: Slot, two: Slot) {
         let (sprite, other) = (*self.state.sprite(one), *self.state.sprite(two));
         let solid = self.rules.types[other.stype.index()].traits.solid;
@@ -415,5 +416,5 @@ impl Step<'_> {
     }
 }
 
-/// Pixels below a sprite within which solid ground counts.
+/// The number of pixels below a sprite within which solid ground counts.
 const GROUND: i32 = 3;

@@ -1,14 +1,14 @@
-//! Sprites in flight: those that go straight on as long as nothing happens to them.
+//! Sprites in flight: sprites that move straight on as long as nothing happens to them.
 //!
-//! A car on its lane moves two pixels in every tick, and each tick does to it what the last one did; an invader moves in every
-//! third tick, and does nothing else but draw whether to drop something. So what moves like that is not updated:
-//! where it is follows from where it was and how long ago, and so does its share of the hash (`share.rs`). Only when it comes
-//! to cover other cells is it entered there, and in those ahead. Which rules are about sprites that share its cells is known
-//! all the while (`contacts.rs`), and whether it overlaps them is asked of where it is now. As soon as an effect is executed
-//! on it, or can reach it, it lands: it is an ordinary sprite again.
+//! A car on a road moves two pixels in every tick, and each tick repeats the last one; an invader moves in every third
+//! tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their position is extrapolated
+//! from an earlier position and the time since then, and so is their hash contribution (`share.rs`). A sprite is entered
+//! into other cells, and into those ahead, only when it is about to cover them. The rules that pair it with sprites in
+//! its cells are known all the while (`contacts.rs`), and overlap is tested with the extrapolated position. As soon as an
+//! effect is executed on it, or can reach it, it lands: it is an ordinary sprite again.
 //!
-//! Which types may fly is decided so that no one can tell the difference (`spec/01` §4): their movement draws nothing and counts
-//! nothing, and no other sprite looks for them. Those that draw go on drawing, and land when they have to do something.
+//! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and no other
+//! sprite looks for them. Producers that draw continue to draw, and land when they make something.
 
 use crate::game::Rules;
 use crate::geometry::Rect;
@@ -17,21 +17,21 @@ use crate::rest::mark;
 use crate::state::{Slot, Sprite, State, flag};
 use crate::step::Step;
 
-/// A sprite in flight, and the tick in which it comes to cover other cells.
+/// A sprite in flight, and the tick in which it is next entered into other cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Flight {
     pub(crate) slot: Slot,
     pub(crate) due: i32,
 }
 
-/// Pixels that a sprite is away from the board when it takes off, and that it moves at once, at most: far from where numbers
-/// overflow.
+/// The largest distance in pixels from the board at takeoff, and the largest distance of a single move: far from where
+/// numbers overflow.
 const FARTHEST: i32 = 1 << 16;
 const FASTEST: i32 = 1 << 15;
-/// Ticks between the moves of what flies, at most.
+/// The largest number of ticks between the moves of a sprite in flight.
 pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// Makes a sprite in flight as it was right after its last move up to a tick. Returns how far it moves at once.
+/// Advances a sprite in flight to its last move up to a tick. Returns the displacement of a move.
 fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
     let Sprite { rect, was, moved_at, .. } = *sprite;
     let (dx, dy) = (rect.x.wrapping_sub(was.0), rect.y.wrapping_sub(was.1));
@@ -45,7 +45,7 @@ fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
     (dx, dy)
 }
 
-/// Makes a sprite in flight as it is in a tick.
+/// Advances a sprite in flight to a tick.
 fn settle_in(sprite: &mut Sprite, tick: i32) {
     fly_to(sprite, tick);
     if sprite.moved_at != tick {
@@ -53,14 +53,14 @@ fn settle_in(sprite: &mut Sprite, tick: i32) {
     }
 }
 
-/// The tick of the move after so many more.
+/// The tick of the move after `moves` more moves.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
     let ticks = i32::from(sprite.period()).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)
 }
 
 impl State {
-    /// Where a sprite is, in flight or not; in the event phase and between steps.
+    /// The rectangle of a sprite, in flight or not; in the event phase and between steps.
     pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
         if !sprite.flies() {
             return sprite.rect;
@@ -70,7 +70,7 @@ impl State {
         sprite.rect
     }
 
-    /// A sprite as it is now, in flight or not; in the event phase and between steps.
+    /// The current values of a sprite, in flight or not; in the event phase and between steps.
     pub(crate) fn present(&self, slot: Slot) -> Sprite {
         let mut sprite = *self.sprite(slot);
         if sprite.flies() {
@@ -79,7 +79,7 @@ impl State {
         sprite
     }
 
-    /// Ends a flight: the sprite is as it would be after its update in `tick`.
+    /// Ends a flight: the sprite becomes what it would be after its update in `tick`.
     fn land(&mut self, rules: &Rules, slot: Slot, tick: i32) {
         let sprite = self.edit_motion(slot);
         settle_in(sprite, tick);
@@ -95,8 +95,8 @@ impl State {
         self.enter_anew(rules, slot, rect);
     }
 
-    /// Before the updates of a tick: those that are due come to their new cells. That is a little early for sprites whose
-    /// update comes later, but no one looks before the event phase.
+    /// Enters sprites in flight into their new cells if that is due, before the updates of a tick. This is a little early
+    /// for sprites whose update comes later, but nothing looks before the event phase.
     #[inline]
     pub(crate) fn fly(&mut self, rules: &Rules) {
         if self.tick >= self.next_due {
@@ -118,7 +118,8 @@ impl State {
         (self.flights, self.next_due) = (flights, next);
     }
 
-    /// Enters a sprite in flight where it will be after this tick's update. Returns when to do so again.
+    /// Enters a sprite in flight into the cells that it will cover after this tick's update. Returns the tick of the next
+    /// such change.
     fn hop(&mut self, rules: &Rules, slot: Slot) -> i32 {
         if !self.rests.is_empty() {
             self.touch(slot);
@@ -136,7 +137,7 @@ impl State {
         due
     }
 
-    /// Nothing flies any more. Between steps only.
+    /// Lands all sprites in flight. Between steps only.
     pub(crate) fn land_all(&mut self, rules: &Rules) {
         while let Some(flight) = self.flights.pop() {
             self.land(rules, flight.slot, self.tick);
@@ -146,7 +147,7 @@ impl State {
 }
 
 impl Step<'_> {
-    /// An effect is about to be executed on a sprite. Cost: O(sprites in flight), if it flies.
+    /// Lands a sprite on which an effect is about to be executed. Cost: O(sprites in flight), if it flies.
     #[inline]
     pub(crate) fn land_one(&mut self, slot: Slot) {
         if self.state.sprite(slot).flies() {
@@ -160,7 +161,7 @@ impl Step<'_> {
         self.state.land(self.rules, slot, self.state.tick);
     }
 
-    /// A sprite is about to be updated after all, in this tick.
+    /// Lands a sprite that is about to be updated in this tick.
     #[inline(never)]
     pub(crate) fn land_before_update(&mut self, slot: Slot) {
         self.strike_flight(slot);
@@ -180,7 +181,7 @@ impl Step<'_> {
         sprite.was = (sprite.rect.x, sprite.rect.y);
     }
 
-    /// Nothing flies any more. In the middle of the updates, those are a tick behind that are yet to be updated.
+    /// Lands all sprites in flight. In the middle of the updates, sprites that are yet to be updated are one tick behind.
     pub(crate) fn land_midway(&mut self) {
         let mut flights = std::mem::take(&mut self.state.flights);
         for flight in flights.drain(..) {
@@ -194,7 +195,8 @@ impl Step<'_> {
         self.state.next_due = i32::MAX;
     }
 
-    /// After a tick in which a sprite has moved by itself and nothing else happened to it: whether it flies from now on.
+    /// Starts a flight after a tick in which a sprite has moved by itself and nothing else happened to it. Returns
+    /// `false` if the sprite cannot fly.
     pub(crate) fn take_off(&mut self, slot: Slot) -> bool {
         let sprite = *self.state.sprite(slot);
         let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.was.0), sprite.rect.y.wrapping_sub(sprite.was.1));
@@ -262,7 +264,7 @@ BasicGame
             game.step_plainly(&mut plain, action, &mut ());
             assert_eq!(state.state_hash(), plain.state_hash(), "tick {tick}");
             assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game), "tick {tick}");
-            // With and without shares of earlier ticks.
+            // With and without hash contributions of earlier ticks.
             if tick % 3 == 0 {
                 state.settle_hash();
             }

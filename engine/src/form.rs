@@ -1,14 +1,15 @@
-//! What sprites of a type have in common until something happens to them: where they face, how fast and how healthy they are.
+//! Copy-on-write components of sprites: orientation, speed, health and other values that seldom differ from those of the
+//! type.
 //!
-//! Sprites share the form of their type, and have one of their own from the first change on. That keeps sprites small, and what
-//! copies of a state have to copy.
+//! Sprites share the component of their type, and get one of their own with the first change. This keeps sprites small
+//! and copies of a state cheap.
 
 use crate::game::{Rules, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
 use crate::state::{NONE, Slot, Sprite, State};
 
-/// What seldom changes of a sprite.
+/// The rarely changed values of a sprite: a copy-on-write component.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
     pub(crate) orientation: Direction,
@@ -17,30 +18,30 @@ pub(crate) struct Form {
     pub(crate) max_health: i32,
     /// Spawner: the tick of its first update, -1 before it.
     pub(crate) start: i32,
-    /// Spawners: what they make now; updateSpawnType changes it.
+    /// Spawners: the type that they make now; updateSpawnType changes it.
     pub(crate) spawns: SpriteType,
     /// Index into `State::extras`, or NONE.
     pub(crate) extra: u16,
-    /// Whose form it is; NONE for that of a type.
+    /// The sprite that owns the component; `NONE` for that of a type.
     pub(crate) holder: Slot,
 }
 
-/// What only few sprites have: those that turn, fall differently from their type, or pursue one target.
+/// Further values of the few sprites that turn, fall differently from their type, or pursue one target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Extra {
     pub(crate) holder: Slot,
     pub(crate) rotation: f64,
     pub(crate) gravity: f64,
-    /// CarAvatar: 0 or 1 in x. WizardAvatar: where it looks.
+    /// CarAvatar: 0 or 1 in x. WizardAvatar: the direction that it faces.
     pub(crate) facing: Direction,
     /// WizardAvatar: the tick of its last block.
     pub(crate) block_time: i32,
-    /// PathAltChaser: whom it pursues, and where it last knew a way to.
+    /// PathAltChaser: its target, and the last place to which it knew a path.
     pub(crate) target: Target,
     pub(crate) last_known: Option<(i32, i32)>,
 }
 
-/// Whom a PathAltChaser pursues. The reference keeps the object: a target that is gone is pursued where it was last.
+/// The target of a PathAltChaser. The reference keeps the object: a removed target is pursued at its last place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
     None,
@@ -49,7 +50,7 @@ pub(crate) enum Target {
 }
 
 impl State {
-    /// The form of a sprite, scenery included.
+    /// The component of a sprite, scenery included.
     #[inline(always)]
     pub(crate) fn form_of(&self, sprite: &Sprite) -> &Form {
         &self.forms[usize::from(sprite.form)]
@@ -60,14 +61,14 @@ impl State {
         self.form_of(self.sprite(slot))
     }
 
-    /// The form of a sprite, to be changed: its own from now on.
+    /// The component of a sprite for modification; copies it first if it is shared.
     #[inline]
     pub(crate) fn edit_form(&mut self, slot: Slot) -> &mut Form {
         let at = usize::from(self.edit(slot).form);
         if self.forms[at].holder == slot { &mut self.forms[at] } else { self.part_form(slot) }
     }
 
-    /// Gives a sprite a form of its own.
+    /// Gives a sprite a copy of its own.
     #[inline(never)]
     fn part_form(&mut self, slot: Slot) -> &mut Form {
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -80,19 +81,19 @@ impl State {
     #[inline(always)]
     pub(crate) fn face(&mut self, slot: Slot, direction: Direction) {
         let bits = |direction: Direction| (direction.x.to_bits(), direction.y.to_bits());
-        // Most keep facing where they face, and their share of the hash with it.
+        // Most sprites keep their orientation, and with it their hash contribution.
         if bits(self.form(slot).orientation) != bits(direction) {
             self.turn_to(slot, direction);
         }
     }
 
-    /// [`State::face`] of one that faces elsewhere.
+    /// The rest of [`State::face`], for a changed orientation.
     #[inline(never)]
     pub(crate) fn turn_to(&mut self, slot: Slot, direction: Direction) {
         self.edit_form(slot).orientation = direction;
     }
 
-    /// A sprite that goes gives back what is its own.
+    /// Releases the component and the extra that a sprite owns.
     pub(crate) fn release_form(&mut self, slot: Slot) {
         let at = self.sprite(slot).form;
         let Form { holder, extra, .. } = self.forms[usize::from(at)];
@@ -172,7 +173,8 @@ mod tests {
             state.recount(&game).unwrap();
             assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
         }
-        // First the car's, then that of the arrow that turns back at the wall, until it ends. The other one just ends.
+        // First the car's, then that of the arrow that turns back at the wall, until it is killed. The other arrow is
+        // killed at once.
         assert_eq!(forms, [0, 1, 2, 2, 1]);
     }
 }

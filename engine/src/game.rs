@@ -1,4 +1,4 @@
-//! A compiled game: immutable, valid, cheap to clone.
+//! A compiled game: immutable, valid and cheap to clone.
 
 use crate::bump::Barriers;
 use crate::contacts::Contacts;
@@ -25,16 +25,16 @@ use std::sync::{Arc, OnceLock};
 pub struct SpriteType(pub u16);
 
 impl SpriteType {
-    /// No type: what an undeclared name stands for, in games loaded as the reference does.
+    /// No type: the value of an undeclared name in games that are loaded as the reference does.
     pub(crate) const NONE: SpriteType = SpriteType(u16::MAX);
 
-    /// As an index into tables with one entry a type.
+    /// The index into tables with one entry per type.
     pub fn index(self) -> usize {
         usize::from(self.0)
     }
 }
 
-/// What a player can do in a tick.
+/// An action of a player in a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Action {
@@ -53,11 +53,11 @@ pub enum Action {
 }
 
 impl Action {
-    /// All, in their order.
+    /// All actions, in order.
     pub const ALL: [Action; 6] =
         [Action::Nil, Action::Up, Action::Left, Action::Down, Action::Right, Action::Use];
 
-    /// The reference's spelling, `ACTION_LEFT`, as traces have it.
+    /// Parses the reference's spelling, `ACTION_LEFT`, which traces use.
     pub fn from_reference(name: &str) -> Option<Action> {
         let name = name.strip_prefix("ACTION_")?;
         Action::ALL.into_iter().find(|action| action.to_string().eq_ignore_ascii_case(name))
@@ -77,7 +77,7 @@ impl fmt::Display for Action {
     }
 }
 
-/// How an episode stands.
+/// The outcome of an episode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
@@ -89,11 +89,11 @@ pub enum Outcome {
     Lost,
     /// Over without a winner (too many messages, see `spec/01` §4.9).
     Ended,
-    /// The rules did what the reference engine dies of, or a limit was met.
+    /// The rules did something on which the reference engine crashes, or a limit was exceeded.
     Stopped(Limit),
 }
 
-/// Why an episode was stopped.
+/// The reason why an episode was stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Limit {
@@ -149,46 +149,47 @@ impl fmt::Display for Limit {
 #[derive(Clone, Debug)]
 pub(crate) struct TypeInfo {
     pub(crate) name: String,
-    /// None: a bare grouping node.
+    /// `None` for a bare grouping node.
     pub(crate) class: Option<SpriteClass>,
     pub(crate) traits: Traits,
     /// Ancestors from the root down, then the type itself.
     pub(crate) path: Box<[SpriteType]>,
-    /// Ancestors, the type, its descendants: what rules on this type apply to (`spec/01` §1.6.3).
+    /// Ancestors, the type and its descendants: the types that rules on this type apply to (`spec/01` §1.6.3).
     pub(crate) tree: Box<[SpriteType]>,
     /// The place of every type in `tree`, or `NOT_IN_TREE`; indexed by type.
     pub(crate) rank: Box<[u16]>,
-    /// Place in the update order; None for types whose sprites are never updated.
+    /// The place in the update order; `None` for types whose sprites are never updated.
     pub(crate) order: Option<u16>,
-    /// On its own line (`spec/01` §1.6.4).
+    /// The flag of its own line (`spec/01` §1.6.4).
     pub(crate) singleton: bool,
-    /// How many of it, as a resource, a sprite can hold.
+    /// The number of units of it, as a resource, that a sprite can hold.
     pub(crate) resource_limit: i32,
-    /// A leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
+    /// `true` for a leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
     pub(crate) leaf: bool,
-    /// A termination may count its sprites.
+    /// `true` if a termination may count its sprites.
     pub(crate) counted: bool,
-    /// Some effect can give speed to sprites that have none.
+    /// `true` if some effect can give speed to sprites that have none.
     pub(crate) given_speed: bool,
-    /// Lacks a parameter without which the reference dies of making such a sprite.
+    /// `true` if a parameter is missing without which the reference crashes when it makes such a sprite.
     pub(crate) incomplete: bool,
-    /// Messages that the reference logs when it makes the first sprite: parameters that the class does not have.
+    /// The number of messages that the reference logs when it makes the first sprite: one for each parameter that the
+    /// class does not have.
     pub(crate) unknown_parameters: u32,
-    /// Notices what it stands on when rules test what it meets.
+    /// `true` if its sprites detect the ground when rules test what they overlap.
     pub(crate) ground_aware: bool,
-    /// The first sprite of the type is not like later ones, which are copies: they have the size from the start, their
-    /// parameters have been complained of, and what they leave behind is wall.
+    /// `true` if the first sprite of the type differs from later ones, which are copies: they have the scaled size from
+    /// the start, their unknown parameters have been reported, and they leave walls behind.
     pub(crate) first_differs: bool,
-    /// What the player can do with it; [`Action::Nil`] alone if nothing.
+    /// The actions besides [`Action::Nil`] with it as the avatar; [`Action::Nil`] alone if there are none.
     pub(crate) actions: &'static [Action],
-    /// The same, a bit each.
+    /// The same actions as a bit mask.
     pub(crate) keys: u8,
 }
 
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
 
 impl TypeInfo {
-    /// Where teleportToExit leads from a sprite of this type (`spec/03` §8.3).
+    /// The type to which teleportToExit leads from a sprite of this type (`spec/03` §8.3).
     pub(crate) fn leads_to(&self) -> Option<SpriteType> {
         use SpriteClass as C;
         let class = self.class?;
@@ -197,12 +198,12 @@ impl TypeInfo {
         self.traits.stypes.first().copied().filter(|_| has)
     }
 
-    /// Whether its sprites are taken for avatars when a level starts.
+    /// Tests whether its sprites are taken for avatars when a level starts.
     pub(crate) fn is_like_avatar(&self) -> bool {
         self.traits.is_avatar || self.class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Whether the tree names a type twice: a type declared below itself does (`spec/01` §1.6.3).
+    /// Tests whether the tree names a type twice, as it does for a type that is declared below itself (`spec/01` §1.6.3).
     pub(crate) fn repeats(&self) -> bool {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
     }
@@ -212,26 +213,28 @@ impl TypeInfo {
     }
 }
 
-/// One interaction line, compiled. All its right-hand sprites share it and what it remembers.
+/// One compiled interaction line. All its right-hand sprites share it and its memory.
 #[derive(Clone, Debug)]
 pub(crate) struct EffectInfo {
     pub(crate) effect: Effect,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
-    /// `scoreChange` and `scoreChangeIfKilled` that are no numbers: 0, and a message each time.
+    /// `true` for each of `scoreChange` and `scoreChangeIfKilled` that is not a number: it counts 0 and costs a message
+    /// each time.
     pub(crate) score_faults: [bool; 2],
-    /// What an execution adds to the game's counters, if anything.
+    /// The changes of the game's counters by an execution, if there are any.
     pub(crate) counting: Option<Box<Counting>>,
-    /// Runs once on all partners of a sprite together.
+    /// `true` if it runs once on all partners of a sprite together.
     pub(crate) in_batch: bool,
-    /// The line runs by the clock as well, and its score and counters apply whatever the effect says as it runs.
+    /// `true` if the line also runs by the clock, and its score and counters apply whatever the effect decides as it
+    /// runs.
     pub(crate) steady: bool,
     /// Index of the line in the description.
     pub(crate) line: usize,
 }
 
-/// `counter` and `counterElse` of a line (`spec/03` §3): an amount for each counter of the game; None for a text that is
-/// no number, which counts 0 and is a message each time.
+/// `counter` and `counterElse` of a line (`spec/03` §3): an amount for each counter of the game; `None` for a text that
+/// is not a number, which counts 0 and costs a message each time.
 #[derive(Clone, Debug)]
 pub(crate) struct Counting {
     pub(crate) count: bool,
@@ -241,7 +244,7 @@ pub(crate) struct Counting {
 }
 
 impl EffectInfo {
-    /// What the effect remembers at the start; see [`memory`].
+    /// The initial memory of the effect; see [`memory`].
     pub(crate) fn initial_memory(&self) -> u8 {
         let off = |counts: fn(&Counting) -> bool| self.counting.as_deref().is_some_and(|c| !counts(c));
         let bits = [
@@ -256,16 +259,16 @@ impl EffectInfo {
 /// An effect that runs by the clock: written with TIME, or planned by addTimer (`spec/03` §6).
 #[derive(Clone, Debug)]
 pub(crate) struct Timed {
-    /// The effect, with the memory of its own.
+    /// The effect, with a memory of its own.
     pub(crate) effect: u16,
-    /// On which sprites; None: once, on none.
+    /// The type of the sprites on which it runs; `None` to run once, on no sprite.
     pub(crate) target: Option<SpriteType>,
-    /// Ticks from planning to running.
+    /// The number of ticks from planning to running.
     pub(crate) timer: i32,
     pub(crate) repeating: bool,
-    /// The tick of the first run; None if addTimer plans it.
+    /// The tick of the first run; `None` if addTimer plans it.
     pub(crate) first_due: Option<i32>,
-    /// The effect whose line says what the score changes by: itself, or the addTimer.
+    /// The effect whose line sets the score change: this one, or the addTimer.
     pub(crate) wrapper: u16,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
@@ -278,92 +281,92 @@ pub(crate) struct Pass {
     pub(crate) first: SpriteType,
     pub(crate) second: SpriteType,
     pub(crate) effect: u16,
-    /// The effect's place among the keywords, for shields.
+    /// The number of the effect's keyword, for shields.
     pub(crate) keyword: u16,
-    /// The second tree names a type twice: its sprites are met twice.
+    /// `true` if the second tree names a type twice: its sprites are met twice.
     pub(crate) repeats: bool,
-    /// Hits can be found from the second side: executing the effect moves nothing that a later hit depends on.
+    /// `true` if hits can be found from the second side: executing the effect moves nothing that a later hit depends on.
     pub(crate) either_side: bool,
 }
 
-/// Everything that a game file says, resolved.
+/// The resolved contents of a game file.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
     pub(crate) description: Description,
     pub(crate) digest: Digest,
-    /// What the text alone warns of.
+    /// The warnings about the text alone.
     pub(crate) warnings: Vec<Diagnostic>,
-    /// Those and what the meaning of the rules warns of; found when first asked for.
+    /// All warnings, including those about the meaning of the rules; computed on first use.
     pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,
-    /// Loaded as the reference does: levels are, too.
+    /// `true` if the game was loaded as the reference does: its levels are loaded in the same way.
     pub(crate) as_reference: bool,
-    /// Messages that the reference has logged when the rules are loaded.
+    /// The number of messages that the reference has logged when the rules are loaded.
     pub(crate) messages: u32,
-    /// Pixels of a cell, if the game says so.
+    /// The size of a cell in pixels, if the game sets it.
     pub(crate) square_size: Option<i32>,
     /// `no_counters=`.
     pub(crate) counters: usize,
-    /// What terminations say of the flag that lets counters end the game: `canEnd=`.
+    /// The flag that lets counters end the game, as the terminations set it: `canEnd=`.
     pub(crate) can_end: bool,
     pub(crate) types: Vec<TypeInfo>,
-    /// By type: its sprites as they are made.
+    /// By type: the prototype of its sprites.
     pub(crate) models: Vec<Sprite>,
-    /// By type: their form.
+    /// By type: the shared component of its sprites.
     pub(crate) forms: Vec<Form>,
     /// Drawing order; updates go through it backwards.
     pub(crate) order: Vec<SpriteType>,
     /// Types whose update does something, in update order.
     pub(crate) movers: Vec<Mover>,
-    /// By type: whether anything but its own line, its parents' and the LevelMapping speaks of it.
+    /// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it.
     pub(crate) spoken_of: Vec<bool>,
-    /// By type: whether its sprites are scenery (`scenery.rs`).
+    /// By type: `true` if its sprites are scenery (`scenery.rs`).
     pub(crate) scenery: Vec<bool>,
-    /// By ASCII code.
+    /// The sprites that each character places, by ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
-    /// Level characters that stand for an undeclared sprite: the reference dies of a level that uses one.
+    /// Level characters that stand for an undeclared sprite: the reference crashes on a level that uses one.
     pub(crate) unusable: BTreeSet<char>,
     pub(crate) effects: Vec<EffectInfo>,
     /// Edge-of-screen passes, repeats expanded: the type and the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,
-    /// One of them is about an undeclared type: the reference dies of it in the first tick.
+    /// `true` if one of them names an undeclared type: the reference crashes in the first tick.
     pub(crate) undeclared_at_edge: bool,
     pub(crate) passes: Vec<Pass>,
-    /// Which passes can do something, by what stands together.
+    /// The tables of possible passes, by the types that share cells.
     pub(crate) contacts: Contacts,
     /// By type.
     pub(crate) foresight: Vec<Foresight>,
-    /// Whether sprites of some type may rest, and fly.
+    /// `true` if sprites of some type may sleep, and if some may fly.
     pub(crate) any_rests: bool,
     pub(crate) any_flies: bool,
     /// By type.
     pub(crate) barriers: Vec<Barriers>,
-    /// Whether any type has some.
+    /// `true` if any type has barriers.
     pub(crate) any_barriers: bool,
     pub(crate) timed: Vec<Timed>,
-    /// The game has `obs=`, and with it path finding.
+    /// `true` if the game has `obs=`, and thereby path finding.
     pub(crate) finds_paths: bool,
-    /// `obs=`: types that path finding goes around.
+    /// `obs=`: the types that paths avoid.
     pub(crate) obstacles: Vec<SpriteType>,
     pub(crate) terminations: Vec<Termination>,
-    /// Whether anything can draw from the chance.
+    /// `true` if anything can draw random numbers.
     pub(crate) draws: bool,
-    /// Whether anything reads the tick, apart from the reference's own limit.
+    /// `true` if anything reads the tick, apart from the reference's own limit.
     pub(crate) reads_tick: bool,
     /// The first tick in which a Timeout holds.
     pub(crate) first_timeout: i32,
-    /// Whether a termination reads the counters.
+    /// `true` if a termination reads the counters.
     pub(crate) reads_counters: bool,
-    /// Whether a termination reads the score.
+    /// `true` if a termination reads the score.
     pub(crate) reads_score: bool,
     /// The largest sprite, in cells, rounded up.
     pub(crate) reach: i32,
-    /// Cooldowns of spawners: those made later fire at ticks that are multiples of them.
+    /// The cooldowns of spawners: spawners that are made later fire at ticks that are multiples of these.
     pub(crate) clocks: Vec<i32>,
-    /// Ticks before which wizards, those made later included, make no block.
+    /// The ticks before which wizards, those made later included, make no block.
     pub(crate) wizard_ticks: Vec<i32>,
-    /// Whether the first sprite of some type can differ from later ones.
+    /// `true` if the first sprite of some type can differ from later ones.
     pub(crate) first_differs: bool,
-    /// Effects that may credit by what an earlier execution of theirs found.
+    /// The effects whose score may depend on an earlier execution of theirs.
     pub(crate) remembering: Vec<u16>,
 }
 
@@ -391,7 +394,7 @@ impl Game {
                 rules.warnings = causes::told(read, rules.warnings, source).0;
                 Ok(Game(Arc::new(rules)))
             }
-            // What does compile may have problems too; one run should show them all.
+            // A description that compiles may have problems too; one run should show all problems.
             compiled => {
                 let compiled = compiled.err().map_or(Vec::new(), |problems| problems.0);
                 Err(causes::told(read, compiled, source))
@@ -410,10 +413,10 @@ impl Game {
     }
 
     /// Parses and compiles as the reference does: it drops, ignores or overlooks faults where it can, and counts messages
-    /// (`spec/01` §1). For comparing with it; everywhere else an error is an error.
+    /// (`spec/01` §1). For comparisons with the reference; everywhere else an error is an error.
     ///
     /// # Errors
-    /// What the reference dies of.
+    /// The fault on which the reference crashes.
     pub fn from_source_as_reference(source: &str) -> Result<Game, Diagnostics> {
         let (description, problems) = crate::syntax::parse_as_reference(source);
         if Diagnostics::has_errors(&problems) {
@@ -422,7 +425,8 @@ impl Game {
         crate::compile::compile_as_reference(&description).map(|rules| Game(Arc::new(rules)))
     }
 
-    /// What is legal in the file but surely not meant, sorted by place; nothing for games loaded as the reference does.
+    /// The warnings: parts of the file that are legal but surely not intended, sorted by place. Empty for games that are
+    /// loaded as the reference does.
     ///
     /// Cost: the first call analyses the rules ([`Analysis::of`](crate::Analysis::of)).
     pub fn warnings(&self) -> &[Diagnostic] {
@@ -432,17 +436,17 @@ impl Game {
         })
     }
 
-    /// What the player can do now, besides nothing: sorted; only [`Action::Nil`] without an avatar.
+    /// The available actions besides [`Action::Nil`], sorted; [`Action::Nil`] alone if there is no avatar.
     pub fn actions(&self, state: &State) -> &'static [Action] {
         state.avatar_type().map_or(&[Action::Nil], |stype| self.0.types[stype.index()].actions)
     }
 
-    /// Whether that is among [`Game::actions`].
+    /// Tests whether an action is among [`Game::actions`].
     pub(crate) fn allows(&self, state: &State, action: Action) -> bool {
         state.avatar_type().is_some_and(|stype| self.0.types[stype.index()].keys >> action as u8 & 1 != 0)
     }
 
-    /// What the player can do, besides nothing, as an avatar of that type: sorted.
+    /// The actions besides [`Action::Nil`] of an avatar of that type, sorted.
     pub fn actions_of(&self, avatar: SpriteType) -> &'static [Action] {
         self.0.types[avatar.index()].actions
     }
@@ -452,7 +456,7 @@ impl Game {
         (0..self.0.types.len() as u16).map(SpriteType)
     }
 
-    /// The name of a type; that of an undeclared one, which games loaded as the reference does may count, is `#-1`.
+    /// The name of a type; `#-1` for an undeclared type, which games loaded as the reference does may count.
     pub fn name(&self, stype: SpriteType) -> &str {
         self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)
     }
@@ -462,18 +466,18 @@ impl Game {
         self.sprite_types().find(|&stype| self.name(stype) == name)
     }
 
-    /// The class of a type; none for bare grouping nodes.
+    /// The class of a type; `None` for bare grouping nodes.
     pub fn class(&self, stype: SpriteType) -> Option<SpriteClass> {
         self.0.types[stype.index()].class
     }
 
-    /// Where new sprites of a type face, written, inherited or by their class; [`Direction::NONE`] for what faces nowhere,
-    /// [`Direction::NIL`] for what draws it.
+    /// The initial orientation of a type's sprites, written, inherited or set by their class; [`Direction::NONE`] for
+    /// none, [`Direction::NIL`] for sprites that draw it.
     pub fn orientation(&self, stype: SpriteType) -> Direction {
         self.0.types[stype.index()].traits.orientation
     }
 
-    /// Whether chance plays no part: the same actions always give the same episode.
+    /// Returns `true` if the game draws no random numbers: the same actions always give the same episode.
     pub fn is_deterministic(&self) -> bool {
         !self.0.draws
     }

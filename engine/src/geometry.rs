@@ -14,7 +14,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// Whether the two share positive area; empty rectangles never do.
+    /// Tests whether the two share positive area; empty rectangles never do.
     pub fn intersects(self, other: Rect) -> bool {
         self.w > 0
             && self.h > 0
@@ -26,7 +26,7 @@ impl Rect {
             && other.y < self.y.saturating_add(self.h)
     }
 
-    /// Whether `other`, not empty, lies wholly inside.
+    /// Tests whether `other` is not empty and lies wholly inside.
     pub fn contains(self, other: Rect) -> bool {
         other.w > 0
             && other.h > 0
@@ -36,7 +36,7 @@ impl Rect {
             && other.y.saturating_add(other.h) <= self.y.saturating_add(self.h)
     }
 
-    /// The same size at another corner.
+    /// A rectangle of the same size at another corner.
     pub fn at(self, x: i32, y: i32) -> Rect {
         Rect { x, y, ..self }
     }
@@ -50,9 +50,9 @@ impl Rect {
 /// A direction or displacement. Equality is that of the components, so −0.0 equals 0.0.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Direction {
-    /// Rightwards.
+    /// The horizontal component; positive is right.
     pub x: f64,
-    /// Downwards.
+    /// The vertical component; positive is down.
     pub y: f64,
 }
 
@@ -72,7 +72,7 @@ impl Direction {
     /// The order of every random choice and every loop over directions.
     pub const BASE: [Direction; 4] = [Direction::UP, Direction::LEFT, Direction::DOWN, Direction::RIGHT];
 
-    /// Unit length; zero stays zero.
+    /// The direction with unit length; zero stays zero.
     pub fn normalised(self) -> Direction {
         let length = (self.x * self.x + self.y * self.y).sqrt();
         if length == 0.0 { Direction::NONE } else { Direction { x: self.x / length, y: self.y / length } }

@@ -1,8 +1,8 @@
 //! The two hashes of a state, 128 bits each (`design.md` §4).
 //!
-//! [`State::state_hash`] covers all that can influence the future, chance and tick included. It is a sum over the sprites
-//! that `step` keeps up to date as they change, plus a hash of the few numbers beside them.
-//! [`State::search_key`] covers live behaviour only and is what transposition tables use (`search_key.rs`).
+//! [`State::state_hash`] covers everything that can influence the future, including the random number generator and the
+//! tick. It is a sum over the sprites that `step` keeps up to date as they change, plus a hash of the few numbers beside
+//! them. [`State::search_key`] covers live behaviour only, for transposition tables (`search_key.rs`).
 
 use crate::form::{Extra, Target};
 use crate::game::Game;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::fmt;
 
-/// What is sorted before it is hashed; seldom more than a few.
+/// A short list that is sorted before it is hashed.
 type Few<T> = SmallVec<[T; 4]>;
 
 macro_rules! hash_type {
@@ -51,15 +51,16 @@ macro_rules! hash_type {
 }
 
 hash_type! {
-    /// Equal states have equal hashes; what is only picture or book-keeping is left out.
+    /// A hash of a state. Equal states have equal hashes; values that only matter for pictures or bookkeeping are left
+    /// out.
     StateHash
 }
 hash_type! {
-    /// Equal keys mean equal keys, and equal outcomes, after any same actions.
+    /// A hash of live behaviour. States with equal keys have equal keys and outcomes after any same actions.
     SearchKey
 }
 
-/// Absorbs 64-bit words; two lanes of folded 128-bit products (the construction of wyhash, two secrets).
+/// Absorbs 64-bit words into two accumulators of folded 128-bit products (the construction of wyhash, with two secrets).
 pub(crate) struct Mixer {
     low: u64,
     high: u64,
@@ -94,13 +95,13 @@ pub(crate) fn two(a: i32, b: i32) -> u64 {
     u64::from(a as u32) << 32 | u64::from(b as u32)
 }
 
-/// The bits of a double; what is no number has other bits on other machines.
+/// The bits of a double. NaN has different bits on different machines, so it is replaced by one value.
 pub(crate) fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
 
-/// Sums of products of words with keys in them (after NH of Black and others, "UMAC: fast and secure message authentication",
-/// 1999): half the multiplications of [`Mixer`]. What comes out is to be mixed once more.
+/// Sums of products of words and keys (after NH of Black and others, "UMAC: fast and secure message authentication",
+/// 1999): half the multiplications of [`Mixer`]. The result has to be mixed once more.
 #[derive(Clone, Copy)]
 pub(crate) struct Products(u128);
 
@@ -118,7 +119,7 @@ impl Products {
     }
 }
 
-/// Keys of products, by their place: the fractions of the square roots of the first primes, as good as drawn.
+/// The keys of the products, by place: the fractions of the square roots of the first primes, as arbitrary constants.
 pub(crate) const KEYS: [[u64; 2]; 4] = [
     [0x6A09_E667_F3BC_C908, 0xBB67_AE85_84CA_A73B],
     [0x3C6E_F372_FE94_F82B, 0xA54F_F53A_5F1D_36F1],
@@ -127,7 +128,7 @@ pub(crate) const KEYS: [[u64; 2]; 4] = [
 ];
 
 impl State {
-    /// The hash of all that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
+    /// The hash of everything that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
     pub fn state_hash(&self) -> StateHash {
         let mut sum = self.tides.iter().fold(self.sum, |sum, tide| plus(sum, tide.at(self.tick)));
         for &slot in &self.stale {
@@ -139,10 +140,10 @@ impl State {
         self.with_globals(sum, memory)
     }
 
-    /// Renews the running sum, so that [`State::state_hash`] need not look at what changed since the last time.
+    /// Updates the running sum, so that [`State::state_hash`] does not have to look at earlier changes.
     ///
-    /// Stepping does not do so by itself: planners, which ask for few hashes, do not pay for all. Cost: O(sprites changed
-    /// since the last time).
+    /// Stepping does not do this by itself: planners, which ask for few hashes, do not pay for all of them. Cost:
+    /// O(sprites changed since the last time).
     pub fn settle_hash(&mut self) {
         let State { sprites, shares, stale, sum, tides, forms, resized, .. } = self;
         let (sprites, shares, mut running) = (&mut sprites[..], &mut shares[..], *sum);
@@ -166,7 +167,7 @@ impl State {
         }
     }
 
-    /// The same, computed from nothing: what tests hold [`State::state_hash`] against. Cost: O(sprites).
+    /// The same hash, computed from scratch: tests compare [`State::state_hash`] with it. Cost: O(sprites).
     pub fn state_hash_from_scratch(&self, game: &Game) -> StateHash {
         let slots = game.sprite_types().flat_map(|stype| self.slots(stype));
         let slots = slots.map(|slot| (slot, self.sprite(slot)));
@@ -176,7 +177,7 @@ impl State {
         self.with_globals(shares.fold([0; 2], plus), self.hash_memory())
     }
 
-    /// What effects remember, and of which types there was a sprite.
+    /// Hashes the memory of the effects and the types that have had a sprite.
     fn hash_memory(&self) -> u64 {
         let mut mixer = Mixer::new(0x4D65_6D6F);
         for bytes in [&self.memory, &self.templates] {

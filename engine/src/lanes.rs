@@ -1,7 +1,8 @@
-//! The lanes of what flies: in which cells it is entered, and for how many moves that will do.
+//! Swept cells of sprites in flight: the cells in which a sprite is entered, and the number of moves for which they
+//! suffice.
 //!
-//! One that goes along an axis is entered in two cells, where it is and ahead of it, so that it comes to other ones half as often.
-//! Who looks for it there looks at where it is.
+//! A sprite that moves along an axis is entered in two cells, its current one and the next one, so that its cells change
+//! half as often. Tests for overlap use its actual position.
 
 use crate::game::Rules;
 use crate::geometry::Rect;
@@ -9,7 +10,7 @@ use crate::occupancy::Located;
 use crate::state::{Slot, Sprite, State, flag};
 
 impl State {
-    /// For how many more moves by (`dx`, `dy`) a small sprite stays in the cells in which it lies, and as it lies in them.
+    /// The number of further moves by (`dx`, `dy`) that leave the cells of a small sprite unchanged.
     #[inline]
     pub(crate) fn moves_within(&self, sprite: &Sprite, dx: i32, dy: i32) -> i32 {
         let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
@@ -19,7 +20,7 @@ impl State {
             }
             let start = (cell - 1).wrapping_mul(self.block);
             match cell {
-                // Outside, and on the way further out.
+                // Off the board and moving further away.
                 0 if by < 0 && size <= at.wrapping_neg() => i32::MAX,
                 0 => 0,
                 cell if cell > cells => {
@@ -43,9 +44,10 @@ impl State {
         x.min(y)
     }
 
-    /// Enters a sprite in flight where it is now, and says for how many more moves by (`dx`, `dy`) that holds.
+    /// Enters a sprite in flight into its swept cells. Returns the number of further moves by (`dx`, `dy`) for which
+    /// these suffice.
     ///
-    /// A slow one is not entered ahead, if it would stand there for long beside what a rule pairs it with.
+    /// A slow sprite is not entered ahead if it would stay there for long beside a sprite that a rule pairs it with.
     #[inline(always)]
     pub(crate) fn enter_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> i32 {
         let (rect, from) = (self.sprite(slot).rect, self.located(slot));
@@ -67,8 +69,8 @@ impl State {
         sprite.period() != 1 && cells.any(|cell| kind.has_partners_among(self.masks[cell]))
     }
 
-    /// The same for one that is in two cells now, or in two and those beside them, and goes on to the second of them and the one
-    /// after that, as most do.
+    /// The common case of [`State::enter_lane`]: a sprite in two cells, or in two pairs of cells, goes on to the second
+    /// and the one after it. `None` in all other cases.
     #[inline(always)]
     pub(crate) fn enter_next_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> Option<i32> {
         let (block, stride) = (self.block, (self.columns + 2) as usize);
@@ -115,7 +117,8 @@ impl State {
         Some(if room < by { 0 } else { room / by })
     }
 
-    /// The two cells of [`State::enter_lane`], if both are on the board, and for how many moves the sprite stays in them.
+    /// The two swept cells of [`State::enter_lane`], if both are on the board, and the number of moves for which the
+    /// sprite stays in them.
     #[inline(always)]
     fn lane(&self, rect: Rect, exact: Located, dx: i32, dy: i32) -> Option<(Located, i32)> {
         let sized = rect.w > 0 && rect.h > 0;

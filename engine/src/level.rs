@@ -9,9 +9,9 @@ use crate::syntax::BYTE_ORDER_MARK;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Problems of one kind that are reported one by one.
+/// The maximum number of problems of one kind that are reported one by one.
 const MAX_REPEATS: usize = 10;
-/// In levels that are loaded as the reference does: a character without a mapping.
+/// A character without a mapping, in levels that are loaded as the reference does.
 const UNMAPPED: u8 = 0;
 
 /// A level that fits one game: row-major characters, every one in the game's LevelMapping or a blank.
@@ -21,7 +21,7 @@ pub struct Level {
     rows: usize,
     cells: Vec<u8>,
     warnings: Vec<Diagnostic>,
-    /// Messages that the reference logs when it builds the level.
+    /// The number of messages that the reference logs when it builds the level.
     pub(crate) messages: u32,
 }
 
@@ -41,7 +41,7 @@ impl Level {
         &self.cells
     }
 
-    /// What is legal but surely not meant.
+    /// The warnings: parts of the level that are legal but surely not intended.
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings
     }
@@ -63,7 +63,7 @@ impl fmt::Display for Level {
 }
 
 impl Game {
-    /// What a level character places, in order; empty for blanks and characters without a mapping.
+    /// The sprites that a level character places, in order; empty for blanks and characters without a mapping.
     pub fn places(&self, symbol: u8) -> &[SpriteType] {
         self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
     }
@@ -118,7 +118,7 @@ impl Game {
     }
 }
 
-/// What is known of the levels of a faulty game: as much as its LevelMapping and its SpriteSet tell.
+/// The rules for levels of a faulty game, as far as its LevelMapping and its SpriteSet are readable.
 #[derive(Clone, Debug)]
 pub struct LevelMapping {
     game: Game,
@@ -127,7 +127,7 @@ pub struct LevelMapping {
 }
 
 impl LevelMapping {
-    /// Reads the LevelMapping of a game that may have faults elsewhere; none if it cannot be read itself.
+    /// Reads the LevelMapping of a game that may have faults elsewhere; `None` if it cannot be read itself.
     pub fn of_source(source: &str) -> Option<LevelMapping> {
         let (description, Diagnostics(problems)) = crate::syntax::parse_all(source);
         let Outline { description, knows_characters, knows_avatars } = outline(&description, &problems)?;
@@ -135,14 +135,14 @@ impl LevelMapping {
         Some(LevelMapping { game, knows_characters, knows_avatars })
     }
 
-    /// The problems of a level's text that are certain, whatever is wrong with the game; sorted by place.
+    /// The certain problems of a level's text, whatever is wrong with the game; sorted by place.
     pub fn problems(&self, text: &str) -> Vec<Diagnostic> {
         let level = self.game.level(text);
         let mut problems = level.map_or_else(|problems| problems.0, |level| level.warnings);
         problems.retain(|problem| match problem.code {
             "undefined-character" => self.knows_characters,
             "no-avatar" | "extra-avatars" => self.knows_avatars,
-            // It has no terminations but one of its own.
+            // The substitute game has no terminations but one of its own.
             "ends-at-once" => false,
             _ => true,
         });
@@ -201,7 +201,7 @@ impl LevelReader<'_> {
         code
     }
 
-    /// Rows of another length than the first one; or that one, if all others are as long as each other.
+    /// Reports rows whose length differs from the first one's, or the first row if all others are equally long.
     fn tell_ragged(&mut self, lines: &[(usize, &str)], columns: usize) {
         let length = |line: &str| line.chars().count();
         let mut others = lines[1..].iter().map(|(_, line)| length(line));
@@ -218,7 +218,7 @@ impl LevelReader<'_> {
         }
         for &(start, line) in lines.iter().filter(|(_, line)| length(line) != columns) {
             let message = format!("this row has {} characters, the first one has {columns}", length(line));
-            // What is cut off, or the row that is too short.
+            // The part that is cut off, or the row that is too short.
             let (from, help) = match line.char_indices().nth(columns) {
                 Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first one"),
                 None => (0, "the rest is taken as blank: fill the row up, with blanks if they are meant"),
@@ -228,7 +228,7 @@ impl LevelReader<'_> {
         }
     }
 
-    /// Characters without a mapping, each with the one that was most likely meant.
+    /// Reports characters without a mapping, each with the character that was most likely meant.
     fn tell_undefined(&mut self, columns: usize, cells: &[u8]) {
         let unused: Vec<char> =
             self.mapped.iter().copied().filter(|&c| !cells.contains(&(c as u8))).collect();
@@ -238,7 +238,7 @@ impl LevelReader<'_> {
         let kinds = counts.len();
         let avatar = self.avatar_symbol().filter(|_| self.avatars.is_empty() && undefined.len() == 1);
         for (at, symbol, span) in undefined {
-            // Each is told of where it stands first.
+            // Each is reported at its first place.
             let Some(count) = counts.remove(&symbol) else { continue };
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
             let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
@@ -276,7 +276,7 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
-    /// Advice where no character of the LevelMapping places an avatar: the line that lacks it, with it.
+    /// Advice for a LevelMapping in which no character places an avatar: the missing line.
     fn lacking_avatar(&self) -> String {
         let description = &self.game.0.description;
         let is_avatar = |name: &str| {
@@ -295,7 +295,7 @@ impl LevelReader<'_> {
         )
     }
 
-    /// Whether a problem is reported once more, or was often enough.
+    /// Tests whether another problem of this kind is still to be reported.
     fn tells(&self, code: &str) -> bool {
         self.problems.iter().filter(|other| other.code == code).count() < MAX_REPEATS
     }
@@ -310,7 +310,7 @@ impl LevelReader<'_> {
         if !self.game.0.as_reference {
             self.tell_undefined(columns, &cells);
         }
-        // The reference refuses the surplus, with a message each.
+        // The reference rejects the surplus, with a message each.
         let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
         if self.sprites > most {
             let message = format!("the level places {} sprites; the limit is {most}", self.sprites);
@@ -350,7 +350,7 @@ impl LevelReader<'_> {
     }
 }
 
-/// The printable character that most of a cell's neighbours have; those beside it count twice.
+/// The most frequent printable character around a cell; orthogonal neighbours count twice.
 fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
     let (column, row) = ((at % columns) as isize, (at / columns) as isize);
     let mut weights = [0; 128];
@@ -368,7 +368,7 @@ fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
     (weights[usize::from(code)] > 0).then_some(char::from(code))
 }
 
-/// The lines of a level and where each starts; a final newline does not make another line.
+/// The lines of a level and the start of each; a final newline does not start another line.
 fn level_lines(text: &str) -> Vec<(usize, &str)> {
     let mut lines = Vec::new();
     let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
@@ -431,7 +431,7 @@ mod tests {
         check("MovingAvatar", "MovnigAvatar", "wXg\n", &both);
         check("stepBack", "stepBakc", "wAg\n", &[]);
         check("stepBack", "stepBakc", "AgA\nw\n", &["extra-avatars", "ragged-level"]);
-        // Who knows what the line was to place, or whether that moves.
+        // It is unknown what the line was to place, and whether that moves.
         check("A > avatar", "A avatar", "wXg\n", &[]);
         check("A > avatar", "A > avatr", "wXg\n", &["undefined-character"]);
         check("MovingAvatar", "Quux", "wXg\n", &["undefined-character"]);
@@ -457,7 +457,7 @@ mod tests {
             ragged.map(|warning| (warning.span.start, warning.span.end)).collect()
         };
         assert_eq!(places("wAg\nwwww\nw\n"), [(7, 8), (9, 10)]);
-        // The first row is the odd one.
+        // The first row differs.
         assert_eq!(places("wAg\nwwww\nwwww\n"), [(0, 3)]);
     }
 

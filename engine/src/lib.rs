@@ -98,5 +98,5 @@ pub use state::State;
 pub use step::{Meeting, Watch};
 pub use syntax::Description;
 
-/// Bumped when any golden trace moves: witnesses replay only under the same number.
+/// The version of the semantics, incremented when any golden trace changes: witnesses replay only under the same number.
 pub const SEMANTICS: u32 = 3;

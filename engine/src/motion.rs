@@ -1,4 +1,4 @@
-//! Operations on sprites that the ontology is written in: those that move them.
+//! The operations of the ontology that move sprites.
 
 use crate::bump::NEVER;
 use crate::game::Limit;
@@ -9,10 +9,10 @@ use crate::state::{Slot, Sprite, flag};
 use crate::step::Step;
 
 impl Step<'_> {
-    /// The reference's `lastmove`: ticks since the last move, as it stands in this tick's update or events.
+    /// The reference's `lastmove`: ticks since the last move, at this tick's update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
         let sprite = self.state.sprite(slot);
-        // The reference counts on beyond the largest number, too.
+        // The reference's counter overflows too.
         if sprite.is(flag::FROZEN) { sprite.moved_at } else { self.state.tick.wrapping_sub(sprite.moved_at) }
     }
 
@@ -22,7 +22,7 @@ impl Step<'_> {
         sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
     }
 
-    /// Puts a sprite somewhere else, size included.
+    /// Sets the rectangle of a sprite, size included.
     pub(crate) fn place(&mut self, slot: Slot, rect: Rect) {
         if rect.h == 0 {
             self.stop(Limit::FlatSprite);
@@ -41,11 +41,11 @@ impl Step<'_> {
         }
     }
 
-    /// The same in a game in which sprites rest.
+    /// The same in a game in which sprites sleep.
     fn place_noisily(&mut self, slot: Slot, rect: Rect, from: Located, to: Located) {
         let before = *self.state.sprite(slot);
         self.state.relocate_noisily(self.rules, slot, rect, from, to);
-        // Of a try it shows only at the end of the tick whether it changed anything.
+        // The sprite's own move may yet be undone: its effect is known only at the end of the tick.
         if !self.is_try(&before) {
             self.note_change(&before);
             let after = *self.state.sprite(slot);
@@ -54,7 +54,7 @@ impl Step<'_> {
         self.wake();
     }
 
-    /// Whether a move is the sprite's own try, or its way back from it: that is seen at the end of the tick.
+    /// Tests whether a move is the sprite's own move, or the step back from it, which are judged at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.rests
             && self.rules.foresight[sprite.stype.index()].rests
@@ -75,7 +75,7 @@ impl Step<'_> {
         self.state.set_last(slot, last);
     }
 
-    /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids.
+    /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids it.
     pub(crate) fn displace(&mut self, slot: Slot, direction: Direction, amount: i32) -> bool {
         if self.is_held_up(slot) {
             return false;
@@ -85,7 +85,7 @@ impl Step<'_> {
         true
     }
 
-    /// [`Step::displace`] along one of [`Direction::BASE`], by some pixels.
+    /// [`Step::displace`] along one of [`Direction::BASE`], by `amount` pixels.
     #[inline(always)]
     pub(crate) fn displace_along(&mut self, slot: Slot, base: usize, amount: i32) -> bool {
         if self.is_held_up(slot) {
@@ -99,7 +99,7 @@ impl Step<'_> {
         true
     }
 
-    /// Whether a sprite's cooldown forbids it to move.
+    /// Tests whether a sprite's cooldown prevents it from moving.
     #[inline(always)]
     fn is_held_up(&self, slot: Slot) -> bool {
         self.rules.types[self.state.sprite(slot).stype.index()].traits.cooldown > self.age(slot)
@@ -112,7 +112,7 @@ impl Step<'_> {
         }
     }
 
-    /// Moves a sprite to any place, as its own movement does.
+    /// Moves a sprite to any place, as part of its own movement.
     #[inline(never)]
     fn go(&mut self, slot: Slot, aim: Rect) {
         let sprite = self.state.sprite(slot);
@@ -122,7 +122,7 @@ impl Step<'_> {
             self.set_age(slot, 0);
             return;
         }
-        // The same in one go.
+        // The common case, without separate calls.
         self.state.sprites[usize::from(slot)].moved_at = self.state.tick;
         let (from, to) = self.state.locate_move(slot, aim);
         if self.bumps && self.bump(slot, aim, from, to) {
@@ -135,7 +135,7 @@ impl Step<'_> {
         }
     }
 
-    /// Where a displacement leads; None if it is none.
+    /// The rectangle after a displacement; `None` if it does not move.
     #[inline(always)]
     pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
         let sprite = self.state.sprite(slot);
@@ -144,7 +144,7 @@ impl Step<'_> {
             return None;
         }
         let rect = sprite.rect;
-        // Most directions are those of the grid.
+        // Most directions are grid directions.
         let shift = |component: f64| match component {
             0.0 => 0,
             1.0 => amount,
@@ -154,7 +154,7 @@ impl Step<'_> {
         Some(rect.at(rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y))))
     }
 
-    /// (x, y) of the displacement in this tick.
+    /// The displacement of a sprite in this tick.
     pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
         let Sprite { rect, was, .. } = *self.state.sprite(slot);
         Direction { x: f64::from(rect.x.wrapping_sub(was.0)), y: f64::from(rect.y.wrapping_sub(was.1)) }

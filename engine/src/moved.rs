@@ -1,6 +1,7 @@
-//! Where sprites were at the start of their own last update, which the reference remembers of each.
+//! The rectangles of sprites at the start of their own last update, which the reference stores in each sprite.
 //!
-//! A sprite holds its corner of then. Its size of then is its size now, but for those few that have been resized since.
+//! A sprite holds its earlier corner. Its earlier size equals its size, except for the few sprites that have been resized
+//! since.
 
 use crate::geometry::Rect;
 use crate::state::{Slot, Sprite, State, flag};
@@ -28,7 +29,7 @@ fn of_size_then(last: Rect, slot: Slot, resized: &[Resized]) -> Rect {
 }
 
 impl Sprite {
-    /// Whether it is where it was at the start of its own update in this tick, and as large.
+    /// Tests whether the sprite has the same place and size as at the start of its own update in this tick.
     #[inline]
     pub(crate) fn is_back(&self) -> bool {
         self.was == (self.rect.x, self.rect.y) && !self.is(flag::RESIZED)
@@ -42,7 +43,7 @@ impl State {
         last_of(self.sprite(slot), slot, &self.resized)
     }
 
-    /// Changes where a sprite was at the start of its own update in this tick: it counts as moved.
+    /// Sets the rectangle of a sprite at the start of its own update in this tick: it counts as moved.
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let (before, resized) = (sprite.flags, (sprite.rect.w, sprite.rect.h) != (last.w, last.h));
@@ -67,7 +68,7 @@ impl State {
         }
     }
 
-    /// Sprites that have gone have not moved.
+    /// Forgets the moves of released sprites.
     pub(crate) fn forget_moved(&mut self) {
         let State { moved, resized, sprites, .. } = self;
         let stays = |slot: Slot| !sprites[usize::from(slot)].is(flag::GONE);
@@ -77,8 +78,9 @@ impl State {
 }
 
 impl Step<'_> {
-    /// The last rectangle becomes the rectangle. The reference does so for every sprite before its own update; only
-    /// those that moved since can tell the difference, and nothing reads another's last rectangle before the events.
+    /// Makes the current rectangles the last rectangles. The reference does so for every sprite before its own update;
+    /// only sprites that have moved since show a difference, and nothing reads another sprite's last rectangle before the
+    /// events.
     #[inline]
     pub(crate) fn settle_moved(&mut self) {
         let State { sprites, moved, resized, .. } = &mut *self.state;
@@ -91,7 +93,7 @@ impl Step<'_> {
             } else if sprite.is_back() {
                 sprite.flags &= !flag::MOVED;
             } else {
-                // It goes on as having moved.
+                // It remains in the list of moved sprites.
                 frozen = true;
             }
         }
@@ -112,7 +114,7 @@ mod tests {
     use crate::game::Action;
     use crate::{Game, Seed};
 
-    /// A bud that opens is a flower of two cells, and has been a bud until the next update.
+    /// A bud that opens becomes a flower of two cells; its last rectangle is a bud's until the next update.
     const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    bud > Immovable\n    flower > Immovable wMult=2\n    avatar > MovingAvatar\n  \
                         LevelMapping\n    b > bud\n    f > flower\n    A > avatar\n  InteractionSet\n    bud avatar > transformTo stype=flower\n    \
                         avatar EOS > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";

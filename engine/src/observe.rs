@@ -1,18 +1,18 @@
-//! What a player is shown, and the full record of a state that traces are compared with.
+//! Observations for players, and the full record of a state for comparison with traces.
 
 use crate::game::{Game, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::limits::MAX_SEEN;
 use crate::state::{Sprite, State, flag};
 
-/// What a player is shown of a state: never the state itself.
+/// An observation: the part of a state that a player is shown, never the state itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
     /// Ticks played.
     pub ticks: u32,
     /// The score.
     pub score: f64,
-    /// How the episode stands.
+    /// The outcome of the episode so far.
     pub outcome: Outcome,
     /// Columns of the board.
     pub columns: usize,
@@ -20,13 +20,13 @@ pub struct Observation {
     pub rows: usize,
     /// Row-major: the names of the sprites that overlap each cell, in drawing order, hidden ones left out.
     pub cells: Vec<Vec<String>>,
-    /// What the avatar holds, by name of the resource.
+    /// The resources that the avatar holds, by name.
     pub resources: Vec<(String, i32)>,
-    /// The player's avatar, whatever its type is called; none once it is gone.
+    /// The player's avatar, whatever its type is called; `None` once it is gone.
     pub avatar: Option<SeenAvatar>,
 }
 
-/// What a player is shown of the avatar.
+/// The observable properties of the avatar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenAvatar {
     /// The name of its type, which may change as it transforms.
@@ -35,9 +35,9 @@ pub struct SeenAvatar {
     pub column: i32,
     /// The row of the cell that holds its middle, from 0 at the top.
     pub row: i32,
-    /// Where it faces.
+    /// The direction that it faces.
     pub facing: Direction,
-    /// Its health points; 0 in games without.
+    /// Its health points; 0 in games without health.
     pub health: i32,
 }
 
@@ -64,25 +64,26 @@ pub struct SpriteRecord {
     pub rotation: f64,
 }
 
-/// How the reference sorts what its planners see (`spec/01` §9.5): the first that fits.
+/// The categories that the reference's planners see (`spec/01` §9.5); the first one that fits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Category {
-    /// The player can control it.
+    /// A sprite that the player can control.
     Avatar,
-    /// It can be held.
+    /// A sprite that can be held.
     Resource,
-    /// Doors, portals, and what is declared to be one.
+    /// Doors, portals, and sprites that are declared to be portals.
     Portal,
-    /// It moves by a will of its own.
+    /// A character that decides its own moves.
     Npc,
-    /// It stands still.
+    /// A sprite that stands still.
     Static,
-    /// It moves.
+    /// Any other sprite that moves.
     Movable,
 }
 
 impl Game {
-    /// The category of a type's sprites, those of an avatar's own making apart: of these the last two would be another one.
+    /// The category of a type's sprites. Sprites that an avatar has made have another category where this is one of the
+    /// last two.
     pub fn category(&self, stype: SpriteType) -> Category {
         let info = &self.0.types[stype.index()];
         match &info.traits {
@@ -95,12 +96,13 @@ impl Game {
         }
     }
 
-    /// Whether sprites of the type are left out of what players are shown.
+    /// Tests whether sprites of the type are left out of observations.
     pub fn is_hidden(&self, stype: SpriteType) -> bool {
         self.0.types[stype.index()].traits.hidden
     }
 
-    /// What the player is shown. Cost: O(sprites + cells). Of a board full of giants, the first [`MAX_SEEN`] names.
+    /// The observation of a state. Cost: O(sprites + cells). It is limited to the first [`MAX_SEEN`] names, which matters
+    /// for a board full of giants.
     pub fn observe(&self, state: &State) -> Observation {
         let (columns, rows) = (state.columns as usize, state.rows as usize);
         let mut cells = vec![Vec::new(); columns * rows];
@@ -134,7 +136,7 @@ impl Game {
         Observation { ticks, score, outcome, columns, rows, cells, resources, avatar }
     }
 
-    /// Where the avatar is and what it is, if there is one and it lives. Cost: O(1).
+    /// The place and type of the avatar; `None` if there is no living one. Cost: O(1).
     pub fn seen_avatar(&self, state: &State) -> Option<SeenAvatar> {
         let stype = state.avatar_type()?;
         let (sprite, form) = (state.sprite(state.avatar), state.form(state.avatar));
@@ -148,7 +150,7 @@ impl Game {
         })
     }
 
-    /// What the avatar holds: names of resources, sorted, with their amounts.
+    /// The resources that the avatar holds: names, sorted, with amounts.
     pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
         let held = state.held_by(state.avatar).iter();
         let mut resources: Vec<_> =
@@ -157,7 +159,7 @@ impl Game {
         resources
     }
 
-    /// Every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
+    /// The record of every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
     pub fn records(&self, state: &State) -> Vec<SpriteRecord> {
         let record = |sprite: &Sprite, resources: Vec<(u16, i32)>| {
             let form = state.form_of(sprite);
@@ -185,29 +187,29 @@ impl Game {
         records
     }
 
-    /// The colour that the SpriteSet gives a type or one of its parents, red, green and blue; none if it gives none.
+    /// The colour that the SpriteSet gives a type or one of its parents: red, green and blue; `None` if it gives none.
     pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }
 
-    /// How many of a resource the avatar holds.
+    /// The amount of a resource that the avatar holds.
     pub fn held(&self, state: &State, resource: SpriteType) -> i32 {
         state.amount(state.avatar, resource)
     }
 
-    /// The types of which there are sprites, in registry order. Cost: O(types).
+    /// The types that have sprites, in registry order. Cost: O(types).
     pub fn present_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         self.sprite_types().filter(|&stype| state.group(stype).count > 0)
     }
 
-    /// The types that some sprite holds as resources, a type once for each holder.
+    /// The types that some sprite holds as resources; a type appears once for each holder.
     pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         let held = state.held.iter().filter(|held| held.amount != 0).map(|held| held.resource);
         held.filter(|&stype| stype != SpriteType::NONE)
     }
 
-    /// The termination that has ended an episode, as an index into
-    /// [`Description::terminations`](crate::Description); none if it is not over, or ended otherwise.
+    /// The termination that has ended an episode, as an index into [`Description::terminations`](crate::Description);
+    /// `None` if the episode is not over, or ended otherwise.
     pub fn ended_by(&self, state: &State) -> Option<usize> {
         let ended = matches!(state.outcome, Outcome::Won | Outcome::Lost);
         let mut terminations = self.0.terminations.iter();
@@ -221,39 +223,39 @@ impl Game {
 }
 
 impl State {
-    /// The rectangles of the sprites of a type, in pixels, in the order of their creation; those of disabled avatars
-    /// too. Cost: O(1) each.
+    /// The rectangles of the sprites of a type, in pixels, in order of creation, including those of disabled avatars.
+    /// Cost: O(1) each.
     pub fn rects(&self, stype: SpriteType) -> impl Iterator<Item = Rect> + '_ {
         self.sprites_of(stype).map(|sprite| sprite.rect)
     }
 
-    /// The same, with where each faces.
+    /// The rectangles and orientations of the sprites of a type.
     pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
         self.sprites_of(stype).map(|sprite| (sprite.rect, self.form_of(&sprite).orientation))
     }
 
-    /// How many sprites of a type are there, disabled avatars apart. Cost: O(1).
+    /// The number of sprites of a type, without disabled avatars. Cost: O(1).
     pub fn alive(&self, stype: SpriteType) -> usize {
         let group = self.group(stype);
         usize::from(group.count - group.disabled)
     }
 
-    /// How many of a resource the avatar holds. Cost: O(log holdings).
+    /// The amount of a resource that the avatar holds. Cost: O(log holdings).
     pub fn amount_held(&self, resource: SpriteType) -> i32 {
         self.amount(self.avatar, resource)
     }
 
-    /// Messages that the reference engine would have logged so far; more than 25 end a game.
+    /// The number of messages that the reference engine would have logged so far; more than 25 end a game.
     pub fn messages(&self) -> u32 {
         self.messages
     }
 
-    /// The top-left corners of a type's sprites in pixels, in the order of their creation. Cost: O(such sprites).
+    /// The top-left corners of a type's sprites in pixels, in order of creation. Cost: O(such sprites).
     pub fn places(&self, stype: SpriteType) -> impl Iterator<Item = (i32, i32)> + '_ {
         self.rects(stype).map(|rect| (rect.x, rect.y))
     }
 
-    /// The top-left corner of the player's avatar in pixels, disabled or not; none once the episode is over.
+    /// The top-left corner of the player's avatar in pixels, disabled or not; `None` once the episode is over.
     pub fn avatar_place(&self) -> Option<(i32, i32)> {
         let there = !self.is_over() && usize::from(self.avatar) < self.sprites.len();
         there.then(|| {
@@ -262,7 +264,7 @@ impl State {
         })
     }
 
-    /// The type of the player's avatar, if there is one and it lives.
+    /// The type of the player's avatar, if there is a living one.
     pub fn avatar_sprite_type(&self) -> Option<SpriteType> {
         self.avatar_type()
     }

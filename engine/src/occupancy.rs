@@ -1,5 +1,6 @@
-//! Who is where: each cell of the board, and of a ring around it, has a chain of the sprites whose top-left corner lies
-//! in it, sprites of no rule left out. Kept as sprites move, so asking who overlaps a rectangle costs what stands there.
+//! The spatial index: each cell of the board, and of a ring around it, has a chain of the sprites whose top-left corner
+//! lies in it, except those of types without rules. It is updated as sprites move, so the cost of a query for the sprites
+//! that overlap a rectangle depends only on the sprites that are there.
 
 use crate::contacts::{Contacts, Kind};
 use crate::game::Rules;
@@ -7,7 +8,7 @@ use crate::geometry::Rect;
 use crate::span::Span;
 use crate::state::{NONE, Slot, Sprite, State, flag};
 
-/// Cells of a sprite that are looked at one by one; what is larger counts as everywhere.
+/// The maximum number of cells of a sprite that are stored one by one; a larger sprite counts as being everywhere.
 const MAX_COVERED: i32 = 100;
 
 /// The cell of a sprite's top-left corner, and how the sprite lies in it: the flags of [`flag::LYING`].
@@ -19,12 +20,12 @@ pub(crate) struct Located {
 }
 
 impl State {
-    /// Column of a pixel, counted with the ring: 0 is left of the board.
+    /// The column of a pixel, counted with the ring: 0 is left of the board.
     pub(crate) fn column(&self, x: i32) -> i32 {
         x.div_euclid(self.block).clamp(-1, self.columns) + 1
     }
 
-    /// Row of a pixel.
+    /// The row of a pixel, counted with the ring.
     pub(crate) fn row(&self, y: i32) -> i32 {
         y.div_euclid(self.block).clamp(-1, self.rows) + 1
     }
@@ -42,12 +43,12 @@ impl State {
         Rect { x: 0, y: 0, w: self.columns * self.block, h: self.rows * self.block }
     }
 
-    /// How many cells the board has with its ring.
+    /// The number of cells of the board with its ring.
     pub(crate) fn cell_count(columns: i32, rows: i32) -> usize {
         ((columns + 2) * (rows + 2)) as usize
     }
 
-    /// Where a rectangle is; `column` and `row` are a guess. Most moves end in the same cell or next to it, which saves a
+    /// Locates a rectangle; `column` and `row` are a guess. Most moves end in the same cell or next to it, which saves a
     /// division.
     #[inline(always)]
     pub(crate) fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
@@ -64,15 +65,15 @@ impl State {
         self.locate_afar(rect)
     }
 
-    /// Where a sprite is entered.
+    /// The place at which a sprite is entered.
     #[inline(always)]
     pub(crate) fn located(&self, slot: Slot) -> Located {
         let &Sprite { column, row, flags, .. } = self.sprite(slot);
         Located { column, row, flags: flags & flag::LYING }
     }
 
-    /// Where a rectangle is that comes from `old`. What lies on the board, and is no larger than a cell, is looked for along
-    /// the axes only along which it went.
+    /// Locates a rectangle that was `old` before. For a sprite on the board that is no larger than a cell, only the axes
+    /// along which it moved are computed.
     #[inline(always)]
     fn locate_moved(&self, from: Located, old: Rect, rect: Rect) -> Located {
         if from.flags & (flag::BIG | flag::OFF) != 0 || (old.w, old.h) != (rect.w, rect.h) {
@@ -80,7 +81,7 @@ impl State {
         }
         let mut to = from;
         let (dx, dy) = (rect.x.wrapping_sub(old.x), rect.y.wrapping_sub(old.y));
-        // A whole cell on, as most moves on a grid go, it lies as it lay.
+        // After a move by a whole cell, the most frequent case on a grid, the sprite lies in its cell as before.
         let is_next = |by: i32, at: i16, cells: i32| {
             let next = i32::from(at) + by.signum();
             by.unsigned_abs() == self.block as u32 && 0 < next && next < cells
@@ -112,7 +113,7 @@ impl State {
         to
     }
 
-    /// Where any rectangle is.
+    /// Locates any rectangle.
     #[inline(never)]
     fn locate_afar(&self, rect: Rect) -> Located {
         let (column, row) = (self.column(rect.x), self.row(rect.y));
@@ -124,7 +125,7 @@ impl State {
         Located { column: column as i16, row: row as i16, flags }
     }
 
-    /// Puts a sprite into its cells.
+    /// Enters a sprite into its cells.
     pub(crate) fn enter_cell(&mut self, rules: &Rules, slot: Slot) {
         let rect = self.sprite(slot).rect;
         let Rect { w, h, .. } = self.screen();
@@ -137,7 +138,7 @@ impl State {
         self.enter_located(rules, slot, to);
     }
 
-    /// Puts a sprite into the cells that it is said to be in.
+    /// Enters a sprite into the cells that its fields name.
     pub(crate) fn enter_cell_again(&mut self, rules: &Rules, slot: Slot) {
         let to = self.located(slot);
         self.enter_located(rules, slot, to);
@@ -189,7 +190,7 @@ impl State {
         self.left_behind += u32::from(flags & flag::BIG != 0);
     }
 
-    /// Changes the rectangle of a sprite, which counts as moved in this tick. If sprites may rest, see
+    /// Changes the rectangle of a sprite, which counts as moved in this tick. If sprites may sleep, use
     /// [`State::relocate_noisily`].
     #[inline(always)]
     pub(crate) fn relocate(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
@@ -197,14 +198,14 @@ impl State {
         self.relocate_as(rules, slot, rect, from, to);
     }
 
-    /// Where a sprite is entered, and where it is to be if that is to be its rectangle.
+    /// The place at which a sprite is entered, and its place after a move to `rect`.
     #[inline(always)]
     pub(crate) fn locate_move(&self, slot: Slot, rect: Rect) -> (Located, Located) {
         let from = self.located(slot);
         (from, self.locate_moved(from, self.sprite(slot).rect, rect))
     }
 
-    /// [`State::relocate`], of a sprite that is located already, and stays as large as it is.
+    /// [`State::relocate`] for a sprite that has been located already and keeps its size.
     #[inline(always)]
     pub(crate) fn relocate_to(&mut self, rules: &Rules, slot: Slot, rect: Rect, from: Located, to: Located) {
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -220,7 +221,7 @@ impl State {
         self.enter_other(rules, slot, from, to);
     }
 
-    /// The same of one that may come to be larger or smaller.
+    /// [`State::relocate`] for a sprite that has been located already and may change its size.
     fn relocate_as(&mut self, rules: &Rules, slot: Slot, rect: Rect, from: Located, to: Located) {
         let before = self.sprite(slot).rect;
         if (before.w, before.h) == (rect.w, rect.h) {
@@ -232,7 +233,7 @@ impl State {
         self.enter_other(rules, slot, from, to);
     }
 
-    /// [`State::relocate`], with wakes for what rests where the sprite was and where it is.
+    /// [`State::relocate`], and marks the watched cells that the sprite leaves or enters, to wake sleeping sprites.
     pub(crate) fn relocate_noisily(
         &mut self,
         rules: &Rules,
@@ -249,7 +250,7 @@ impl State {
         self.touch(slot);
     }
 
-    /// Puts a sprite that is elsewhere now into its cells.
+    /// Enters a sprite that has moved into its new cells.
     #[inline(always)]
     pub(crate) fn enter_anew(&mut self, rules: &Rules, slot: Slot, rect: Rect) {
         let from = self.located(slot);
@@ -288,7 +289,7 @@ impl State {
         }
         let contacts = &rules.contacts;
         if (from.flags | to.flags) & (flag::RIGHT | flag::BELOW) == 0 {
-            // From one cell to another, as most moves on a grid go.
+            // From one cell to another, the most frequent case on a grid.
             if before != after {
                 self.depart(contacts, kind, before);
                 self.arrive(contacts, kind, after);
@@ -304,7 +305,8 @@ impl State {
         } else {
             return self.shift_across(contacts, kind, (before, from), (after, to));
         };
-        // Along one axis: one or two cells before and after, and as many beside them if it is in two rows or columns.
+        // Along one axis: one or two cells before and after, and as many beside them if the sprite is in two rows or
+        // columns.
         let ends = |cell: usize, flags: u32| (cell, if flags & reach != 0 { cell + unit } else { cell });
         let (old, new) = (ends(before, from.flags), ends(after, to.flags));
         if old.0 != new.0 && old.0 != new.1 {
@@ -321,7 +323,7 @@ impl State {
         }
     }
 
-    /// Departs from a cell, and from the one so far from it if that is another one.
+    /// Departs from a cell, and from the cell `across` further on if `across` is not 0.
     #[inline(always)]
     pub(crate) fn depart_beside(&mut self, contacts: &Contacts, kind: &Kind, cell: usize, across: usize) {
         self.depart(contacts, kind, cell);
@@ -360,7 +362,7 @@ impl State {
         }
     }
 
-    /// Notes where a large sprite is now.
+    /// Notes the new cells of a large sprite.
     #[inline(never)]
     fn shift_big(&mut self, rules: &Rules, slot: Slot, from: Located, to: Located) {
         self.left_behind += u32::from(from.flags & flag::BIG != 0);
@@ -394,7 +396,7 @@ impl State {
         }
     }
 
-    /// Counts how the sprites of a type lie.
+    /// Updates the counts of how the sprites of a type lie.
     #[inline]
     fn lie(&mut self, contacts: &Contacts, stype: usize, from: u32, to: u32) {
         if (from ^ to) & flag::OFF != 0 {
@@ -443,14 +445,15 @@ impl State {
         }
     }
 
-    /// The cells that a sprite of such flags covers, of a big one only its corner's.
+    /// The cells that a sprite with these flags covers; for a large sprite only the cell of its corner.
     #[inline(always)]
     pub(crate) fn span(&self, cell: usize, flags: u32) -> Span {
         let stride = (self.columns + 2) as usize;
         Span::new(cell, stride, flags & flag::RIGHT != 0, flags & flag::BELOW != 0)
     }
 
-    /// Calls `visit` with the cells that a sprite covers; false, and no call, if these are more than [`MAX_COVERED`].
+    /// Calls `visit` with the cells that a sprite covers. Returns `false`, without calls, if these are more than
+    /// [`MAX_COVERED`].
     pub(crate) fn covered_by(&self, sprite: &Sprite, mut visit: impl FnMut(usize)) -> bool {
         let stride = (self.columns + 2) as usize;
         let cell = self.cell_of(sprite);
@@ -481,7 +484,7 @@ impl State {
         true
     }
 
-    /// Column and row of a rectangle's top-left corner, counted with the ring.
+    /// The column and row of a rectangle's top-left corner, counted with the ring.
     pub(crate) fn place_of(&self, rect: Rect) -> (i16, i16) {
         (self.column(rect.x) as i16, self.row(rect.y) as i16)
     }
@@ -491,8 +494,8 @@ fn bit(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
 
-/// Along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next to it; and whether what
-/// begins there, and is no larger than a cell, reaches into the next one.
+/// Along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next to it; and `true` if
+/// a sprite that starts there, and is no larger than a cell, reaches into the next cell.
 #[inline(always)]
 fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
     let mut cell = i32::from(guess) - 1;

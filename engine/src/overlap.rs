@@ -1,4 +1,4 @@
-//! Who overlaps whom: asked of the cells that two sprites share (`occupancy.rs`).
+//! Overlap queries, answered from the cells that two sprites share (`occupancy.rs`).
 
 use crate::game::{NOT_IN_TREE, Rules, TypeInfo};
 use crate::geometry::Rect;
@@ -13,7 +13,7 @@ pub(crate) struct Side<'a> {
     pub(crate) bits: u64,
 }
 
-/// A sprite that overlaps another one. Hits order as their sprites do among those of a tree: by type in tree order, then by
+/// A sprite that overlaps another one. Hits have the order of their sprites in a tree: by type in tree order, then by
 /// creation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Hit(u64);
@@ -28,9 +28,9 @@ impl Hit {
     }
 }
 
-/// What overlaps a sprite; seldom more than a few.
+/// The sprites that overlap a sprite; seldom more than a few.
 pub(crate) type Hits = SmallVec<[Hit; 8]>;
-/// The slots of hits.
+/// The slots of the hits.
 pub(crate) type Partners = SmallVec<[Slot; 8]>;
 
 impl State {
@@ -52,14 +52,13 @@ impl State {
         }
     }
 
-    /// A sprite of a side as a hit.
+    /// The hit of a sprite of a side.
     pub(crate) fn hit(&self, side: Side<'_>, slot: Slot) -> Hit {
         let sprite = self.sprite(slot);
         Hit::new(side.family.rank[sprite.stype.index()], sprite.id, slot)
     }
 
-    /// Whether a sprite of a side, itself left out, may overlap a sprite, whose own bit is given: whether one shares a cell
-    /// with it.
+    /// Tests whether another sprite of a side may overlap `sprite`, whose own bit is `own`: whether they share a cell.
     #[inline(always)]
     pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
         let cell = self.cell_of(sprite);
@@ -73,7 +72,7 @@ impl State {
         self.may_overlap_loosely(own, side, cell, lies)
     }
 
-    /// Whether a sprite of a side may overlap a sprite, or what lies at most so many pixels below it.
+    /// Tests whether a sprite of a side may overlap `sprite`, or lie at most `below` pixels under it.
     #[inline]
     pub(crate) fn may_stand_on(&self, side: Side<'_>, sprite: &Sprite, below: i32) -> bool {
         if self.big_bits & side.bits != 0 || sprite.is(flag::BIG | flag::OFF) || below > self.block {
@@ -86,7 +85,7 @@ impl State {
         rows.iter().any(|&cell| (self.masks[cell] | self.masks[cell + width]) & side.bits != 0)
     }
 
-    /// The rest of [`State::may_overlap`]: for sprites in several cells, and where some of the side are large.
+    /// The rest of [`State::may_overlap`]: for sprites in several cells, and for sides with large sprites.
     fn may_overlap_loosely(&self, own: u64, side: Side<'_>, cell: usize, lies: u32) -> bool {
         if lies & flag::BIG != 0 {
             return true;
@@ -106,15 +105,15 @@ impl State {
         bits & side.bits != 0 || self.span_is_covered(self.span(cell, lies), side)
     }
 
-    /// Whether a large sprite of a side may reach into the cells.
+    /// Tests whether a large sprite of a side may reach into the cells.
     #[inline(always)]
     fn span_is_covered(&self, span: Span, side: Side<'_>) -> bool {
         self.big_bits & side.bits != 0
             && span.cells().fold(self.vast, |bits, cell| bits | self.covered[cell]) & side.bits != 0
     }
 
-    /// Collects the sprites of a side that overlap a sprite, itself left out, in no particular order. `above`
-    /// excludes sprites created since that id was next. Returns how many cells and sprites it looked at.
+    /// Collects the sprites of a side that overlap a sprite, without the sprite itself, in no particular order. `above`
+    /// excludes sprites created since that id was next. Returns the number of cells and sprites that it looked at.
     pub(crate) fn overlapping(
         &self,
         rules: &Rules,
@@ -132,7 +131,7 @@ impl State {
         if self.span_is_covered(span, side) {
             return self.overlapping_rect(rules, side, (slot, rect), above, hits);
         }
-        // Those that lie in several cells may reach over from the cells left and above.
+        // Sprites that lie in several cells may reach over from the cells to the left and above.
         let reached = i32::from(self.loose_bits & side.bits != 0);
         let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
         let mut looked = 0;
@@ -144,7 +143,7 @@ impl State {
         looked
     }
 
-    /// The sprites of a side that overlap a rectangle around a sprite, itself left out.
+    /// The sprites of a side that overlap a rectangle around a sprite, without the sprite itself.
     pub(crate) fn overlapping_rect(
         &self,
         rules: &Rules,
@@ -162,7 +161,7 @@ impl State {
         let family = side.family;
         let sprites = family.tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum::<i32>();
         if cells > sprites {
-            // All sprites are fewer than all cells from which they can reach into the rectangle.
+            // There are fewer sprites than cells from which sprites can reach into the rectangle.
             let types = family.tree.iter().enumerate();
             let types = types.filter(|(at, stype)| usize::from(family.rank[stype.index()]) == *at);
             let all = types.flat_map(|(_, &stype)| self.slots(stype));
@@ -197,7 +196,7 @@ impl State {
         self.overlapping_among(cell, side, one, above, hits)
     }
 
-    /// The same of a cell in which someone of the side is.
+    /// The same for a cell that contains a sprite of the side.
     #[inline(never)]
     fn overlapping_among(
         &self,

@@ -1,7 +1,7 @@
-//! States as they differ from another state: for searches, which keep millions of them.
+//! States stored as differences from another state, for searches that keep millions of them.
 //!
-//! Most of a state is the same in all states of a level: walls, floors, the tables about them. A [`Packed`] state is the
-//! bytes in which it differs from a base, usually the start of the search: some hundred bytes instead of tens of
+//! Most of a state is the same in all states of a level: walls, floors and their tables. A [`Packed`] state stores only
+//! the bytes in which it differs from a base, usually the start of the search: some hundred bytes instead of tens of
 //! thousands.
 
 use crate::belongings::{Held, Replaced};
@@ -15,7 +15,7 @@ use crate::rest::Rest;
 use crate::share::{Share, Steady, Tide};
 use crate::state::{Group, Sprite, State, Timer};
 
-/// A state, as it differs from a base. Only [`State::unpack_from`] with the same base makes sense of it.
+/// A state, stored as the difference from a base. It can only be restored by [`State::unpack_from`] with the same base.
 #[derive(Clone, Debug)]
 pub struct Packed {
     outcome: Outcome,
@@ -24,25 +24,25 @@ pub struct Packed {
 }
 
 impl Packed {
-    /// How many bytes it takes.
+    /// The size in bytes.
     pub fn size_in_bytes(&self) -> usize {
         size_of::<Packed>() + self.bytes.len()
     }
 }
 
 impl State {
-    /// This state as it differs from `base`. Cost: that of comparing the two, O(size of a state).
+    /// Packs this state as the difference from `base`. Cost: that of comparing the two, O(size of a state).
     pub fn pack(&self, base: &State) -> Packed {
         let mut bytes = Vec::with_capacity(512);
         self.differences(base, &mut bytes);
         Packed { outcome: self.outcome, last_action: self.last_action, bytes: bytes.into() }
     }
 
-    /// Makes this state the packed one again; keeps the buffers. `base` is what it was packed against. Cost: that of a copy
-    /// of `base`.
+    /// Makes this state the packed one again; keeps the buffers. `base` is the state that it was packed against. Cost:
+    /// that of a copy of `base`.
     ///
     /// # Panics
-    /// May panic if it was packed against another base.
+    /// May panic if the state was packed against another base.
     pub fn unpack_from(&mut self, packed: &Packed, base: &State) {
         self.clone_from(base);
         (self.outcome, self.last_action) = (packed.outcome, packed.last_action);
@@ -52,7 +52,7 @@ impl State {
     }
 }
 
-/// Both directions over all fields: a new one is missed by the compiler, here.
+/// Both directions over all fields: here the compiler notices a missing field.
 macro_rules! state_fields {
     (scalars $($scalar:ident)*; buffers $($buffer:ident)*; scratch $($scratch:ident)*) => {
         impl State {
@@ -90,7 +90,7 @@ fn take_scalar<T: Bytes>(value: &mut T, from: &mut &[u8]) {
     }
 }
 
-/// The length, then the entries that differ, each after its distance from the one before, then a distance of 0.
+/// The length, then the entries that differ, each preceded by its distance from the one before, then a distance of 0.
 fn put_buffer<T: Bytes>(buffer: &[T], base: &[T], to: &mut Vec<u8>) {
     put_number(buffer.len(), to);
     let mut next = 0;
@@ -117,13 +117,13 @@ fn take_buffer<T: Bytes>(buffer: &mut Vec<T>, from: &mut &[u8]) {
         let value = T::take(from);
         match buffer.get_mut(next - 1) {
             Some(old) => *old = value,
-            // What is longer than the base differs from there on, entry after entry.
+            // Beyond the length of the base, every entry differs.
             None => buffer.push(value),
         }
     }
 }
 
-/// Seven bits a byte, the low ones first (LEB128).
+/// Writes seven bits per byte, low bits first (LEB128).
 fn put_number(mut number: usize, to: &mut Vec<u8>) {
     while number >= 0x80 {
         to.push(number as u8 | 0x80);
@@ -144,11 +144,11 @@ fn take_number(from: &mut &[u8]) -> usize {
     }
 }
 
-/// What is written as bytes and read again, bit by bit the same.
+/// A type that is written as bytes and read back bit for bit.
 trait Bytes: Copy {
     fn put(self, to: &mut Vec<u8>);
     fn take(from: &mut &[u8]) -> Self;
-    /// Whether the bits are the same.
+    /// Tests whether the bits are the same.
     fn same(&self, other: &Self) -> bool;
 }
 

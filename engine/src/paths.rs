@@ -5,17 +5,17 @@ use crate::geometry::Direction;
 use crate::state::{Slot, State};
 use std::sync::{Arc, OnceLock};
 
-/// Marks of cells, the ring around the board included: one that paths may lead through,
+/// Marks of cells, the ring around the board included: a cell that paths may lead through,
 const OPEN: u8 = 0;
-/// one with an obstacle, or off the board,
+/// a cell with an obstacle, or off the board,
 const CLOSED: u8 = u8::MAX;
-/// and the one where a path starts.
+/// and the cell where a path starts.
 const START: u8 = u8::MAX - 1;
 
 /// A frontier that breaks ties as the reference's binary heap does.
 #[derive(Default)]
 struct Heap {
-    /// Cost and cell.
+    /// Pairs of cost and cell.
     items: Vec<(u32, u32)>,
 }
 
@@ -56,19 +56,19 @@ impl Heap {
     }
 }
 
-/// The ways of one level: which cells paths go around, which does not change in an episode, and the paths that were asked
-/// for. All states of the level share them; who asks first does not matter for any answer.
+/// The paths of one level: the cells that paths avoid, which do not change in an episode, and the paths that have been
+/// requested. All states of the level share them; the results do not depend on the order of requests.
 #[derive(Debug)]
 pub(crate) struct Ways {
     /// By cell: [`OPEN`] or [`CLOSED`].
     cells: Vec<u8>,
-    /// What a step ahead adds to a cell, modulo the size of numbers, and the number of that step.
+    /// For each direction, its number and the wrapping offset that a step adds to a cell.
     ahead: Vec<(u8, usize)>,
-    /// By the cell where paths start: the first steps, once they were asked for; empty for boards with too many cells.
+    /// By start cell: the first steps of its paths, once they have been requested; empty for boards with too many cells.
     known: Vec<OnceLock<Box<[u8]>>>,
 }
 
-/// Cells of a board whose paths are kept: a byte for each pair of cells.
+/// The maximum number of cells of a board whose paths are kept: one byte for each pair of cells.
 const MAX_KEPT: usize = 1 << 11;
 
 const WAYS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
@@ -82,7 +82,7 @@ impl Ways {
         WAYS.get(usize::from(step).wrapping_sub(1)).copied()
     }
 
-    /// For each cell, the first step of the way there, as a number above [`OPEN`]; up to when the goal is reached, or all.
+    /// The first step to each cell, as a number above [`OPEN`]; stops when the goal is reached.
     fn search(&self, start: usize, goal: Option<usize>) -> Box<[u8]> {
         let mut first = self.cells.clone();
         first[start] = START;
@@ -108,8 +108,8 @@ impl Ways {
 }
 
 impl State {
-    /// Notes which cells hold an obstacle now, at the start: they stay obstacles. Hidden sprites are not seen. An avatar
-    /// with three actions makes all paths of the episode go left and right only, whatever becomes of it.
+    /// Notes the cells that hold an obstacle now, at the start: they stay obstacles. Hidden sprites do not count. If the
+    /// avatar has three actions, all paths of the episode go left and right only, even if the avatar changes.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
         let mut cells = vec![CLOSED; State::cell_count(self.columns, self.rows)];
         for row in 0..self.rows {
@@ -134,19 +134,21 @@ impl State {
         self.ways = Some(Arc::new(Ways { cells, ahead, known }));
     }
 
-    /// The first step of the path between two pixels, None if there is none, or none to go; and how much work that is.
+    /// The first step of the path between two pixels, `None` if there is no path or no step to make, and the work of
+    /// finding it.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
         let Some(ways) = self.ways.as_deref() else { return (None, 1) };
         if start == goal || ways.cells[start] == CLOSED || ways.cells[goal] == CLOSED {
             return (None, 1);
         }
-        // Work must not depend on what was asked for before.
+        // The work must not depend on earlier requests.
         let share = if ways.known.is_empty() { 1 } else { 8 };
         (ways.first(start, goal), ways.cells.len() / share)
     }
 
-    /// The reference multiplies by the reciprocal of the block, which for some sizes falls short of the cell.
+    /// The cell of a pixel. The reference multiplies by the reciprocal of the block, which for some sizes falls short of
+    /// the cell.
     fn path_cell(&self, (x, y): (i32, i32)) -> Option<usize> {
         let reciprocal = 1.0 / f64::from(self.block);
         let column = (f64::from(x) * reciprocal) as i32;
@@ -155,7 +157,7 @@ impl State {
         inside.then(|| self.cell(column + 1, row + 1))
     }
 
-    /// How many actions the avatar has, doing nothing left out.
+    /// The number of actions of the avatar, without doing nothing.
     fn avatar_actions(&self, rules: &Rules) -> usize {
         let avatar: Slot = self.avatar;
         let Some(sprite) = self.sprites.get(usize::from(avatar)) else { return 0 };
@@ -185,7 +187,7 @@ mod tests {
         assert_eq!(rows.collect::<Vec<String>>(), ["UUUUUU", "UUUUUU", "UU.UUU", "LUUURR", "LL.RRR"]);
     }
 
-    /// K-41: by the reciprocal, a cell of 49 pixels starts at 50.
+    /// K-41: computed with the reciprocal, a cell of 49 pixels starts at 50.
     #[test]
     fn cells_by_the_reciprocal() {
         let source = "BasicGame obs=rock square_size=49\n  SpriteSet\n    rock > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    r > rock\n  InteractionSet\n    avatar rock > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";

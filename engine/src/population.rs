@@ -1,4 +1,4 @@
-//! Operations on sprites that the ontology is written in: those that make, kill and release them.
+//! The operations of the ontology that make, kill and release sprites.
 
 use crate::form::Form;
 use crate::game::{Limit, SpriteType, TypeInfo};
@@ -10,7 +10,7 @@ use crate::rest::mark;
 use crate::state::{NONE, Slot, Sprite, flag};
 use crate::step::Step;
 
-/// A sprite of a type as it is made, but for what is decided then: rectangles, creation number and age.
+/// The prototype of a type's sprites; the rectangles, the creation number and the age are set on creation.
 pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
     let (traits, is_avatar) = (&info.traits, info.class.is_some_and(SpriteClass::is_avatar));
     let flags = [
@@ -19,7 +19,7 @@ pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
         (flag::ON_GROUND, traits.on_ground),
         (flag::FIRST_TICK, traits.is_first_tick),
         (flag::ORIENTED, traits.is_oriented),
-        // Sprites of avatar classes are updated, and age, only as the player's.
+        // Sprites of avatar classes are updated, and age, only while the player controls them.
         (flag::FROZEN, info.order.is_none() || is_avatar),
         (flag::BRISK, traits.cooldown <= 1 && traits.last_move == 0 && !is_avatar),
     ];
@@ -44,7 +44,7 @@ pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
     }
 }
 
-/// The form of the sprites of a type as they are made.
+/// The shared component of a type's sprites.
 pub(crate) fn form(info: &TypeInfo) -> Form {
     let traits = &info.traits;
     Form {
@@ -63,7 +63,7 @@ pub(crate) fn form(info: &TypeInfo) -> Form {
 }
 
 impl Step<'_> {
-    /// Whether the sprite's class is an avatar's; what the sprite passes for is [`flag::AVATAR`].
+    /// Tests whether the sprite's class is an avatar's; the role of the sprite itself is [`flag::AVATAR`].
     pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
         self.rules.types[self.state.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }
@@ -83,12 +83,12 @@ impl Step<'_> {
         self.make(stype, x, y)
     }
 
-    /// Makes a sprite whatever singletons there are.
+    /// Makes a sprite even if a singleton of its line exists.
     pub(crate) fn add_forced(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }
 
-    /// Whether there are too many sprites for another one; a message if so.
+    /// Tests whether there are too many sprites to make another one, and logs a message if so.
     fn is_full(&mut self) -> bool {
         let full = self.state.population > MAX_SPRITES as i32;
         if full {
@@ -122,7 +122,7 @@ impl Step<'_> {
         } else if h == 0 {
             self.stop(Limit::FlatSprite);
         }
-        // Whether it is still to be updated in this tick: then its age will be 1 at that update.
+        // The flag is `true` if the sprite is still to be updated in this tick: its age will be 1 at that update.
         let mut due = false;
         if !sprite.is(flag::FROZEN) {
             let order = info.order.map_or(-1, i32::from);
@@ -138,7 +138,7 @@ impl Step<'_> {
             (last.w, last.h) = (block, block);
         }
         if rules.scenery[stype.index()] {
-            // Only a level makes it, and asks for no slot.
+            // Only a level makes scenery, and it needs no slot.
             self.state.add_scenery(sprite);
             return None;
         }
@@ -148,7 +148,7 @@ impl Step<'_> {
         };
         self.state.next_id += 1;
         self.state.population += 1;
-        // A copy of the first one has forgotten what it leaves behind, and leaves what has the number 0: wall.
+        // Copies of the first one have lost the type that they leave behind; they leave type 0, which is `wall`.
         if first && class == SpriteClass::OngoingTurningAvatar {
             self.state.edit_form(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
         }
@@ -164,7 +164,7 @@ impl Step<'_> {
         Some(slot)
     }
 
-    /// Kills: avatars are disabled and stay, others go at the end of the tick (`spec/03` §5.1).
+    /// Kills a sprite: avatars are disabled and stay, others are removed at the end of the tick (`spec/03` §5.1).
     pub(crate) fn kill(&mut self, slot: Slot) {
         if !self.can_be_played(slot) {
             return self.remove(slot);
@@ -180,7 +180,7 @@ impl Step<'_> {
         self.state.census_changed = true;
     }
 
-    /// The sprite is not updated any more, and stays as old as it is.
+    /// Stops the updates and the ageing of a sprite.
     fn freeze(&mut self, slot: Slot) {
         let age = self.age(slot);
         let sprite = self.state.edit(slot);
@@ -188,13 +188,13 @@ impl Step<'_> {
         sprite.moved_at = age;
     }
 
-    /// Kills for good, avatar or not.
+    /// Kills a sprite for good, avatar or not.
     pub(crate) fn remove(&mut self, slot: Slot) {
         self.state.edit_motion(slot).set(flag::KILLED, true);
         self.state.killed.push(slot);
     }
 
-    /// Makes a sprite the player's: from now on it is updated, and ages, and the one before is not and does not.
+    /// Gives a sprite to the player: from now on it is updated and ages, and the previous avatar does not.
     pub(crate) fn control(&mut self, slot: Slot) {
         let before = std::mem::replace(&mut self.state.avatar, slot);
         if before != NONE && before != slot && !self.state.sprite(before).is(flag::FROZEN) {
@@ -208,7 +208,7 @@ impl Step<'_> {
         }
     }
 
-    /// Takes those out that are in the kill list.
+    /// Removes the sprites in the kill list.
     pub(crate) fn clear_killed(&mut self) {
         let mut killed = std::mem::take(&mut self.state.killed);
         for &slot in &killed {

@@ -1,4 +1,4 @@
-//! What a state keeps incrementally, counted again: chains, cells, counts and lists. For tests and fuzzing.
+//! A recount of everything that a state maintains incrementally: chains, cells, counts and lists. For tests and fuzzing.
 
 use crate::game::Game;
 use crate::geometry::Rect;
@@ -6,7 +6,7 @@ use crate::rest::mark;
 use crate::state::{Group, NONE, Slot, Sprite, State, flag};
 
 impl State {
-    /// Compares everything that is kept as sprites move with a count from nothing. Returns how many sprites there are of
+    /// Compares everything that is maintained incrementally with a count from scratch. Returns the number of sprites of
     /// each type. Cost: O(sprites + cells).
     ///
     /// # Errors
@@ -29,7 +29,7 @@ impl State {
         Ok(counts)
     }
 
-    /// How a sprite lies in its cell; see `occupancy.rs`.
+    /// The flags of how a sprite lies in its cell; see `occupancy.rs`.
     fn recounted_flags(&self, sprite: &Sprite) -> u32 {
         let Rect { x, y, w, h } = sprite.rect;
         let over = |at: i32, size: i32, cell: i16, cells: i32| {
@@ -44,7 +44,7 @@ impl State {
         off | right | if over(y, h, sprite.row, self.rows) { flag::BELOW } else { 0 }
     }
 
-    /// Whether a sprite in flight is in the cells in which it is entered, and lies on the screen as it is said to.
+    /// Tests whether a sprite in flight is within the cells in which it is entered, and whether its screen flag is right.
     fn is_in_its_lane(&self, slot: Slot) -> bool {
         let present = self.present(slot);
         let place = |at: i32, cells: i32| at.div_euclid(self.block).clamp(-1, cells) + 1;
@@ -59,7 +59,7 @@ impl State {
             && !present.is(flag::BIG)
     }
 
-    /// Which types share cells, and which rules are possible therefore.
+    /// Recounts the types that share cells and the resulting possible rules.
     fn recount_contacts(&self, game: &Game) -> Result<(), String> {
         let fresh = self.contacts_from_scratch(&game.0);
         let contacts = |state: &State| {
@@ -75,7 +75,7 @@ impl State {
             let few = [state.loose_bits, state.big_bits, state.vast];
             few.into_iter().chain(state.covered.iter().copied()).collect::<Vec<u64>>()
         };
-        // These may say too much, never too little.
+        // These bits may contain too many types, but never too few.
         if bits(&fresh).iter().zip(bits(self)).any(|(&fresh, kept)| fresh & !kept != 0) {
             return Err("contacts: a sprite in several cells is not known as one".to_owned());
         }
@@ -131,7 +131,7 @@ impl State {
         Ok(counted)
     }
 
-    /// Walks the chain of every cell: each sprite of a type that takes part in rules stands once in the cell of its corner.
+    /// Walks the chain of every cell: each sprite of a type that takes part in rules is once in the cell of its corner.
     fn recount_cells(&self, game: &Game, alive: &[bool]) -> Result<(), String> {
         let mut seen = vec![false; alive.len()];
         for (cell, &head) in self.cells.iter().enumerate() {
@@ -144,7 +144,7 @@ impl State {
                 let column = sprite.rect.x.div_euclid(self.block).clamp(-1, self.columns) + 1;
                 let row = sprite.rect.y.div_euclid(self.block).clamp(-1, self.rows) + 1;
                 let place = (i32::from(sprite.column), i32::from(sprite.row));
-                // Of sprites in flight, the cells have been compared with their place already.
+                // The cells of sprites in flight have been checked already.
                 let told = place == (column, row) || sprite.flies();
                 if !told || (place.1 * (self.columns + 2) + place.0) as usize != cell {
                     return Err(format!("slot {slot} stands in ({column}, {row}), not in cell {cell}"));
@@ -161,7 +161,7 @@ impl State {
         }
     }
 
-    /// The free list, the list of those that moved, resources and extras.
+    /// Checks the free list, the list of moved sprites, resources and extras.
     fn recount_lists(&self, game: &Game, alive: &[bool]) -> Result<(), String> {
         let mut free = self.free;
         let mut holes = 0;

@@ -1,13 +1,14 @@
-//! Sprites at rest: those that try to move in every tick, and are stepped back by the same thing every time.
+//! Sleeping sprites: sprites that try to move in every tick, and are stepped back by the same rule every time.
 //!
-//! A boulder on the ground falls a little, meets the dirt below and is put back, tick after tick. As long as nothing comes
-//! to, or leaves, the cells that it stands in and falls into, each tick does to it what the last one did: nothing. Such a
-//! sprite is passed over. As soon as anything touches those cells, it is woken; if the tick is already past its own
-//! movement, but not past the rule that puts it back, it is moved then as it would have been.
+//! A boulder on the ground falls a little, meets the dirt below and is put back, tick after tick. As long as nothing
+//! enters or leaves the cells that it stands in and falls into, each tick repeats the last one and changes nothing. Such
+//! a sprite is skipped. As soon as anything touches those cells, it is woken. If its own movement in this tick is already
+//! past, but the rule that puts it back is not, the movement is made up for.
 //!
-//! What may rest is decided so that no one can tell the difference (`spec/01` §4, `spec/03` §4): its movement draws nothing,
-//! counts nothing and does not wait; the rule that puts it back costs no points; nothing else happens to it in the tick; no
-//! rule is about anything that it stands on; no one looks for its type. An effect that reaches sprites from afar wakes all.
+//! Sprites may sleep only if the result is the same (`spec/01` §4, `spec/03` §4): their movement draws nothing, counts
+//! nothing and does not wait; the rule that puts them back has no score; nothing else happens to them in the tick; no
+//! rule pairs them with anything that they stand on; nothing looks for their type. An effect that reaches distant sprites
+//! wakes all.
 
 use crate::flight::LONGEST_PERIOD;
 use crate::game::{EffectInfo, Pass, SpriteType, TypeInfo};
@@ -18,24 +19,25 @@ use crate::ontology::sprites::is_idle;
 use crate::state::{NONE, Slot, Sprite, State, flag};
 use crate::step::Step;
 
-/// Values of [`Sprite::rest`]: what has happened to the sprite in this tick.
+/// Values of [`Sprite::rest`]: the events of this tick for the sprite.
 pub(crate) mod mark {
-    /// It has not moved by itself, or not as those that rest do.
+    /// The sprite has not moved by itself, or not in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
-    /// It has moved by itself, and nothing else happened.
+    /// The sprite has moved by itself, and nothing else happened.
     pub(crate) const TRIED: u16 = 0x7FFF;
     /// Something else happened too.
     pub(crate) const SPOILED: u16 = 0x7FFE;
-    /// Set for those that are not updated. Without this bit, other values are one more than the pass that put it back.
+    /// A bit that is set for sprites that are not updated. Without this bit, other values are one more than the pass that
+    /// put the sprite back.
     pub(crate) const ASLEEP: u16 = 0x8000;
-    /// It is at rest. With this bit, other values are the ticks between moves of what is in flight (`flight.rs`).
+    /// The sprite is asleep. With this bit, other values are the ticks between moves of a sprite in flight (`flight.rs`).
     pub(crate) const RESTING: u16 = ASLEEP;
 }
 
-/// The largest sprite of a game in which sprites rest, in cells along a side.
+/// The size of the largest sprite of a game with sleeping sprites, in cells along a side.
 const LARGEST: f64 = 4.0;
 
-/// The cells around a sprite at rest, and the pass that would put it back.
+/// The cells around a sleeping sprite, and the pass that would put it back.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rest {
     pub(crate) slot: Slot,
@@ -52,16 +54,16 @@ impl Rest {
     }
 }
 
-/// What may be foreseen of the sprites of a type.
+/// The shortcuts that the sprites of a type may take.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Foresight {
-    /// They may fly.
+    /// `true` if they may fly.
     pub(crate) flies: bool,
-    /// They may rest.
+    /// `true` if they may sleep.
     pub(crate) rests: bool,
 }
 
-/// What may be foreseen, by type.
+/// The shortcuts of each type.
 pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectInfo]) -> Vec<Foresight> {
     use SpriteClass as C;
     let large = |factor: f64| factor.is_nan() || factor > LARGEST;
@@ -108,10 +110,10 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
         );
         let is_idle = info.class.is_some_and(|class| is_idle(class, info));
         (plain || draws(info) && !traits.oriented_image)
-            // What never moves by itself has nothing to be foreseen.
+            // Types that never move by themselves need no shortcut.
             && !is_idle
             && !traits.continuous
-            // What waits, and comes to another cell with every move, costs less as it is.
+            // Sprites that wait, and enter another cell with every move, are cheaper without it.
             && (traits.cooldown <= 1 || traits.cooldown <= LONGEST_PERIOD && traits.speed.abs() < 1.0)
             && traits.last_move == 0
             && traits.time_to_live < 0
@@ -127,7 +129,7 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
 }
 
 impl State {
-    /// Someone came to, or left, what a sprite covers: wakes are due if anything rests there.
+    /// Notes that the cells of a sprite have changed: sleeping sprites that watch them are to be woken.
     pub(crate) fn touch(&mut self, slot: Slot) {
         let sprite = self.sprite(slot);
         if !sprite.is(flag::LOOSE) {
@@ -147,7 +149,7 @@ impl State {
         self.touched = touched;
     }
 
-    /// Nothing is at rest any more. Between steps only.
+    /// Wakes all sleeping sprites. Between steps only.
     fn wake_all(&mut self) {
         for rest in self.rests.drain(..) {
             let sprite = &mut self.sprites[usize::from(rest.slot)];
@@ -159,7 +161,7 @@ impl State {
 }
 
 impl Step<'_> {
-    /// Before a tick: nothing rests in one in which a rule that is executed stops the game.
+    /// Prepares sleep and flight for a tick: nothing sleeps in a tick in which an executed rule stops the game.
     #[inline]
     pub(crate) fn begin_rest(&mut self, plainly: bool) {
         self.flies = self.rules.any_flies && !plainly;
@@ -172,7 +174,7 @@ impl Step<'_> {
         }
     }
 
-    /// An effect is about to be executed on a sprite.
+    /// Wakes and lands sprites before an effect is executed on a sprite.
     pub(crate) fn prepare(&mut self, effect: &Effect, one: Slot) {
         self.land_one(one);
         if effect.reaches_afar() {
@@ -182,7 +184,7 @@ impl Step<'_> {
         }
     }
 
-    /// An effect is executed on a sprite.
+    /// Notes the execution of an effect on a sprite.
     pub(crate) fn note(&mut self, effect: &Effect, free: bool, one: Slot, two: Option<Slot>) {
         let pass = self.pass;
         let first = &mut self.state.sprites[usize::from(one)].rest;
@@ -196,7 +198,7 @@ impl Step<'_> {
         }
         if let Some(two) = two {
             let second = &mut self.state.sprites[usize::from(two)].rest;
-            // Being in another's way changes nothing, unless it is worth points.
+            // Blocking another sprite changes nothing, unless it changes the score.
             let harmless = free && matches!(effect, Effect::StepBack { .. });
             if *second != mark::NOTHING && !harmless {
                 *second = mark::SPOILED;
@@ -204,8 +206,8 @@ impl Step<'_> {
         }
     }
 
-    /// After a tick: what was put back, in a place where nothing else changed, rests from now on; what has moved, and will
-    /// go on so, flies.
+    /// Puts sprites to sleep or into flight after a tick: sprites that were put back in a place where nothing else
+    /// changed start to sleep, and sprites that will continue to move in the same way start to fly.
     #[inline]
     pub(crate) fn settle_down(&mut self) {
         if self.tried && self.stopped.is_none() {
@@ -237,7 +239,7 @@ impl Step<'_> {
         self.state.moved.truncate(kept);
     }
 
-    /// All other changes were noted when they happened; of a try, it shows now that it was none.
+    /// Notes the moves that have not been undone; all other changes were noted when they happened.
     fn stamp_moved(&mut self) {
         for at in 0..self.state.moved.len() {
             let slot = self.state.moved[at];
@@ -268,7 +270,8 @@ impl Step<'_> {
             .state
             .cells_in(&rest)
             .all(|cell| self.state.stamps[cell] < now && self.state.watched[cell] < u8::MAX);
-        // Where it rests, an effect of the edge may be executed on it, which it has left when it is not at rest.
+        // At its place, an effect of the edge might be executed on it, from which its own movement takes it away when it
+        // is awake.
         if !quiet || sprite.is(flag::OFF) || self.stands_on_rules(slot) {
             return;
         }
@@ -280,7 +283,7 @@ impl Step<'_> {
         self.state.rests.push(rest);
     }
 
-    /// Whether a rule is about the sprite and anything that it overlaps where it stands.
+    /// Tests whether a rule pairs the sprite with anything that it overlaps at its place.
     fn stands_on_rules(&self, slot: Slot) -> bool {
         let rules = self.rules;
         let rect = self.state.sprite(slot).rect;
@@ -294,7 +297,7 @@ impl Step<'_> {
         found
     }
 
-    /// Wakes what rests around the touched cells.
+    /// Wakes the sleeping sprites around the touched cells.
     #[inline]
     pub(crate) fn wake(&mut self) {
         if !self.state.touched.is_empty() {
@@ -322,7 +325,7 @@ impl Step<'_> {
         }
     }
 
-    /// Wakes one sprite; makes up for its movement in this tick if that is past, and its way back is not.
+    /// Wakes one sprite. Makes up for its movement in this tick if that is past and its way back is not.
     fn rouse(&mut self, rest: Rest) {
         let slot = rest.slot;
         for cell in self.state.cells_in(&rest) {
@@ -345,14 +348,14 @@ impl Step<'_> {
         }
     }
 
-    /// Whether a sprite's own update in this tick is past.
+    /// Tests whether a sprite's own update in this tick is past.
     pub(crate) fn has_moved(&self, slot: Slot) -> bool {
         let Sprite { id, stype, .. } = *self.state.sprite(slot);
         let order = self.rules.types[stype.index()].order.map_or(-1, i32::from);
         self.updating < order || self.updating == order && id < self.updating_id
     }
 
-    /// Nothing rests or flies any more: something is about to happen that may concern all.
+    /// Wakes and lands all sprites, and carries out all deferred moves, because anything may be about to change.
     pub(crate) fn rouse_all(&mut self) {
         self.carry_out_bumps();
         self.rouse_resting();
@@ -376,7 +379,7 @@ impl State {
         })
     }
 
-    /// Notes that something changed for good in the cells that a sprite covers.
+    /// Notes a permanent change in the cells that a sprite covers.
     pub(crate) fn stamp(&mut self, sprite: &Sprite, tick: i32) {
         let stamp = stamp_of(tick);
         if !sprite.is(flag::LOOSE) {
@@ -390,7 +393,7 @@ impl State {
     }
 }
 
-/// A tick as stamps hold it; games end long before it overflows.
+/// A tick as a stamp; games end long before it overflows.
 fn stamp_of(tick: i32) -> i16 {
     tick.clamp(-1, i32::from(i16::MAX)) as i16
 }

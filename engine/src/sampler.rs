@@ -1,7 +1,7 @@
-//! Draws for everything that is not a game's own chance: search, generation, imagined futures.
+//! Random draws for everything that is not part of a game's rules: search, generation, imagined futures.
 //!
-//! ChaCha8 gives the bits; the few distributions are ours and pinned by golden vectors, because a library may change
-//! the values that its distributions yield in a minor release, and minted bytes depend on them
+//! ChaCha8 produces the bits. The few distributions are implemented here and pinned by golden vectors, because a library
+//! may change the values of its distributions in a minor release, and minted bytes depend on them
 //! (`docs/decisions/0003-determinism.md`).
 
 use crate::seed::Seed;
@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
-/// A stream of draws. It is saved as its seed and how far it has been drawn from.
+/// A stream of random draws. It is saved as its seed and its position.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(into = "Saved", from = "Saved")]
 pub struct Sampler(ChaCha8Rng);
@@ -17,13 +17,13 @@ pub struct Sampler(ChaCha8Rng);
 #[derive(Serialize, Deserialize)]
 struct Saved {
     seed: Seed,
-    /// 64-bit draws so far.
+    /// The number of 64-bit draws so far.
     drawn: u64,
 }
 
 impl From<Sampler> for Saved {
     fn from(Sampler(stream): Sampler) -> Saved {
-        // Two words of 32 bits a draw, and nothing draws one alone.
+        // Each draw takes two 32-bit words, and nothing takes a single one.
         Saved { seed: Seed::from_bytes(stream.get_seed()), drawn: (stream.get_word_pos() / 2) as u64 }
     }
 }
@@ -46,7 +46,7 @@ impl Sampler {
         self.0.next_u64()
     }
 
-    /// Uniform in `0..bound`, without bias (Lemire 2019, "Fast random integer generation in an interval").
+    /// A uniform number in `0..bound`, without bias (Lemire 2019, "Fast random integer generation in an interval").
     ///
     /// # Panics
     /// If `bound` is 0.
@@ -63,17 +63,17 @@ impl Sampler {
         (wide >> 64) as usize
     }
 
-    /// Uniform in `low..=high`.
+    /// A uniform number in `low..=high`.
     pub fn between(&mut self, low: usize, high: usize) -> usize {
         low + self.below(high - low + 1)
     }
 
-    /// Uniform in [0, 1) with 53 bits.
+    /// A uniform number in [0, 1) with 53 bits.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// True with probability `numerator / denominator`.
+    /// Returns `true` with probability `numerator / denominator`.
     pub fn ratio(&mut self, numerator: usize, denominator: usize) -> bool {
         self.below(denominator) < numerator
     }
@@ -100,7 +100,7 @@ impl Sampler {
         })
     }
 
-    /// Fisher–Yates, from the last place down.
+    /// Shuffles `items` (Fisher–Yates, from the last place down).
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.below(last + 1));
@@ -113,7 +113,7 @@ mod tests {
     use super::Sampler;
     use crate::Seed;
 
-    /// Golden vectors: if they move, GENERATION must be bumped.
+    /// Golden vectors: if they change, GENERATION must be incremented.
     #[test]
     fn draws_are_frozen() {
         let mut sampler = Seed::from_text("golden").sampler();

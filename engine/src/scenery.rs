@@ -1,8 +1,9 @@
-//! Scenery: sprites of types that no rule, no other sprite and no termination speaks of, and that do nothing by themselves.
+//! Scenery: sprites of types that no rule, no other sprite and no termination refers to, and that do nothing by
+//! themselves.
 //!
-//! They are where the level has put them for as long as an episode lasts: half of all sprites of a usual game are its floor.
-//! So all states of a level share them. They have no slots, and a copy of a state does not copy them; the running hash has
-//! their shares once and for all.
+//! They stay where the level has put them for the whole episode: half of all sprites of a typical game are its floor. All
+//! states of a level share them. They have no slots, a copy of a state does not copy them, and the running hash contains
+//! their contributions from the start.
 
 use crate::game::{SpriteType, TypeInfo};
 use crate::ontology::sprites::Mover;
@@ -12,11 +13,11 @@ use crate::syntax::{Description, Param, Word};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// The parameter in which the reference reads the number of a type.
+/// The parameter with which the reference reads a type by its number.
 const BY_NUMBER: &str = "itype";
 
-/// By type: whether anything but its own line, its parents' and the LevelMapping speaks of it. True where in doubt: a value that
-/// is only spelled like the type speaks of it, too. Cost: O(words of the game × log).
+/// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it. `true` in case of doubt:
+/// a value that is only spelled like the type counts, too. Cost: O(words of the game × log).
 pub(crate) fn spoken_of(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let lines = description.sprite_lines();
     let lines = lines.iter().flat_map(|(_, line)| &line.params);
@@ -41,21 +42,21 @@ pub(crate) fn spoken_of(description: &Description, types: &[TypeInfo]) -> Vec<bo
     types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
 }
 
-/// By type: whether its sprites are scenery.
+/// By type: `true` if its sprites are scenery.
 pub(crate) fn scenery(types: &[TypeInfo], spoken_of: &[bool], movers: &[Mover]) -> Vec<bool> {
     let moves: BTreeSet<SpriteType> = movers.iter().map(|mover| mover.stype).collect();
     let is_scenery = |(number, info): (u16, &TypeInfo)| {
         let stype = SpriteType(number);
-        // What the first of a type is like, as opposed to later ones, shows in what is larger or smaller than a cell only.
+        // The first sprite of a type differs from later ones only if its size differs from a cell's.
         let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
         let is_still = info.order.is_some() && !moves.contains(&stype) && !info.is_like_avatar();
-        // There are avatars that leave walls behind without a word.
+        // Some avatars leave walls behind without naming them.
         stype != SpriteType(0) && !spoken_of[stype.index()] && is_whole && is_still
     };
     (0..).zip(types).map(is_scenery).collect()
 }
 
-/// The sprites of scenery, by type, in the order of their creation.
+/// The scenery sprites, by type, in order of creation.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scenery(Vec<(SpriteType, Vec<Sprite>)>);
 
@@ -66,7 +67,7 @@ impl Scenery {
 }
 
 impl State {
-    /// Makes a sprite of scenery. Where states share theirs already, this one has its own from then on.
+    /// Makes a scenery sprite. If other states share the scenery, this one gets its own copy.
     pub(crate) fn add_scenery(&mut self, sprite: Sprite) {
         self.groups[sprite.stype.index()].count += 1;
         self.next_id += 1;
@@ -80,12 +81,12 @@ impl State {
         }
     }
 
-    /// The sprites of a type that are scenery: all, or none.
+    /// The scenery sprites of a type: all its sprites, or none.
     pub(crate) fn scenery_of(&self, stype: SpriteType) -> &[Sprite] {
         self.scenery.as_ref().map_or(&[], |scenery| scenery.of(stype))
     }
 
-    /// The sprites of a type as they are now, in the order of their creation: those with slots, and scenery. Between steps.
+    /// The current sprites of a type, in order of creation: those with slots, and scenery. Between steps.
     pub(crate) fn sprites_of(&self, stype: SpriteType) -> impl Iterator<Item = Sprite> + '_ {
         self.scenery_of(stype).iter().copied().chain(self.slots(stype).map(|slot| self.present(slot)))
     }

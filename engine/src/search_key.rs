@@ -1,4 +1,4 @@
-//! The key of a state's live behaviour: what transposition tables of planners use.
+//! The key of a state's live behaviour, for the transposition tables of planners.
 
 use crate::SpriteClass;
 use crate::analysis::Keying;
@@ -10,16 +10,16 @@ use crate::limits::MAX_TICKS;
 use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::state::{Slot, Sprite, State, flag, memory};
 
-/// Flags that a later step can read; all others say what the type says already, or where the sprite came from.
+/// The flags that a later step can read; the others follow from the type, or tell where the sprite came from.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
 
 const TAG: u64 = 0x4B65_7900;
 
-/// Takes in what makes up a key.
+/// A sink for the words that make up a key.
 trait Absorb {
     fn pair(&mut self, a: u64, b: u64);
 
-    /// Takes in what `words` says of each slot, so that their order makes no difference.
+    /// Absorbs the words of each slot so that their order makes no difference.
     fn in_any_order(&mut self, slots: impl Iterator<Item = Slot>, words: impl Fn(Slot, &mut Self));
 }
 
@@ -39,7 +39,7 @@ impl Absorb for Mixer {
     }
 }
 
-/// The words themselves, in full.
+/// Collects the words themselves, in full.
 impl Absorb for Vec<u64> {
     fn pair(&mut self, a: u64, b: u64) {
         self.extend([a, b]);
@@ -59,13 +59,14 @@ impl Absorb for Vec<u64> {
 }
 
 impl State {
-    /// The hash of live behaviour only. For states of one game and level, equal keys mean equal keys, outcomes and gains of
-    /// score after any same actions; short of the reference's limit of ticks and our limit of work, which planners do not
-    /// search to. (Gains apart where removeScore takes all there is.)
+    /// The hash of live behaviour only. For states of one game and level, equal keys mean equal keys, outcomes and score
+    /// changes after any same actions, except near the reference's limit of ticks and the engine's limit of work, which
+    /// planners do not reach. (Score changes by removeScore may differ, because it takes the whole score.)
     ///
-    /// Left out: the score, the counters and the tick unless a termination reads them (spawners read the remainder of the
-    /// tick only); chance unless something can draw; what is remembered and never read again. Ages count up to the cooldown, timers from now on, and
-    /// sprites are told apart by their order, not by their ids. Cost: O(sprites).
+    /// Left out: the score, the counters and the tick, unless a termination reads them (spawners read only the remainder
+    /// of the tick); the random number generator, unless something can draw; memory that is never read again. Ages count
+    /// up to the cooldown, timers are relative to the tick, and sprites are identified by their order instead of their
+    /// ids. Cost: O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
         self.live_state(&game.0, None, &mut mixer);
@@ -79,7 +80,7 @@ impl State {
         SearchKey(mixer.finish())
     }
 
-    /// What that key is a hash of.
+    /// The words that are hashed for that key.
     pub(crate) fn words_left_out(&self, rules: &Rules, keying: &Keying) -> Vec<u64> {
         let mut words = Vec::new();
         self.live_state(rules, Some(keying), &mut words);
@@ -130,7 +131,7 @@ impl State {
         self.remembered_words(rules, to);
     }
 
-    /// A sprite by its type and its place among those of its type.
+    /// Identifies a sprite by its type and its place among the sprites of its type.
     fn rank(&self, slot: Slot) -> u64 {
         let Some(sprite) = self.sprites.get(usize::from(slot)) else { return u64::MAX };
         let place = self.slots(sprite.stype).position(|other| other == slot);
@@ -142,7 +143,7 @@ impl State {
         let info = &rules.types[sprite.stype.index()];
         let (form, extra) = (self.form_of(sprite), self.extra_of(sprite));
         let held = self.held_by(slot).iter().filter(|held| held.amount != 0);
-        // What follows for this sprite is told apart by this word.
+        // This word tells how many words follow for this sprite.
         let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
         to.pair(two((sprite.flags & LIVE) as i32, follows), two(form.health, form.max_health));
         to.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
@@ -155,7 +156,7 @@ impl State {
             two(sprite.time_to_live, i32::from(form.spawns.0)),
         );
         if sprite.is(flag::FROZEN) {
-            // All others forget their last rectangle at the start of the next step.
+            // Other sprites forget their last rectangle at the start of the next step.
             let last = self.last(slot);
             to.pair(two(last.x, last.y), two(last.w, last.h));
         }
@@ -171,14 +172,14 @@ impl State {
         }
     }
 
-    /// The age as the next update or event reads it; beyond the cooldown all are the same.
+    /// The age as the next update or event reads it; all ages beyond the cooldown are equivalent.
     fn live_age(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         let age = if sprite.is(flag::FROZEN) {
             sprite.moved_at
         } else {
             self.tick.wrapping_sub(sprite.moved_at).wrapping_add(1)
         };
-        // The reference counts on beyond the largest number, to the smallest: then an old sprite is young again.
+        // The reference's counter overflows to the smallest number: then an old sprite is young again.
         if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) }
     }
 
@@ -194,7 +195,7 @@ impl State {
         }
     }
 
-    /// Ticks until a tick is reached; those that the next step reaches are all alike.
+    /// The number of ticks until a tick is reached; all ticks that the next step reaches are equivalent.
     fn wait(&self, until: i32) -> u64 {
         (i64::from(until) - i64::from(self.tick)).max(1) as u64
     }
@@ -216,8 +217,8 @@ impl State {
         to.pair(two(x, y), 0);
     }
 
-    /// What effects remember and read before they write it, and which types' next sprite is their first, where that makes a
-    /// difference.
+    /// The memory that effects read before they write it, and the types whose next sprite is not their first, where this
+    /// makes a difference.
     fn remembered_words(&self, rules: &Rules, to: &mut impl Absorb) {
         let credits = memory::APPLY_SCORE | memory::NO_COUNT | memory::NO_COUNT_ELSE;
         for &effect in &rules.remembering {

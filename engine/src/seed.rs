@@ -1,4 +1,4 @@
-//! Seeds: 256 bits, split by hashing a path, never by addition.
+//! Seeds: 256 bits, derived by hashing a path, never by addition.
 //!
 //! Two items of a release get their randomness from `seed.child("game", 3)` and `seed.child("game", 4)`: no stream is
 //! shared, so items can be minted in any order, on any number of threads or machines.
@@ -7,17 +7,17 @@ use crate::{chance::Chance, digest::NotHex, sampler::Sampler};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::{fmt, str::FromStr};
 
-/// Where every random decision of the suite comes from.
+/// The source of all random decisions of the suite.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Seed([u8; 32]);
 
 impl Seed {
-    /// The seed that a human-readable text stands for, such as a recipe's `seed = "starter"`.
+    /// The seed for a human-readable text, such as a recipe's `seed = "starter"`.
     pub fn from_text(text: &str) -> Seed {
         Seed(blake3::derive_key("infinite-arcade 1 seed from text", text.as_bytes()))
     }
 
-    /// The seed of part `index` of what this seed is for; `purpose` keeps the parts of different kinds apart.
+    /// The seed for part `index` of the thing that this seed is for; `purpose` separates different kinds of parts.
     pub fn child(self, purpose: &str, index: u64) -> Seed {
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 seed child");
         hasher.update(&self.0);
@@ -27,12 +27,12 @@ impl Seed {
         Seed(*hasher.finalize().as_bytes())
     }
 
-    /// The draws for a generator's or a planner's decisions.
+    /// The random stream for the decisions of a generator or planner.
     pub fn sampler(self) -> Sampler {
         Sampler::new(self.0)
     }
 
-    /// The draws that belong to a game's rules (`spec/01` §7).
+    /// The random number generator for a game's rules (`spec/01` §7).
     pub fn chance(self) -> Chance {
         let bytes = blake3::derive_key("infinite-arcade 1 chance", &self.0);
         Chance::from_java(i64::from_le_bytes(bytes[..8].try_into().expect("eight of 32 bytes")))
@@ -103,7 +103,7 @@ mod tests {
         }
     }
 
-    /// A golden vector: if it moves, every release in the world loses its seed.
+    /// A golden vector: if it changes, the seeds of all releases lose their meaning.
     #[test]
     fn derivation_is_frozen() {
         let seed = Seed::from_text("starter").child("game", 7);

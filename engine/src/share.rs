@@ -1,8 +1,9 @@
-//! What a sprite adds to the hash of its state, and how that goes on by itself while the sprite flies.
+//! Hash contributions: the terms that sprites add to the hash of their state, and their growth while sprites fly.
 //!
-//! The hash of a state is a sum over its sprites of a number, times keys that each sprite has for itself (`hash.rs`). The number is
-//! linear in where the sprite is and when it moved last. So what flies needs no look: all that move in the same ticks are one
-//! tide, by whose growth the sum is more after each of their moves.
+//! The hash of a state is a sum over its sprites of a number times keys of the sprite's own (`hash.rs`). The number is
+//! linear in the place of the sprite and the tick of its last move. Sprites in flight therefore need no update: all
+//! sprites that move in the same ticks form one linear hash class, and the sum grows by the class's growth after each of
+//! their moves.
 
 use crate::form::Form;
 use crate::geometry::Rect;
@@ -10,7 +11,7 @@ use crate::hash::{KEYS, Products, SECRET, bits, fold, two};
 use crate::moved::{Resized, last_of};
 use crate::state::{Slot, Sprite, State, flag};
 
-/// Where to find what a sprite does not hold itself.
+/// The tables with data that a sprite does not hold itself.
 #[derive(Clone, Copy)]
 pub(crate) struct Parts<'a> {
     pub(crate) forms: &'a [Form],
@@ -23,9 +24,10 @@ impl State {
     }
 }
 
-/// What seldom changes of a sprite, hashed.
+/// The hash of the rarely changed values of a sprite.
 ///
-/// The last rectangle becomes the rectangle before the next tick looks at it, but for sprites that are not updated.
+/// The last rectangle is only included for sprites that are not updated: for others the current one replaces it before
+/// the next tick reads it.
 #[inline(always)]
 fn still_hash(sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> u64 {
     let last = sprite.is(flag::FROZEN).then(|| last_of(sprite, slot, parts.resized));
@@ -49,20 +51,20 @@ fn hash_of(sprite: &Sprite, form: &Form, last: Option<&Rect>) -> u64 {
     fold(low ^ SECRET[0], high ^ SECRET[1])
 }
 
-/// What a sprite adds to the hash of its state when it was last settled: `word`, and what it has grown by since, times keys of
+/// The hash contribution of a sprite when the hash was last settled: `word`, plus its growth since then, times keys of
 /// the sprite's own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Share {
-    /// Where it is and what changes with moving, as one number; of a sprite in flight, before its first move from tick 0 on.
-    /// 0 if the slot is free.
+    /// The place and everything that changes with moving, as one number; for a sprite in flight, before its first move
+    /// from tick 0 on. 0 if the slot is free.
     pub(crate) word: u64,
-    /// How the word grows by itself.
+    /// The growth of the word in flight.
     pub(crate) steady: Steady,
-    /// What seldom changes of the sprite, hashed: no other sprite has the same.
+    /// The hash of the rarely changed values of the sprite; different for every sprite.
     pub(crate) still: u64,
 }
 
-/// What a pixel down, and a tick later, are in [`Share::word`], when a pixel to the right is 1.
+/// The weights of a pixel down, and of a later tick, in [`Share::word`]; a pixel to the right has weight 1.
 const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
 const LATER: u64 = 0xD1B5_4A32_D192_ED03;
 
@@ -70,14 +72,14 @@ fn point(x: i32, y: i32) -> u64 {
     (x as u64).wrapping_add((y as u64).wrapping_mul(DOWN))
 }
 
-/// How a sprite in flight goes on, in one number: pixels right and down that it moves, every so many ticks, in which of them, and
-/// whether it matters when. 0 for all others.
+/// The motion of a sprite in flight as one number: displacement in pixels right and down, period, phase, and the `AGES`
+/// bit. 0 for all other sprites.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Steady(pub(crate) u64);
 
 impl Steady {
     const NONE: Steady = Steady(0);
-    /// The bit that says that it matters when the sprite moved last.
+    /// The bit that is set if the tick of the last move matters.
     const AGES: u64 = 1 << 63;
 
     fn of(sprite: &Sprite, ages: bool) -> Steady {
@@ -99,7 +101,7 @@ impl Steady {
         ((self.0 & !Steady::AGES) >> 48) as u16
     }
 
-    /// By how much the word grows in a move.
+    /// The growth of the word with each move.
     fn growth(self) -> u64 {
         let by = point(i32::from(self.0 as i16), i32::from((self.0 >> 16) as i16));
         let later = if self.0 & Steady::AGES == 0 { 0 } else { LATER.wrapping_mul(u64::from(self.period())) };
@@ -107,13 +109,13 @@ impl Steady {
     }
 }
 
-/// Whether it matters when a sprite moved last: where a cooldown may hold it up, or where that is its age.
+/// Tests whether the tick of a sprite's last move matters: for a cooldown that may delay the sprite, or as its age.
 #[inline(always)]
 fn ages(sprite: &Sprite) -> bool {
     sprite.flags & (flag::BRISK | flag::FROZEN) != flag::BRISK
 }
 
-/// Where a sprite is and what changes with moving, as one number.
+/// The place of a sprite and everything that changes with moving, as one number.
 #[inline(always)]
 fn word(sprite: &Sprite) -> u64 {
     let look = u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading()) << 32 | u64::from(sprite.flags);
@@ -123,7 +125,7 @@ fn word(sprite: &Sprite) -> u64 {
     point(sprite.rect.x, sprite.rect.y).wrapping_add(moved_at).wrapping_add(rest)
 }
 
-/// How many moves there were from tick 0 to `tick`, of one every `period` ticks.
+/// The number of moves from tick 0 to `tick`, with one move every `period` ticks.
 fn moves(tick: i32, period: u16, phase: u16) -> u64 {
     match period {
         1 => tick as u64,
@@ -132,7 +134,7 @@ fn moves(tick: i32, period: u16, phase: u16) -> u64 {
 }
 
 impl Share {
-    /// The share of a sprite, given what it was.
+    /// The hash contribution of a sprite, given its previous one.
     #[inline(always)]
     pub(crate) fn renewed(self, sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> Share {
         if sprite.flags & (flag::GONE | flag::CHANGED) == 0 {
@@ -144,15 +146,15 @@ impl Share {
         }
     }
 
-    /// Whether [`Share::follow`] is enough, as it mostly is: the sprite was on foot, is, and nothing changed but what comes with
-    /// moving.
+    /// Tests whether [`Share::follow`] suffices, the most frequent case: the sprite was not in flight, is not, and
+    /// nothing changed but what comes with moving.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
         let on_foot = self.steady == Steady::NONE && !sprite.flies();
         on_foot && sprite.flags & (flag::GONE | flag::CHANGED) == 0
     }
 
-    /// [`Share::renewed`] in place. Returns by how much the sum grows.
+    /// [`Share::renewed`] in place. Returns the growth of the sum.
     #[inline(always)]
     pub(crate) fn follow(&mut self, sprite: &Sprite) -> Sum {
         let word = word(sprite);
@@ -160,13 +162,13 @@ impl Share {
         times(self.keys(), by)
     }
 
-    /// The share of a sprite, whatever it was.
+    /// The hash contribution of a sprite, computed from scratch.
     #[inline(never)]
     pub(crate) fn fresh(sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> Share {
         Share::of(sprite, still_hash(sprite, slot, parts))
     }
 
-    /// The share of a sprite, given its [`still_hash`].
+    /// The hash contribution of a sprite, given its [`still_hash`].
     #[inline(always)]
     fn of(sprite: &Sprite, still: u64) -> Share {
         let word = word(sprite);
@@ -178,13 +180,13 @@ impl Share {
         Share { word: word.wrapping_sub(steady.growth().wrapping_mul(moves)), steady, still }
     }
 
-    /// The keys: odd, so that no difference of two words is lost.
+    /// The keys. They are odd, so that no difference of two words is lost.
     #[inline(always)]
     fn keys(self) -> Sum {
         [self.still | 1, (self.still ^ self.still >> 32).wrapping_mul(SECRET[0]) | 1]
     }
 
-    /// Its part of the sum of a tick.
+    /// The contribution to the sum at a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
         let grown = match self.steady {
             Steady::NONE => 0,
@@ -194,7 +196,7 @@ impl Share {
     }
 }
 
-/// Two numbers modulo 2⁶⁴ that take the place of one modulo 2¹²⁸.
+/// Two numbers modulo 2⁶⁴, in place of one modulo 2¹²⁸.
 pub(crate) type Sum = [u64; 2];
 
 #[inline(always)]
@@ -212,24 +214,24 @@ pub(crate) fn minus(one: Sum, other: Sum) -> Sum {
     [one[0].wrapping_sub(other[0]), one[1].wrapping_sub(other[1])]
 }
 
-/// The growth of all sprites in flight that move in the same ticks, times their keys.
+/// A linear hash class: the growth of all sprites in flight that move in the same ticks, times their keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tide {
     pub(crate) period: u16,
     pub(crate) phase: u16,
-    /// How many sprites.
+    /// The number of sprites.
     pub(crate) flights: u16,
     pub(crate) growth: Sum,
 }
 
 impl Tide {
-    /// By how much it has grown up to a tick.
+    /// The growth up to a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
         times(self.growth, moves(tick, self.period, self.phase))
     }
 }
 
-/// Puts a share in the place of another.
+/// Replaces a hash contribution by another one.
 #[inline(always)]
 pub(crate) fn exchange(old: Share, new: Share, sum: &mut Sum, tides: &mut Vec<Tide>) {
     if old.still == new.still {
@@ -242,7 +244,7 @@ pub(crate) fn exchange(old: Share, new: Share, sum: &mut Sum, tides: &mut Vec<Ti
     }
 }
 
-/// The part of it that is about the tides.
+/// The part of [`exchange`] that updates the linear hash classes.
 #[inline(never)]
 fn turn(old: Share, new: Share, tides: &mut Vec<Tide>) {
     if old.steady != Steady::NONE {
@@ -262,7 +264,7 @@ fn turn(old: Share, new: Share, tides: &mut Vec<Tide>) {
     }
 }
 
-/// The place of a tide, made if there is none yet.
+/// The index of the linear hash class for a motion; adds one if there is none yet.
 fn tide_of(steady: Steady, tides: &mut Vec<Tide>) -> usize {
     let (period, phase) = (steady.period(), steady.phase());
     tides.iter().position(|tide| (tide.period, tide.phase) == (period, phase)).unwrap_or_else(|| {
@@ -286,7 +288,8 @@ mod tests {
         Game::from_source(source).unwrap()
     });
 
-    /// A share of a sprite with that number, which is at (x, y) and moves by (dx, dy) every three ticks, the last time in tick 5.
+    /// The hash contribution of a sprite with that id, which is at (x, y) and moves by (dx, dy) every three ticks, most
+    /// recently in tick 5.
     fn share(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Share {
         let info = &GAME.0.types[0];
         let mut sprite = model(SpriteType(0), info);

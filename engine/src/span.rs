@@ -1,7 +1,6 @@
-//! The few cells that a sprite covers that is no larger than one.
+//! The few cells covered by a sprite that is no larger than a cell.
 
-/// Some of the cells of a square of the board, [`SPAN`] cells wide: those that a sprite covers that is no larger than a
-/// cell, up to four.
+/// Some of the cells of a square of the board, [`SPAN`] cells wide: up to four cells that a small sprite covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     /// The square's corner.
@@ -11,11 +10,11 @@ pub(crate) struct Span {
     bits: u32,
 }
 
-/// Two sprites no larger than a cell whose corners are in neighbouring cells are in a square of so many.
+/// The width of the square that contains two small sprites whose corners are in neighbouring cells.
 const SPAN: u32 = 3;
 
 impl Span {
-    /// The cell of a sprite's corner, and those to the right and below that it reaches into.
+    /// The cell of a sprite's corner, and the cells to the right and below that it reaches into.
     #[inline(always)]
     pub(crate) fn new(cell: usize, stride: usize, right: bool, below: bool) -> Span {
         Span { cell, stride, bits: (1 | u32::from(right) << 1) * (1 | u32::from(below) << SPAN) }
@@ -34,14 +33,14 @@ impl Span {
         })
     }
 
-    /// The cells of this span that are not in another one, and those of the other that are not in this; the other's corner
-    /// is so many columns and rows away.
+    /// The cells of this span that are not in the other one, and the reverse; the corner of the other one is `columns`
+    /// and `rows` away.
     #[inline(always)]
     pub(crate) fn apart(self, other: Span, columns: i32, rows: i32) -> (Span, Span) {
         if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {
             return (self, other);
         }
-        // Both in one square, whose corner is the upper and left one of theirs.
+        // Both spans in one square, whose corner is the upper left one of theirs.
         let back = |by: i32| by.min(0).unsigned_abs() as usize;
         let cell = self.cell - back(columns) - back(rows) * self.stride;
         let shift = |columns: i32, rows: i32| columns.max(0) as u32 + rows.max(0) as u32 * SPAN;
@@ -49,12 +48,12 @@ impl Span {
         (Span { cell, bits: mine & !others, ..self }, Span { cell, bits: others & !mine, ..self })
     }
 
-    /// How many columns it reaches to the right, of a span that [`Span::new`] made.
+    /// The number of columns that it extends to the right, for a span made by [`Span::new`].
     pub(crate) fn right(self) -> i32 {
         i32::from(self.bits & 0b0010 != 0)
     }
 
-    /// How many rows it reaches down.
+    /// The number of rows that it extends down.
     pub(crate) fn below(self) -> i32 {
         i32::from(self.bits & 1 << SPAN != 0)
     }

@@ -1,9 +1,9 @@
-//! The state of an episode: flat arrays, no pointer to the rules (`docs/decisions/0004-state-as-flat-data.md`).
+//! The state of an episode: flat arrays without pointers to the rules (`docs/decisions/0004-state-as-flat-data.md`).
 //!
-//! Sprites live in slots of one array. Two chains thread through the slots: the sprites of one type in the order of
-//! their creation (what the reference calls a group), and the sprites in one cell of the board (`occupancy.rs`).
-//! Effects read and write sprites through the methods here and in `population.rs` and `motion.rs` only, so that the layout can
-//! change without them.
+//! Sprites live in the slots of one array. Two linked lists (chains) run through the slots: the sprites of one type in
+//! the order of their creation (a group in the reference), and the sprites in one cell of the board (`occupancy.rs`).
+//! Effects read and write sprites only through the methods here and in `population.rs` and `motion.rs`, so that the
+//! layout can change without them.
 
 use crate::belongings::{Held, Replaced};
 use crate::bump::Bump;
@@ -27,73 +27,75 @@ pub(crate) const NONE: Slot = u16::MAX;
 
 /// Bits of [`Sprite::flags`]; the first four are those that traces record.
 pub(crate) mod flag {
-    /// A killed avatar: stays in its group, is no longer updated.
+    /// A killed avatar: it stays in its group but is no longer updated.
     pub(crate) const DISABLED: u32 = 1;
     pub(crate) const AVATAR: u32 = 2;
     pub(crate) const FROM_AVATAR: u32 = 4;
-    /// Stands on something solid; of classes that notice.
+    /// The sprite stands on something solid; only for classes that detect it.
     pub(crate) const ON_GROUND: u32 = 8;
-    /// What traces record.
+    /// The bits that traces record.
     pub(crate) const RECORDED: u32 = 15;
     pub(crate) const FIRST_TICK: u32 = 16;
     pub(crate) const ORIENTED: u32 = 32;
-    /// In the kill list.
+    /// The sprite is in the kill list.
     pub(crate) const KILLED: u32 = 64;
     /// The sprite is not updated, and `moved_at` holds its age: its type is not in the update order, or it is of an avatar
     /// class and not the player's, or disabled.
     pub(crate) const FROZEN: u32 = 128;
-    /// In `State::moved`: the last rectangle differs from the rectangle, or may.
+    /// The sprite is in `State::moved`: its last rectangle differs from its rectangle, or may.
     pub(crate) const MOVED: u32 = 256;
-    /// In `State::stale`: the running hash may hold an older form of this sprite.
+    /// The dirty flag. The sprite is in `State::stale`: the running hash may contain an older version of it.
     pub(crate) const STALE: u32 = 512;
     /// The slot is free.
     pub(crate) const GONE: u32 = 1024;
-    /// Not wholly on the screen.
+    /// The sprite is not wholly on the screen.
     pub(crate) const OFF: u32 = 2048;
-    /// No larger than a cell, and covers the cell to the right too.
+    /// The sprite is no larger than a cell, and covers the cell to the right too.
     pub(crate) const RIGHT: u32 = 4096;
-    /// No larger than a cell, and covers the cell below too.
+    /// The sprite is no larger than a cell, and covers the cell below too.
     pub(crate) const BELOW: u32 = 8192;
-    /// Larger than a cell.
+    /// The sprite is larger than a cell.
     pub(crate) const BIG: u32 = 16_384;
-    /// Covers more than one cell, or may.
+    /// The sprite covers more than one cell, or may.
     pub(crate) const LOOSE: u32 = RIGHT | BELOW | BIG;
-    /// Its cooldown never holds it up, so it does not matter when it moved last.
+    /// The cooldown never delays the sprite, so the tick of its last move does not matter.
     pub(crate) const BRISK: u32 = 32_768;
-    /// More is to be renewed of its share of the hash than what comes with moving.
+    /// More of the hash contribution has changed than what comes with moving.
     pub(crate) const CHANGED: u32 = 65_536;
-    /// In `State::resized`: it had another size at the start of its update.
+    /// The sprite is in `State::resized`: it had another size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;
-    /// It has stepped into a barrier in this tick, and is entered where it comes from (`bump.rs`).
+    /// The sprite has stepped into a barrier in this tick, and is still entered at its old position (`bump.rs`).
     pub(crate) const BUMPING: u32 = 131_072;
-    /// How a sprite lies in its cell.
+    /// The bits of how a sprite lies in its cell.
     pub(crate) const LYING: u32 = LOOSE | OFF;
-    /// Spawner: it has been updated, and `Form::start` says when first.
+    /// Spawner: it has been updated, and `Form::start` is the tick of the first update.
     pub(crate) const STARTED: u32 = 524_288;
-    /// NPC: from this bit on, the last drawn direction as an index into the base directions, 4 for none.
+    /// NPC: the position of the highest bits, with the last drawn direction as an index into the base directions, 4 for
+    /// none.
     pub(crate) const HEADING: u32 = 29;
-    /// The others are book-keeping, in which two equal states may differ.
+    /// The bits that are part of the state; the others are bookkeeping, in which two equal states may differ.
     pub(crate) const LASTING: u32 = 0xFF;
 }
 
-/// One sprite: as large as what processors fetch at once.
+/// One sprite: the size of a cache line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sprite {
     pub(crate) rect: Rect,
-    /// Its corner at the start of its own update in this tick (`moved.rs`).
+    /// The corner at the start of its own update in this tick (`moved.rs`).
     pub(crate) was: (i32, i32),
-    /// Creation number, never reused.
+    /// The creation number, never reused.
     pub(crate) id: u32,
-    /// The tick of the last move; `lastmove` of the reference is the tick minus this.
+    /// The tick of the last move; the reference's `lastmove` is the tick minus this.
     pub(crate) moved_at: i32,
     pub(crate) time_to_live: i32,
-    /// Flicker: its age. NPC: how often the last direction was repeated. Spawner: how many it spawned.
+    /// Flicker: its age. NPC: the number of repetitions of the last direction. Spawner: the number of sprites that it has
+    /// spawned.
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
-    /// Index into `State::forms`: its type's form, or one of its own.
+    /// Index into `State::forms`: the component of its type, or one of its own.
     pub(crate) form: u16,
-    /// What has happened to it in this tick, as far as rest is concerned, and how it flies (`rest.rs`).
+    /// The events of this tick that matter for sleep, and the period in flight (`rest.rs`).
     pub(crate) rest: u16,
     /// The chain of the type.
     pub(crate) next: Slot,
@@ -124,13 +126,13 @@ impl Sprite {
         self.flags = self.flags & !(7 << flag::HEADING) | heading << flag::HEADING;
     }
 
-    /// Whether it is in flight (`flight.rs`).
+    /// Tests whether it is in flight (`flight.rs`).
     #[inline(always)]
     pub(crate) fn flies(&self) -> bool {
         self.rest > mark::RESTING
     }
 
-    /// Ticks between its moves, in flight.
+    /// The number of ticks between its moves in flight.
     #[inline(always)]
     pub(crate) fn period(&self) -> u16 {
         self.rest & !mark::ASLEEP
@@ -152,13 +154,13 @@ pub(crate) struct Group {
     pub(crate) tail: Slot,
     pub(crate) count: u16,
     pub(crate) disabled: u16,
-    /// How many cover more than one cell, or may.
+    /// The number of sprites that cover more than one cell, or may.
     pub(crate) loose: u16,
-    /// How many are larger than a cell.
+    /// The number of sprites that are larger than a cell.
     pub(crate) big: u16,
-    /// How many are not wholly on the screen.
+    /// The number of sprites that are not wholly on the screen.
     pub(crate) off: u16,
-    /// How many are at rest or in flight.
+    /// The number of sprites that are asleep or in flight.
     pub(crate) asleep: u16,
 }
 
@@ -167,14 +169,14 @@ impl Group {
         Group { head: NONE, tail: NONE, count: 0, disabled: 0, loose: 0, big: 0, off: 0, asleep: 0 };
 }
 
-/// A timer of the time phase: which one, and when it is due.
+/// A timer of the time phase: the timed effect, and the tick in which it is due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Timer {
     pub(crate) due: i32,
     pub(crate) timed: u16,
 }
 
-/// What an effect remembers between executions (`spec/03` §13), bits of one byte an effect.
+/// The memory of an effect between executions (`spec/03` §13), as bits of one byte per effect.
 pub(crate) mod memory {
     /// The score changes when the effect runs; many effects set this as they go.
     pub(crate) const APPLY_SCORE: u8 = 1;
@@ -188,8 +190,8 @@ pub(crate) mod memory {
 
 /// The state of an episode.
 ///
-/// `clone` replays the same chance; planners use [`State::fork`]. `clone_from` reuses buffers and does not allocate
-/// once they have grown.
+/// `clone` copies the random number generator too; planners use [`State::fork`]. `clone_from` reuses buffers and does not
+/// allocate once they have grown.
 #[derive(Debug)]
 pub struct State {
     pub(crate) tick: i32,
@@ -199,7 +201,7 @@ pub struct State {
     pub(crate) last_action: Action,
     pub(crate) avatar: Slot,
     pub(crate) next_id: u32,
-    /// The reference's sprite counter, drift included (`spec/03` §5.1).
+    /// The reference's sprite counter, including its drift (`spec/03` §5.1).
     pub(crate) population: i32,
     /// Messages logged so far: more than 25 end the game.
     pub(crate) messages: u32,
@@ -207,89 +209,89 @@ pub struct State {
     pub(crate) columns: i32,
     pub(crate) rows: i32,
     pub(crate) free: Slot,
-    /// Written by StopCounter: whether counters may end the game.
+    /// The flag that lets counters end the game; StopCounter writes it.
     pub(crate) can_end: bool,
-    /// The sum of `shares`, but for what grows by itself.
+    /// The sum of `shares`, without the growth of sprites in flight.
     pub(crate) sum: Sum,
-    /// How many sprites are larger than a cell.
+    /// The number of sprites that are larger than a cell.
     pub(crate) big: u32,
-    /// How many are not wholly on the screen.
+    /// The number of sprites that are not wholly on the screen.
     pub(crate) off: u32,
     /// The bits of the types with sprites that cover more than one cell.
     pub(crate) loose_bits: u64,
     /// The bits of the types with sprites that are larger than a cell.
     pub(crate) big_bits: u64,
     pub(crate) sprites: Vec<Sprite>,
-    /// By slot: the share of the sprite in the hash when it was last settled.
+    /// By slot: the hash contribution of the sprite when the hash was last settled.
     pub(crate) shares: Vec<Share>,
-    /// The growth of what flies, when the hash was last settled.
+    /// The linear hash classes of the sprites in flight, when the hash was last settled.
     pub(crate) tides: Vec<Tide>,
     pub(crate) groups: Vec<Group>,
-    /// Whether the counts of `groups` have changed since terminations looked at them.
+    /// `true` if the counts of `groups` have changed since terminations looked at them.
     pub(crate) census_changed: bool,
     pub(crate) cells: Vec<Slot>,
     /// By cell: the bits of the types that cover it (`contacts.rs`).
     pub(crate) masks: Vec<u64>,
-    /// By cell: the bits of the types of which several sprites cover it; empty as long as there are none.
+    /// By cell: the bits of the types with several sprites in it; empty as long as there are none.
     pub(crate) crowds: Vec<u64>,
-    /// By cell: the bits of the sprites larger than a cell that cover it, or did not long ago; empty without any.
+    /// By cell: the bits of the large sprites that cover it, or did so recently; empty if there are none.
     pub(crate) covered: Vec<u64>,
-    /// How often such a sprite has left cells since `covered` was tidied.
+    /// The number of times that such a sprite has left cells since `covered` was recomputed.
     pub(crate) left_behind: u32,
-    /// The bits of sprites so large that they count as everywhere.
+    /// The bits of sprites so large that they count as being everywhere.
     pub(crate) vast: u64,
-    /// By pair of bits: in how many cells both are.
+    /// By pair of bits: the number of cells that contain both.
     pub(crate) together: Vec<u16>,
-    /// By bit: the bits that it is together with anywhere.
+    /// By bit: the bits that share a cell with it anywhere.
     pub(crate) meets: Vec<u64>,
-    /// By pass: how many reasons there are to look at it.
+    /// By pass: the number of reasons to look at it.
     pub(crate) reasons: Vec<u16>,
-    /// The passes with a reason, a bit each.
+    /// The passes with a reason, as a bit set.
     pub(crate) possible: Vec<u64>,
     pub(crate) moved: Vec<Slot>,
-    /// Those of them that have another size now, sorted by slot.
+    /// The sprites in `moved` that have another size now, sorted by slot.
     pub(crate) resized: Vec<Resized>,
     pub(crate) stale: Vec<Slot>,
     pub(crate) killed: Vec<Slot>,
-    /// Sorted by holder and resource.
+    /// The resources that sprites hold, sorted by holder and resource.
     pub(crate) held: Vec<Held>,
     pub(crate) memory: Vec<u8>,
-    /// Of `memory` and `templates`, when last settled.
+    /// The hash of `memory` and `templates` when last settled.
     pub(crate) memory_hash: u64,
     pub(crate) memory_is_stale: bool,
-    /// Types of which a sprite was made before: later ones are copies (`spec/02` §1.3).
+    /// By type: not 0 if a sprite has been made before; later ones are copies (`spec/02` §1.3).
     pub(crate) templates: Vec<u8>,
     /// This tick's shields, sorted: type, partner, effect keyword (`spec/03` §5.7).
     pub(crate) shields: Vec<(SpriteType, SpriteType, u16)>,
     /// Sprites that a pullWithIt effect has carried in this tick, sorted.
     pub(crate) pulled: Vec<(u16, Slot)>,
-    /// The forms of the types, and of sprites that have one of their own (`form.rs`).
+    /// The components of the types, and of sprites that have their own (`form.rs`).
     pub(crate) forms: Vec<Form>,
     pub(crate) extras: Vec<Extra>,
-    /// Sprites at rest (`rest.rs`).
+    /// The sleeping sprites (`rest.rs`).
     pub(crate) rests: Vec<Rest>,
-    /// By cell: around how many sprites at rest it is.
+    /// By cell: the number of sleeping sprites that watch it.
     pub(crate) watched: Vec<u8>,
-    /// By cell: the tick of the last change that was not undone, or the tick up to which something flies there.
+    /// By cell: the tick of the last permanent change, or the tick up to which a sprite flies there.
     pub(crate) stamps: Vec<i16>,
-    /// Sprites in flight (`flight.rs`), and when the next one is due.
+    /// The sprites in flight (`flight.rs`), and the tick in which the next one is due.
     pub(crate) flights: Vec<Flight>,
     pub(crate) next_due: i32,
-    /// Watched cells that something has come to or left, within a step.
+    /// Watched cells that a sprite has entered or left, within a step.
     pub(crate) touched: Vec<u32>,
-    /// Bumps that are not settled, within a step.
+    /// Unsettled deferred moves, within a step.
     pub(crate) bumps: Vec<Bump>,
-    /// Planned time effects, the next one last (`spec/03` §6.2).
+    /// Scheduled timed effects, the next one last (`spec/03` §6.2).
     pub(crate) timers: Vec<Timer>,
-    /// What paths go around (`paths.rs`); none without `obs=`. All states of a level share it.
+    /// The path finding tables (`paths.rs`); `None` without `obs=`. All states of a level share them.
     pub(crate) ways: Option<Arc<Ways>>,
-    /// The sprites that nothing is about; none without any. All states of a level share them.
+    /// The scenery (`scenery.rs`); `None` if there is none. All states of a level share it.
     pub(crate) scenery: Option<Arc<Scenery>>,
-    /// Entries of the lists of BomberRandomMissiles that updateSpawnType has replaced, sorted by holder and place.
+    /// Entries of BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder and place.
     pub(crate) replaced: Vec<Replaced>,
     /// The game's counters.
     pub(crate) counters: Vec<i32>,
-    /// The second stream of chance, which only WalkerJumper draws from.
+    /// The second random stream, for WalkerJumper and for choices that the reference makes without a seed.
     pub(crate) jumps: Chance,
 }
 
@@ -310,14 +312,14 @@ macro_rules! clone_fields {
                 let $to = self;
                 $($to.$scalar = $from.$scalar;)*
                 $(if $from.$buffer.is_empty() {
-                    // As many are: copying nothing would cost a call.
+                    // Many buffers are empty: copying nothing would cost a call.
                     $to.$buffer.clear();
                 } else {
                     $to.$buffer.clone_from(&$from.$buffer);
                 })*
                 // These hold nothing between steps.
                 $($to.$empty.clear();)*
-                // Counting who shares it is not free, and seldom needed.
+                // Updating the reference count has a cost, and is seldom needed.
                 $(if $to.$shared.as_ref().map(Arc::as_ptr) != $from.$shared.as_ref().map(Arc::as_ptr) {
                     $to.$shared.clone_from(&$from.$shared);
                 })*
@@ -334,7 +336,7 @@ clone_fields! { to, from;
 }
 
 impl State {
-    /// How many ticks have been played, minus one: −1 at the start, 0 after the first step.
+    /// The number of ticks played, minus one: −1 at the start, 0 after the first step.
     pub fn tick(&self) -> i32 {
         self.tick
     }
@@ -344,38 +346,38 @@ impl State {
         self.score as f64
     }
 
-    /// The game's counters, as many as its `no_counters=` says.
+    /// The game's counters; `no_counters=` sets their number.
     pub fn counters(&self) -> &[i32] {
         &self.counters
     }
 
-    /// How the episode stands.
+    /// The outcome of the episode so far.
     pub fn outcome(&self) -> Outcome {
         self.outcome
     }
 
-    /// Whether the episode is over.
+    /// Returns `true` once the episode is over.
     pub fn is_over(&self) -> bool {
         !matches!(self.outcome, Outcome::Ongoing)
     }
 
-    /// The game's chance.
+    /// The game's random number generator.
     pub fn chance(&self) -> Chance {
         self.chance
     }
 
-    /// The same state with another future: for planners, who must not foresee the dice.
+    /// Copies the state with another random future: for planners, which must not foresee random events.
     pub fn fork(&self, seed: crate::Seed) -> State {
         State { chance: seed.chance(), jumps: seed.child("jumps", 0).chance(), ..self.clone() }
     }
 
-    /// Overwrites this state with `source`, with a future of its own; keeps the buffers.
+    /// Overwrites this state with `source` and another random future; keeps the buffers.
     pub fn fork_from(&mut self, source: &State, chance: Chance) {
         self.clone_from(source);
         (self.chance, self.jumps) = (chance, chance);
     }
 
-    /// Bytes that a copy copies.
+    /// The number of bytes that a copy of the state copies.
     pub fn size_in_bytes(&self) -> usize {
         fn bytes<T>(buffer: &[T]) -> usize {
             size_of_val(buffer)
@@ -411,17 +413,17 @@ impl State {
             + bytes(&self.timers)
     }
 
-    /// Pixels of a cell.
+    /// The size of a cell in pixels.
     pub fn block(&self) -> i32 {
         self.block
     }
 
-    /// Columns and rows of the board.
+    /// The columns and rows of the board.
     pub fn size(&self) -> (i32, i32) {
         (self.columns, self.rows)
     }
 
-    /// The type of the player's avatar, if there is one and it lives.
+    /// The type of the player's avatar, if there is a living one.
     pub(crate) fn avatar_type(&self) -> Option<SpriteType> {
         let sprite = self.sprites.get(usize::from(self.avatar))?;
         (!sprite.is(flag::DISABLED)).then_some(sprite.stype)
@@ -435,7 +437,7 @@ impl State {
         &self.groups[stype.index()]
     }
 
-    /// The slots of a type, in order of creation; none of scenery.
+    /// The slots of a type's sprites, in order of creation; scenery has none.
     pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + Clone + '_ {
         let mut at = self.group(stype).head;
         std::iter::from_fn(move || {
@@ -447,26 +449,26 @@ impl State {
         })
     }
 
-    /// Sprites of a type and its relatives, those killed in this tick and disabled ones included.
+    /// The number of sprites of a type and its relatives, including killed and disabled ones.
     pub(crate) fn count(&self, rules: &Rules, stype: SpriteType) -> i32 {
         let tree = &rules.types[stype.index()].tree;
         tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum()
     }
 
-    /// [`State::count`] without disabled ones: what terminations look at.
+    /// [`State::count`] without disabled sprites: the count for terminations.
     pub(crate) fn count_live(&self, rules: &Rules, stype: SpriteType) -> i32 {
         let tree = &rules.types[stype.index()].tree;
         tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()
     }
 
-    /// A sprite, to be changed: its share of the running hash is to be renewed.
+    /// A sprite for modification: marks its whole hash contribution as dirty.
     pub(crate) fn edit(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = self.edit_motion(slot);
         sprite.flags |= flag::CHANGED;
         sprite
     }
 
-    /// A sprite of which only flags, place, age, time to live, count and heading are to be changed.
+    /// A sprite for modification of flags, place, age, time to live, count and heading only.
     pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = &mut self.sprites[usize::from(slot)];
         if sprite.flags & flag::STALE == 0 {
@@ -498,11 +500,11 @@ impl State {
         self.release_form(slot);
         let next = std::mem::replace(&mut self.free, slot);
         let sprite = self.edit(slot);
-        // It stays among the stale, once.
+        // It stays in the list of dirty sprites, once.
         (sprite.next, sprite.flags) = (next, flag::GONE | flag::STALE);
     }
 
-    /// What refers to slots that have been freed forgets them. Pursuers keep the last rectangle of whom they pursued.
+    /// Clears references to slots that have been freed. Pursuers keep the last rectangle of their target.
     pub(crate) fn forget_gone(&mut self) {
         self.forget_moved();
         let State { extras, sprites, .. } = self;
@@ -515,13 +517,13 @@ impl State {
         }
     }
 
-    /// Plans a timer before all that are due at the same tick (`spec/03` §6.2).
+    /// Schedules a timer before all others that are due at the same tick (`spec/03` §6.2).
     pub(crate) fn plan(&mut self, timer: Timer) {
         let at = self.timers.partition_point(|other| other.due >= timer.due);
         self.timers.insert(at, timer);
     }
 
-    /// Takes a slot for `sprite`, at the end of its type's chain; None if there are no more.
+    /// Takes a slot for `sprite`, at the end of its type's chain; `None` if there is no slot left.
     pub(crate) fn admit(&mut self, rules: &Rules, sprite: &Sprite) -> Option<Slot> {
         let group = &mut self.groups[sprite.stype.index()];
         let slot = match self.free {
@@ -546,7 +548,7 @@ impl State {
         if self.free == slot {
             self.free = place.next;
         }
-        // One that went in this tick may be among the stale.
+        // A slot that was freed in this tick may be in the list of dirty sprites already.
         let stale = place.is(flag::STALE);
         *place = *sprite;
         place.previous = tail;

@@ -1,5 +1,5 @@
-//! One step of a game: the cycle of `spec/01` §4. The operations on sprites that the ontology is written in are in
-//! `population.rs` and `motion.rs`.
+//! One step of a game: the cycle of `spec/01` §4. The operations of the ontology on sprites are in `population.rs` and
+//! `motion.rs`.
 
 use crate::Seed;
 use crate::bump::NEVER;
@@ -14,7 +14,7 @@ use crate::ontology::{avatars, sprites};
 use crate::rest::mark;
 use crate::state::{Group, NONE, Slot, State, Timer, flag};
 
-/// Pixels of the longer side of a board whose game does not set `square_size`.
+/// The length in pixels of the longer side of a board whose game does not set `square_size`.
 const SCREEN: i32 = 800;
 
 /// An execution of an interaction.
@@ -22,34 +22,34 @@ const SCREEN: i32 = 800;
 pub struct Meeting {
     /// Index into [`Description::interactions`](crate::Description).
     pub line: usize,
-    /// The type of the sprite that is acted upon, before it is.
+    /// The type of the sprite that the effect acts on, before the effect.
     pub first: SpriteType,
-    /// The type of its partner; none: the edge of the screen, or the clock.
+    /// The type of its partner; `None` for the edge of the screen or the clock.
     pub second: Option<SpriteType>,
-    /// Column and row of the cell in which the first sprite has its upper left corner.
+    /// The column and row of the cell with the first sprite's top-left corner.
     pub cell: (i32, i32),
 }
 
-/// Learns what happens inside a step: which interaction of the description was executed on which sprites.
+/// An observer of a step: it is told about the executed interactions and their sprites.
 pub trait Watch {
-    /// Interaction `line` (index into [`Description::interactions`](crate::Description)) was executed. One that puts the same
-    /// sprite back to the same place tick after tick is told of once.
+    /// Called when interaction `line` (index into [`Description::interactions`](crate::Description)) has been executed.
+    /// An interaction that puts the same sprite back to the same place tick after tick is reported once.
     fn interaction(&mut self, line: usize);
 
-    /// Whether [`Watch::meeting`] is to be called.
+    /// Returns `true` if [`Watch::meeting`] is to be called.
     fn wants_meetings(&self) -> bool {
         false
     }
 
-    /// An interaction was executed on these sprites; after [`Watch::interaction`]. Not for what runs by the clock on no
+    /// Called after [`Watch::interaction`] with the sprites of the execution. Not called for timed effects that run on no
     /// sprite.
     fn meeting(&mut self, _meeting: Meeting) {}
 
-    /// The step is over and was so much work, see [`MAX_WORK`].
+    /// Called at the end of the step with its work, see [`MAX_WORK`].
     fn worked(&mut self, _work: usize) {}
 }
 
-/// Watches nothing, costs nothing.
+/// An observer that ignores everything and costs nothing.
 impl Watch for () {
     fn interaction(&mut self, _: usize) {}
 }
@@ -60,33 +60,33 @@ pub(crate) struct Step<'a> {
     pub(crate) state: &'a mut State,
     /// The place in the update order that is being updated; types with a lower place are still to come in this tick.
     pub(crate) updating: i32,
-    /// What stopped the step, if anything did.
+    /// The reason why the step was stopped, if it was.
     pub(crate) stopped: Option<Limit>,
-    /// Work so far, see [`MAX_WORK`].
+    /// The work so far, see [`MAX_WORK`].
     pub(crate) work: usize,
     /// The creation number of the sprite that is being updated.
     pub(crate) updating_id: u32,
     /// The pass of the event phase; −1 before the first.
     pub(crate) pass: i32,
-    /// Whether sprites may be at rest in this step.
+    /// `true` if sprites may sleep in this step.
     pub(crate) rests: bool,
-    /// Whether sprites may be in flight.
+    /// `true` if sprites may fly in this step.
     pub(crate) flies: bool,
-    /// Whether a sprite that may rest or fly has moved by itself.
+    /// `true` if a sprite that may sleep or fly has moved by itself.
     pub(crate) tried: bool,
-    /// Whether sprites that move may bump into barriers.
+    /// `true` if moves into barriers may be deferred.
     pub(crate) bumps: bool,
-    /// The pass that settles bumps next.
+    /// The pass that settles deferred moves next.
     pub(crate) next_bump: usize,
 }
 
 impl Game {
-    /// The state before the first tick. The seed decides the game's chance, nothing else.
+    /// The state before the first tick. The seed affects only the game's random numbers.
     pub fn start(&self, level: &Level, seed: Seed) -> State {
         self.start_with(level, seed.chance())
     }
 
-    /// [`Game::start`] with a chance of the caller's, such as a trace's.
+    /// [`Game::start`] with a given random number generator, such as a trace's.
     pub fn start_with(&self, level: &Level, chance: Chance) -> State {
         let rules = &*self.0;
         let (columns, rows) = (level.columns() as i32, level.rows() as i32);
@@ -178,19 +178,20 @@ impl Game {
         state
     }
 
-    /// Plays one tick. Does nothing once the episode is over; an action that the avatar does not have counts as none.
+    /// Plays one tick. Does nothing once the episode is over; an action that the avatar does not have counts as
+    /// [`Action::Nil`].
     ///
-    /// Allocates nothing once the state's buffers have grown.
+    /// Does not allocate once the state's buffers have grown.
     pub fn step(&self, state: &mut State, action: Action) -> Outcome {
         self.step_watched(state, action, &mut ())
     }
 
-    /// [`Game::step`], telling `watch` which interactions are executed.
+    /// [`Game::step`] with an observer of the executed interactions.
     pub fn step_watched(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
         self.step_foreseeing(state, action, watch, false)
     }
 
-    /// [`Game::step`] without foresight: every sprite is updated in every tick. What tests hold the other against.
+    /// [`Game::step`] without shortcuts: every sprite is updated in every tick. Tests compare the optimised step with it.
     #[doc(hidden)]
     pub fn step_plainly(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
         self.step_foreseeing(state, action, watch, true)
@@ -263,7 +264,7 @@ impl<'a> Step<'a> {
             }
         }
         if self.state.tick >= MAX_TICKS && self.state.outcome != Outcome::Won {
-            // The loss is the avatar's: without one, the reference dies.
+            // The avatar loses: without one, the reference crashes.
             let gone = self.state.avatar == NONE;
             self.state.outcome = if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost };
         }
@@ -358,15 +359,16 @@ impl<'a> Step<'a> {
         self.tried |= tried;
     }
 
-    /// The reference looks for the picture of a sprite's orientation before each update, and throws if there is none.
+    /// Checks the orientation: the reference looks for a picture of the orientation before each update, and throws if
+    /// there is none.
     fn turn_picture(&mut self, slot: Slot) {
         if !Direction::BASE.contains(&self.state.form(slot).orientation) {
             self.stop(Limit::UnfitSprite);
         }
     }
 
-    /// The player's avatar: of the sprites of avatar classes, by update order, the last one made of the first type
-    /// (`spec/01` §4.2; a single avatar is what checked levels have).
+    /// Finds the player's avatar: the last sprite of an avatar class in update order, without the first drawn type
+    /// (`spec/01` §4.2; checked levels have a single avatar).
     fn find_avatar(&mut self) {
         let types = self.rules.order.iter().skip(1).rev();
         let slots = types.flat_map(|&stype| self.state.slots(stype));
@@ -374,12 +376,12 @@ impl<'a> Step<'a> {
         match avatar {
             Some(slot) if !self.can_be_played(slot) => self.stop(Limit::UnfitSprite),
             Some(slot) => self.control(slot),
-            // The reference looks when it builds the level, and again when the run starts.
+            // The reference looks once when it builds the level, and again when the run starts.
             None => (0..2).for_each(|_| self.message()),
         }
     }
 
-    /// The reference removes all avatars but the first made, with a message; checked levels have one.
+    /// Removes all avatars but the first made, with a message, as the reference does; checked levels have one.
     fn remove_extra_avatars(&mut self) {
         let slots = 0..self.state.sprites.len() as Slot;
         let counts = |slot: &Slot| self.state.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);
@@ -392,7 +394,7 @@ impl<'a> Step<'a> {
         self.state.forget_gone();
     }
 
-    /// Removes what was killed in this tick (`spec/01` §4.10).
+    /// Removes the sprites that were killed in this tick (`spec/01` §4.10).
     #[inline]
     fn clear(&mut self) {
         if !self.state.killed.is_empty() {
@@ -404,14 +406,14 @@ impl<'a> Step<'a> {
     }
 
     fn terminate(&mut self) {
-        // No termination holds by what held before: all but Timeouts count sprites.
+        // The last result still holds: all terminations but Timeouts count sprites.
         if !self.state.census_changed && self.state.tick < self.rules.first_timeout {
             return;
         }
         self.state.census_changed = false;
         for termination in &self.rules.terminations {
             if let Some(can_end) = termination.permits(self.rules, self.state) {
-                // Those before it look again in the next tick.
+                // The terminations before it look again in the next tick.
                 self.state.census_changed |= can_end != self.state.can_end;
                 self.state.can_end = can_end;
             }
@@ -423,12 +425,12 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// Stops the episode: what happened makes the reference engine throw, or met a limit of ours.
+    /// Stops the episode: the reference engine would throw, or a limit of this engine is exceeded.
     pub(crate) fn stop(&mut self, limit: Limit) {
         self.stopped.get_or_insert(limit);
     }
 
-    /// Counts sprites or cells that are looked at; too many of them in one tick stop the episode.
+    /// Counts sprites or cells that have been looked at; too many of them in one tick stop the episode.
     pub(crate) fn work(&mut self, amount: usize) {
         self.work = self.work.saturating_add(amount);
         if self.work > MAX_WORK {
@@ -441,7 +443,7 @@ impl<'a> Step<'a> {
         self.work(EFFECT_WORK);
     }
 
-    /// [`State::add_amount`], within the limit.
+    /// [`State::add_amount`], with the limit on resources.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         self.state.add_amount(holder, resource, change);
         if self.state.held.len() > MAX_HELD {

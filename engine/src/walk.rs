@@ -1,16 +1,17 @@
-//! Walks: moves to the next cell along an axis of what lies in one cell of the board. Most moves on a grid are such, and go the
-//! way of any other (`motion.rs`, `occupancy.rs`) with little to ask.
+//! Walks: moves of a sprite that lies in one cell of the board to the next cell along an axis. This is the fast path for
+//! most moves on a grid; it has the same result as the general one (`motion.rs`, `occupancy.rs`).
 
 use crate::geometry::Rect;
 use crate::occupancy::Located;
 use crate::state::{Slot, flag};
 use crate::step::Step;
 
-/// What does not walk.
+/// The flags of sprites that cannot take this path.
 const NOT_ON_FOOT: u32 = flag::FROZEN | flag::BUMPING | flag::LYING;
 
 impl Step<'_> {
-    /// Moves a sprite as its own movement does, in a game in which no sprites rest; false, and nothing done, if it is no walk.
+    /// Moves a sprite as part of its own movement, in a game without sleeping sprites. Returns `false`, and does nothing,
+    /// if the move is not a walk.
     #[inline(always)]
     pub(crate) fn walk(&mut self, slot: Slot, aim: Rect) -> bool {
         let (rules, state) = (self.rules, &mut *self.state);

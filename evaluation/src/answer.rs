@@ -1,29 +1,29 @@
 //! Reading actions from what players say.
 //!
-//! One strict format is asked for; what misses it is read with a tolerance that is named in the log, and never guesses: a
-//! number is an action only directly after the word, and the last decision counts, not the first. The vectors in the tests
-//! are those of `spec/06` §1.5.
+//! One strict format is asked for. An answer that misses it is read with a named tolerance, which the log records and which
+//! never guesses: a number is an action only directly after the word "action", and the last decision counts, not the first.
+//! The test vectors are those of `spec/06` §1.5.
 
 use engine::Action;
 use regex::Regex;
 use std::sync::LazyLock;
 
-/// Tags around reasoning that some models send with their answer. What is inside does not count.
+/// Tags that some models put around the reasoning in their answer. Text inside them is ignored.
 const REASONING: [&str; 4] = ["think", "thinking", "thought", "reasoning"];
 
-/// Lines at the end of an answer in which loose words are sought.
+/// The number of lines at the end of an answer that are searched for loose words.
 const LAST_LINES: usize = 5;
 
-/// Bytes of a line that are looked at.
+/// The number of bytes of a line that are examined.
 const LOOKED_AT: usize = 400;
 
-/// Times that the word action is looked at, from the end.
+/// The maximum number of occurrences of the word "action" to examine, from the end.
 const DECISIONS: usize = 100;
 
-/// Characters of an answer that are quoted when it is not understood.
+/// The number of characters quoted from an answer that is not understood.
 const QUOTED: usize = 40;
 
-/// The format that was asked for.
+/// The requested answer format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// The last line is `ACTION: left`.
@@ -32,23 +32,23 @@ pub enum Format {
     Number,
 }
 
-/// The rule by which an answer was read that missed the format.
+/// The rule that read an answer in spite of its format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// `"action": "left"`, as in JSON.
     Json,
-    /// The word action and directly after it an action or its number: `**Action:** left`, `action 2`.
+    /// The word "action" directly followed by an action or its number: `**Action:** left`, `action 2`.
     Marker,
-    /// A line that opens with `action:` and names one action only.
+    /// A line that opens with `action:` and names exactly one action.
     Line,
     /// The reference's spelling, `ACTION_LEFT`.
     Reference,
-    /// An action alone on a line or in quotes, or what somebody says that moves: `I go up`.
+    /// An action alone on a line or in quotes, or a statement of a move: `I go up`.
     Words,
 }
 
 impl Stage {
-    /// As in logs.
+    /// The name of the stage in logs.
     pub fn name(self) -> &'static str {
         match self {
             Stage::Json => "json",
@@ -60,27 +60,27 @@ impl Stage {
     }
 }
 
-/// What an answer says.
+/// The interpretation of an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reading {
-    /// An action, in the format.
+    /// An action in the requested format.
     Strict(Action),
-    /// An action, beside the format.
+    /// An action in another format.
     Tolerant {
-        /// What is meant.
+        /// The action.
         action: Action,
-        /// How it was found.
+        /// The rule that found it.
         stage: Stage,
     },
     /// No action, or none that can be chosen.
     Invalid {
-        /// Why, as a clause about the answer: `it names no action`.
+        /// The reason, as a clause about the answer: `it names no action`.
         why: String,
     },
 }
 
 impl Reading {
-    /// The action, if there is one.
+    /// Returns the action, if there is one.
     pub fn action(&self) -> Option<Action> {
         match self {
             Reading::Strict(action) | Reading::Tolerant { action, .. } => Some(*action),
@@ -89,10 +89,10 @@ impl Reading {
     }
 }
 
-/// What somebody seems to have chosen.
+/// The choice that an answer seems to make.
 enum Chosen<'a> {
     Action(Action),
-    /// No such word or number.
+    /// An unknown word or number.
     Unknown(&'a str),
 }
 
@@ -105,9 +105,8 @@ impl Chosen<'_> {
     }
 }
 
-/// Reads an answer. `listed`: the actions in the order in which they were listed, which is that of their numbers, from 0;
-/// `offered`: those of them that can be chosen now. The last decision counts, and if that is none of `offered`, no earlier
-/// one does instead. Cost: O(bytes).
+/// Reads an answer. `listed` holds the actions in the order of their numbers, from 0; `offered` holds those that can be
+/// chosen now. The last decision counts; if it is not among `offered`, no earlier one replaces it. Cost: O(bytes).
 pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -> Reading {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -128,7 +127,8 @@ pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -
     }
 }
 
-/// Beside the format: what stands after the word action; what comes after that, or all, if it tells nothing.
+/// Reads an answer that misses the format: first the words after "action", then the text that follows them, or the whole
+/// answer if they say nothing.
 fn tolerant<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
     let marked = marked(said, listed);
     let rest = match &marked {
@@ -142,8 +142,8 @@ fn tolerant<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)>
     spelled.or_else(spoken).or(marked.map(|(chosen, stage, _)| (chosen, stage)))
 }
 
-/// The answer without its reasoning: what is before the end of the last such tag goes, and what is after an opening one
-/// that is not closed. Cost: O(bytes).
+/// Returns the answer without its reasoning: the text up to the last closing tag is dropped, and so is the text after an
+/// unclosed opening tag. Cost: O(bytes).
 pub fn without_reasoning(text: &str) -> &str {
     let end = CLOSING.find_iter(text).last().map_or(0, |tag| tag.end());
     let rest = &text[end..];
@@ -164,14 +164,14 @@ static WORD_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^ACTION:[ \t]
 static NUMBER_LINE: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"(?im)^[ \t]*Action:[ \t]*([0-9]+)[ \t]*\r?$"));
 
-/// The word action and a sign, what may stand between, and the first word or number after it.
+/// The word "action" and a sign, the characters allowed in between, and the first word or number after it.
 static SIGNED: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?P<open>^|\n[ \t*#>`-]{0,8})?(?-u:\b)action(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}[:=][ \t*`"'<(\[{]{0,8}(?P<word>[a-z_]+|[0-9]+(?-u:\b))"#,
     )
 });
 
-/// The word action, and directly after it an action or a number.
+/// The word "action" directly followed by an action or a number.
 static UNSIGNED: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?-u:\b)action[*`]{0,3}[ \t]{1,4}[*`"'<(\[{]{0,4}(?P<word>action_[a-z]+|up|left|down|right|use|nil|[0-9]+)(?-u:\b)"#,
@@ -184,12 +184,12 @@ static SPELLED: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)(?-u:\b)action_
 /// A word.
 static WORD: LazyLock<Regex> = LazyLock::new(|| pattern("[A-Za-z_]+"));
 
-/// An action alone on a line, or in a box.
+/// An action alone on a line or in a box.
 static ALONE: LazyLock<Regex> = LazyLock::new(|| {
     pattern(r#"(?im)^[ \t*`"'>(\[-]*([a-z_]+)[ \t*`"'.!)\]]*\r?$|\\boxed\{(?:\\text\{)?([a-z_]+)\}"#)
 });
 
-/// A direction as somebody says it who is about to go there, and what may negate it.
+/// A direction in the words of a player about to go there, and the words that may negate it.
 static SAID: LazyLock<Regex> = LazyLock::new(|| {
     let verbs = "go|going|move|moving|step|walk|turn|head|press|choose|select|play|try|shoot|face|push";
     let between = "to|the|towards|toward|one|step|cell|action|key|arrow|straight";
@@ -198,7 +198,7 @@ static SAID: LazyLock<Regex> = LazyLock::new(|| {
     ))
 });
 
-/// The strict format.
+/// Reads the strict format.
 fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen<'a>> {
     let found = match format {
         Format::Word => WORD_LINE.captures(said.lines().next_back()?.trim()),
@@ -206,14 +206,14 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
     };
     let word = found?.get(1)?.as_str();
     match format {
-        // Other words for an action, or other languages, are a matter of tolerance.
+        // Other words for an action, and other languages, are left to the tolerant rules.
         Format::Word => listed.iter().find(|action| word.eq_ignore_ascii_case(&action.to_string())).copied(),
         Format::Number => named(word, listed).action(),
     }
     .map(Chosen::Action)
 }
 
-/// What stands after the word action, the last time that it tells anything; how far it has been read.
+/// Returns the last choice marked by the word "action", its stage, and the position up to which the text has been read.
 fn marked<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage, usize)> {
     let places: Vec<usize> = SIGNED.find_iter(said).map(|found| found.start()).collect();
     let signed = places.iter().rev().take(DECISIONS).find_map(|&place| {
@@ -237,25 +237,25 @@ fn marked<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage, us
     })
 }
 
-/// The last place at or before this one that splits no character.
+/// Returns the last character boundary at or before `at`.
 pub(crate) fn boundary(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
 }
 
-/// From a place to the end of its line, or less.
+/// Returns the rest of the line from `from`, cut to [`LOOKED_AT`] bytes.
 fn rest_of_line(text: &str, from: usize) -> &str {
     let near = &text[from..boundary(text, from + LOOKED_AT)];
     near.lines().next().unwrap_or_default()
 }
 
-/// The action that a line names, if it names one only.
+/// Returns the action that a line names, if it names exactly one.
 fn only_action(line: &str) -> Option<Action> {
     let mut actions = WORD.find_iter(line).filter_map(|word| action_of(word.as_str()));
     let first = actions.next()?;
     actions.all(|other| other == first).then_some(first)
 }
 
-/// An action that somebody says without the word, in the last lines.
+/// Returns an action that the last lines name without the word "action".
 fn words(said: &str) -> Option<Action> {
     let start = boundary(said, said.len().saturating_sub(LOOKED_AT * LAST_LINES));
     let tail = &said[start..];
@@ -280,7 +280,7 @@ fn words(said: &str) -> Option<Action> {
     alone.chain(spoken).max_by_key(|(at, _)| *at).map(|(_, action)| action)
 }
 
-/// An action by its name, the reference's name, or another word for doing nothing.
+/// Returns an action by its name, by the reference's name, or by another word for doing nothing.
 fn action_of(word: &str) -> Option<Action> {
     let word = word.to_ascii_lowercase();
     let word = word.strip_prefix("action_").unwrap_or(&word);
@@ -290,7 +290,7 @@ fn action_of(word: &str) -> Option<Action> {
     Action::ALL.into_iter().find(|action| action.to_string() == word)
 }
 
-/// An action by name or number.
+/// Looks up an action by name or number.
 fn named<'a>(word: &'a str, listed: &[Action]) -> Chosen<'a> {
     let action = if word.starts_with(|c: char| c.is_ascii_digit()) {
         word.parse::<usize>().ok().and_then(|number| listed.get(number)).copied()
@@ -300,7 +300,7 @@ fn named<'a>(word: &'a str, listed: &[Action]) -> Chosen<'a> {
     action.map_or(Chosen::Unknown(word), Chosen::Action)
 }
 
-/// The start of what somebody said, for one line of ours.
+/// Returns the start of a word, short enough to quote in a message.
 fn quoted(word: &str) -> String {
     word.chars().take(QUOTED).collect()
 }
@@ -311,7 +311,7 @@ mod tests {
     use Action::{Down, Left, Nil, Right, Up, Use};
     use proptest::prelude::*;
 
-    /// The numbers of `spec/06` §1.5.
+    /// The numbering of `spec/06` §1.5.
     const LISTED: [Action; 6] = [Nil, Use, Left, Right, Down, Up];
 
     fn check(text: &str, expect: &str) {

@@ -1,27 +1,27 @@
-//! What can be wrong with an evaluation.
+//! The errors of an evaluation.
 
 use std::path::{Path, PathBuf};
 
-/// Why an evaluation cannot be set up, continued or read.
+/// The reason why an evaluation cannot be set up, continued or read.
 #[derive(Debug, thiserror::Error)]
 pub enum EvaluationError {
-    /// A file or folder cannot be used.
+    /// A file or folder cannot be accessed.
     #[error("cannot {action} {}", path.display())]
     Io {
-        /// What was tried.
+        /// The operation that failed.
         action: &'static str,
-        /// On what.
+        /// The path it was applied to.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// The question is malformed, in these words: they name the thing and the next move.
+    /// The request is malformed. The message names the cause and the next step.
     #[error("{0}")]
     Malformed(String),
 }
 
 impl EvaluationError {
-    /// For `map_err`.
+    /// Returns a closure for `map_err`.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> EvaluationError {
         let path = path.to_owned();
         move |source| EvaluationError::Io { action, path, source }

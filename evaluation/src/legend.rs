@@ -1,61 +1,62 @@
-//! What the characters of a board stand for: one table for each game, the same in all levels, states and episodes.
+//! The meaning of the characters of a board: one table for each game, the same in all levels, states and episodes.
 
 use engine::{Analysis, Seed, SpriteType};
 use render::{EMPTY, Glyph, Looks, Symbols};
 use std::collections::BTreeMap;
 
-/// The character of the avatar, in whichever state it is.
+/// The character of the avatar in any of its states.
 pub const AVATAR: char = '@';
 
-/// What shuffled symbols are drawn from.
+/// The characters from which shuffled symbols are drawn.
 const POOL: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-/// How characters are given to sprite types.
+/// The options for assigning characters to sprite types.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LegendOptions {
-    /// Each state of the avatar has a character of its own, like any other type, instead of [`AVATAR`]: whoever plays has
-    /// to keep track of who it is.
+    /// Each state of the avatar has its own character, like any other type, instead of [`AVATAR`], so that the player has to
+    /// keep track of its own state.
     pub tracking: bool,
-    /// The characters are drawn from letters and digits, another table for each number, so that none of them tells
-    /// anything by itself.
+    /// The characters are drawn from letters and digits, with a different table for each number, so that none of them
+    /// carries a meaning by itself.
     pub shuffled: Option<u64>,
 }
 
-/// What a sprite type is to a reader of boards.
+/// The role of a sprite type for a reader of boards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The player.
     Avatar,
-    /// It blocks the way for good.
+    /// A type that blocks the way for good.
     Wall,
-    /// What lies under the others, and is not told.
+    /// The ground under the other sprites, which is not shown.
     Floor,
-    /// Anything else.
+    /// Any other type.
     Thing,
 }
 
-/// A sprite type that can be seen.
+/// A visible sprite type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
     /// Its name.
     pub name: String,
     /// Its character; [`EMPTY`] for floors.
     pub symbol: char,
-    /// What it is.
+    /// Its role.
     pub standing: Standing,
 }
 
-/// The table of one game. No two entries share a character, but for the states of the avatar and floors.
+/// The table of one game. Only the states of the avatar, or floors, can share a character.
 #[derive(Clone, Debug)]
 pub struct Legend {
     looks: Looks,
-    /// The avatar first, then in the order of the registry: what things are for, and how much they matter, is not told.
+    /// The avatar first, then in the order of the registry, so that the order does not reveal the purpose or importance of a
+    /// type.
     entries: Vec<Entry>,
     places: BTreeMap<String, usize>,
 }
 
 impl Legend {
-    /// The table of an analysed game: the same game and options always give the same.
+    /// Builds the table of an analysed game. The same game and options always give the same table.
     pub fn new(analysis: &Analysis, options: &LegendOptions) -> Legend {
         let (game, looks) = (analysis.game(), Looks::of(analysis));
         let symbols = Symbols::of(analysis, &looks);
@@ -82,27 +83,27 @@ impl Legend {
         Legend { looks, entries, places }
     }
 
-    /// What can be seen in the game, the avatar first.
+    /// The visible sprite types of the game, the avatar first.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
 
-    /// The entry of a name; none for what is never seen.
+    /// Returns the entry of a name, or `None` for a type that is never visible.
     pub fn entry(&self, name: &str) -> Option<&Entry> {
         self.places.get(name).map(|&at| &self.entries[at])
     }
 
-    /// How the types look in pictures.
+    /// The appearance of the types in pictures.
     pub fn looks(&self) -> &Looks {
         &self.looks
     }
 
-    /// What is told of a cell: names that are no floor.
+    /// Returns `true` for a name that is shown: a visible type other than a floor.
     pub(crate) fn tells(&self, name: &str) -> bool {
         self.entry(name).is_some_and(|entry| entry.standing != Standing::Floor)
     }
 
-    /// A line for each character: the character, a blank, the names.
+    /// Returns a line for each character: the character, a space, the names.
     pub fn lines(&self) -> Vec<String> {
         let names = |standing: Standing| {
             let all = self.entries.iter().filter(move |entry| entry.standing == standing);
@@ -127,7 +128,7 @@ impl Legend {
         lines
     }
 
-    /// Whether all states of the avatar share a character.
+    /// Returns `true` if all states of the avatar share a character.
     fn is_united(&self) -> bool {
         let mut avatars = self.entries.iter().filter(|entry| entry.standing == Standing::Avatar);
         let first = avatars.next().map(|entry| entry.symbol);
@@ -135,7 +136,7 @@ impl Legend {
     }
 }
 
-/// All states of the avatar become [`AVATAR`]; who had that takes over a character that came free.
+/// Gives all states of the avatar the character [`AVATAR`]. The type that had it takes over a freed character.
 fn unite_avatars(entries: &mut [Entry]) {
     let is_avatar = |entry: &&Entry| entry.standing == Standing::Avatar;
     let Some(free) = entries.iter().find(is_avatar).map(|entry| entry.symbol) else { return };
@@ -148,7 +149,7 @@ fn unite_avatars(entries: &mut [Entry]) {
     }
 }
 
-/// Draws other characters, the same for entries that shared one.
+/// Draws new characters; entries that shared one still share one.
 fn shuffle(entries: &mut [Entry], number: u64) {
     let mut pool: Vec<char> = POOL.chars().collect();
     Seed::from_text("shuffled symbols").child("symbols", number).sampler().shuffle(&mut pool);

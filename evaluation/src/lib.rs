@@ -1,9 +1,8 @@
-//! Language models and other players on games: what they are shown, what they answer, what is recorded and measured.
+//! Evaluation of language models and other players on games: observations, answers, logs and metrics.
 //!
-//! A [`Subject`] is a game with its levels. An [`Agent`] is shown a [`Turn`], never a state, and answers with a
-//! [`Choice`]; what it says and is told on the way goes into the [`Journal`] of the episode, an append-only log of
-//! [`Event`]s from which every metric is recomputed and by which the episode replays bit for bit. A model is reached
-//! through [`client::Model`].
+//! A [`Subject`] is a game with its levels. An [`Agent`] is shown a [`Turn`], never a state, and answers with a [`Choice`].
+//! The messages in both directions go into the [`Journal`] of the episode, an append-only log of [`Event`]s from which every
+//! metric is recomputed and the episode is replayed bit for bit. Models are reached through [`client::Model`].
 
 pub mod answer;
 pub mod client;

@@ -1,14 +1,14 @@
-//! Games without their fiction: the rules as they are, under names that tell nothing.
+//! Games without their theme: the rules are unchanged, but all names are meaningless.
 
 use crate::error::EvaluationError;
 use engine::syntax::{SpriteLine, Trivia};
 use engine::{Description, Game, Observation, Seed};
 use std::collections::BTreeMap;
 
-/// Names that the engine gives a meaning to: they stay.
+/// Names with a meaning for the engine; they are kept.
 const RESERVED: [&str; 2] = ["wall", "avatar"];
 
-/// What hides the names of a game's sprite types.
+/// A renaming that hides the names of a game's sprite types.
 #[derive(Clone, Debug)]
 pub(crate) struct Mask {
     game: Game,
@@ -16,10 +16,11 @@ pub(crate) struct Mask {
 }
 
 impl Mask {
-    /// Types are called `t1`, `t2` and so on, in an order that the game's digest decides. Comments, colours and pictures go.
+    /// Renames the types to `t1`, `t2` and so on, in an order decided by the game's digest. Comments, colours and pictures
+    /// are removed.
     ///
     /// # Errors
-    /// The game does not compile under other names: it was loaded with faults that only the reference overlooks.
+    /// The game does not compile under other names: it was loaded with faults that only the reference tolerates.
     pub(crate) fn of(game: &Game) -> Result<Mask, EvaluationError> {
         let description = game.description();
         let mut own: Vec<String> = Vec::new();
@@ -41,12 +42,12 @@ impl Mask {
         Ok(Mask { game, names })
     }
 
-    /// The game under other names. Its types have the places in the registry that they had.
+    /// The renamed game. Its types keep their places in the registry.
     pub(crate) fn game(&self) -> &Game {
         &self.game
     }
 
-    /// What is seen, under other names.
+    /// Returns an observation with the names replaced.
     pub(crate) fn observation(&self, seen: &Observation) -> Observation {
         let mut masked = seen.clone();
         let avatar = masked.avatar.iter_mut().map(|avatar| &mut avatar.name);
@@ -60,7 +61,7 @@ impl Mask {
     }
 }
 
-/// Takes away what is no rule.
+/// Removes everything that is not part of the rules.
 fn undress(description: &mut Description) {
     fn sprites(lines: &mut [SpriteLine]) {
         for line in lines {

@@ -1,31 +1,31 @@
-//! What is played: a game with its levels.
+//! A game with its levels, ready to be played.
 
 use engine::{Analysis, Diagnostics, Game, Level, describe};
 use serde::{Deserialize, Serialize};
 
-/// A game with its levels, and what is known of it beyond its rules.
+/// A game with its levels and the known facts beyond its rules.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// What logs and tables call it: a file name without separators.
+    /// The id of the game in logs and tables: a file name without separators.
     pub id: String,
     /// The text of the game.
     pub source: String,
     /// The compiled game.
     pub game: Game,
-    /// What its rules mean.
+    /// The analysis of its rules.
     pub analysis: Analysis,
     /// Its levels.
     pub levels: Vec<SubjectLevel>,
-    /// What is known of it.
+    /// The known facts about it.
     pub facts: SubjectFacts,
 }
 
 impl Subject {
-    /// A game and its levels from their texts: each level with its number and the ticks of its proved shortest win, if there
-    /// is one. The taxonomy is derived from the rules where `facts` has none.
+    /// Builds a subject from the texts of a game and its levels. Each level comes with its number and the ticks of its
+    /// proved shortest win, if there is one. The taxonomy is derived from the rules if `facts` has none.
     ///
     /// # Errors
-    /// The game, or else the first level with problems, does not compile: its problems.
+    /// The problems of the game if it does not compile, or else those of the first level that does not.
     pub fn read(
         id: &str,
         source: &str,
@@ -48,12 +48,12 @@ impl Subject {
     }
 }
 
-/// A game or level that does not compile.
+/// The error for a game or level that does not compile.
 #[derive(Clone, Debug)]
 pub struct Unreadable {
-    /// The level's number; none if it is the game.
+    /// The level's number, or `None` if the game is at fault.
     pub level: Option<usize>,
-    /// What is wrong with it.
+    /// The problems found.
     pub problems: Diagnostics,
 }
 
@@ -66,19 +66,19 @@ pub struct SubjectLevel {
     pub text: String,
     /// The level, checked against its game.
     pub level: Level,
-    /// Ticks of the shortest win, where it is proved that no fewer win.
+    /// The ticks of the shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
 }
 
-/// What reports say of a game beside the results.
+/// The facts that reports give about a game beside the results.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectFacts {
-    /// The title in the game's own fiction.
+    /// The title in the game's own theme.
     pub title: String,
-    /// What kind of game it is, a sentence for each side of the taxonomy (`engine::describe::Guide::kind`).
+    /// The kind of game, a sentence for each side of the taxonomy (`engine::describe::Guide::kind`).
     pub taxonomy: Vec<String>,
-    /// Whether its faults are overlooked as the reference engine does.
+    /// `true` if its faults are tolerated, as in the reference engine.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub as_reference: bool,
 }

@@ -1,17 +1,17 @@
-//! How long a text is for a language model.
+//! The length of texts in tokens of a language model.
 
 use crate::answer::boundary;
 use tiktoken_rs::o200k_base_singleton;
 
-/// Tokens that the frame of a message takes beside its words, as providers count them: about this many.
+/// The approximate number of tokens that providers count for the frame of a message, in addition to its words.
 pub const PER_MESSAGE: u64 = 4;
 
-/// Bytes that are counted at once: the tables know no longer token, and a text without blanks, cut at these places, costs
-/// no more than one with.
+/// The number of bytes counted at once. The vocabulary has no longer token, and the cuts keep texts without spaces as cheap
+/// as others.
 const PIECE: usize = 4096;
 
-/// Tokens of a text in the vocabulary `o200k_base`, which is built in. Every family of models has its own; others come to
-/// within some 20 % of it. Words that look like control tokens are counted as words. Cost: O(bytes); the first call in a
+/// Counts the tokens of a text in the built-in vocabulary `o200k_base`. Every model family has its own; the counts of others
+/// are within some 20 % of it. Words that look like control tokens are counted as words. Cost: O(bytes); the first call in a
 /// process reads the vocabulary, some 0.2 s.
 pub fn count(text: &str) -> u64 {
     let vocabulary = o200k_base_singleton();
@@ -19,7 +19,7 @@ pub fn count(text: &str) -> u64 {
     let mut tokens = 0;
     while !rest.is_empty() {
         let window = &rest[..boundary(rest, PIECE)];
-        // Best cut before a line or a word, so that the count is what it would be in one go.
+        // Prefer a cut before a line or a word, so that the count is the same as in one go.
         let cut = window.rfind('\n').map(|at| at + 1).or_else(|| window.rfind(' ')).filter(|&at| at > 0);
         let piece = if window.len() == rest.len() { rest } else { &rest[..cut.unwrap_or(window.len())] };
         tokens += vocabulary.encode_ordinary(piece).len() as u64;
@@ -28,7 +28,7 @@ pub fn count(text: &str) -> u64 {
     tokens
 }
 
-/// About how many tokens a picture of this size is worth: a patch of 28 × 28 pixels is one.
+/// Estimates the tokens of a picture of this size: one for each patch of 28 × 28 pixels.
 pub fn of_picture(width: u32, height: u32) -> u64 {
     u64::from(width.div_ceil(28)) * u64::from(height.div_ceil(28))
 }

@@ -1,41 +1,41 @@
-//! What a player is shown at one decision.
+//! The view of a player at one decision.
 
 use crate::run::Task;
 use crate::subject::Subject;
 use engine::{Action, Game, Observation, State};
 
-/// What a player is shown at one decision: what stands for the whole episode, and the state that the action will be
-/// played on. Never the state itself: with that a player could look into the future.
+/// The view of a player at one decision: the facts of the whole episode, and an observation of the current state. The state
+/// itself is never shown, because a player could use it to look into the future.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<'a> {
-    /// The game. A player reads its rules; the levels are not for it.
+    /// The game. A player may read its rules, but not its levels.
     pub subject: &'a Subject,
     /// The number of the level, for logs.
     pub level: usize,
-    /// Decisions before this one.
+    /// The number of decisions before this one.
     pub number: u64,
-    /// Decisions of the episode at most.
+    /// The maximum number of decisions of the episode.
     pub limit: u64,
-    /// What is seen now.
+    /// The current observation.
     pub observation: &'a Observation,
-    /// What is seen was brought about by this action, and by what it gained; none at the first decision.
+    /// The preceding decision, which led to the current observation; `None` at the first decision.
     pub before: Option<Before<'a>>,
-    /// The actions that can be chosen, [`Action::Nil`] first.
+    /// The available actions, [`Action::Nil`] first.
     pub actions: &'a [Action],
 }
 
-/// The decision before.
+/// The preceding decision.
 #[derive(Clone, Copy, Debug)]
 pub struct Before<'a> {
-    /// What was seen then.
+    /// The observation at that decision.
     pub observation: &'a Observation,
-    /// What was played.
+    /// The action played.
     pub action: Action,
-    /// By how much the score has changed.
+    /// The change of the score.
     pub reward: f64,
 }
 
-/// The start of an episode as a player sees it, for looking at prompts without playing.
+/// The start of an episode as a player sees it, for inspecting prompts without playing.
 #[derive(Clone, Debug)]
 pub struct Observed {
     observation: Observation,
@@ -43,14 +43,14 @@ pub struct Observed {
 }
 
 impl Observed {
-    /// What a player is shown first.
+    /// Observes the first state of an episode.
     pub fn first(task: &Task<'_>) -> Observed {
         let game = &task.subject.game;
         let state = game.start(&task.level.level, task.chance());
         Observed { observation: game.observe(&state), actions: choices(game, &state) }
     }
 
-    /// The turn.
+    /// Returns the first turn.
     pub fn turn<'a>(&'a self, task: &Task<'a>) -> Turn<'a> {
         Turn {
             subject: task.subject,
@@ -64,7 +64,7 @@ impl Observed {
     }
 }
 
-/// What can be chosen in a state: nothing, or a key.
+/// Returns the actions available in a state: doing nothing, and the keys.
 pub(crate) fn choices(game: &Game, state: &State) -> Vec<Action> {
     let keys = game.actions(state).iter().copied().filter(|&action| action != Action::Nil);
     std::iter::once(Action::Nil).chain(keys).collect()

@@ -1,4 +1,4 @@
-//! Simulated annealing: a few walkers that mostly climb, and the less they slip the longer they walk.
+//! Simulated annealing: a few chains of candidates that accept fewer and fewer worsenings as the search proceeds.
 
 use crate::{Evaluation, Search, Variation};
 use engine::{Sampler, Seed};
@@ -8,26 +8,25 @@ use std::collections::VecDeque;
 /// Seeds tried for a start of a chain before its turn is given up.
 const STARTS: usize = 16;
 
-/// How a search by annealing goes.
+/// The parameters of a search by annealing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnnealingConfig {
-    /// Candidates to be judged in all; the schedule is laid out over them.
+    /// The number of candidates to evaluate in all; the schedule is laid out over them.
     pub evaluations: usize,
     /// Independent chains.
     pub chains: usize,
-    /// How much worse than the present candidate, in units of the objective, one may be that is accepted once in e times:
-    /// at the start.
+    /// The loss of objective against the present candidate that is accepted with probability 1/e, at the start.
     pub warmest: f64,
     /// The same at the end; greater than 0.
     pub coldest: f64,
-    /// Candidates that a chain begins with: it goes on from the best of them.
+    /// The number of candidates that a chain begins with: it continues from the best of them.
     pub starts: usize,
-    /// A chain starts anew after so many candidates without one that is better than all since its start.
+    /// A chain restarts after this many candidates without one that beats the best since its start.
     pub patience: usize,
 }
 
 impl AnnealingConfig {
-    /// Sensible settings for so many evaluations.
+    /// Sensible settings for this number of evaluations.
     pub fn of(evaluations: usize) -> AnnealingConfig {
         let chains = (evaluations / 60).clamp(1, 4);
         let patience = (evaluations / chains / 3).max(20);
@@ -35,15 +34,17 @@ impl AnnealingConfig {
     }
 }
 
-/// Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983, "Optimization by simulated annealing"), asked and told in
-/// batches.
+/// Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983, "Optimization by simulated annealing") with an ask-and-tell
+/// interface for batches.
 ///
 /// Each of a few chains holds a present candidate and is asked for neighbours of it. Among infeasible candidates only
-/// feasibility counts, among feasible ones only the objective, and a feasible one is never given up for an infeasible
-/// one. The temperature falls geometrically with the evaluations told; no clock is read. Neighbours of one batch are
-/// taken in their order, each compared with the candidate that is present then. A chain that has stagnated starts anew.
+/// feasibility counts, among feasible ones only the objective, and a feasible candidate is never replaced by an
+/// infeasible one. The temperature falls geometrically with the evaluations told; no clock is read. The neighbours of one
+/// batch are processed in order, each compared with the present candidate at that point. A chain that has stagnated
+/// restarts.
 ///
-/// Memory: two candidates for each chain, and the best. [`Search::ask`] gives nothing once all evaluations are asked for.
+/// Memory: two candidates for each chain, and the best. [`Search::ask`] returns nothing once all evaluations are asked
+/// for.
 #[derive(Debug)]
 pub struct Annealing<V: Variation> {
     variation: V,
@@ -52,7 +53,7 @@ pub struct Annealing<V: Variation> {
     chains: Vec<Chain<V::Candidate>>,
     /// The chain whose turn is next.
     turn: usize,
-    /// The chains that the candidates belong to that have been asked for and not been told, in order.
+    /// The chains of the candidates that have been asked for and not yet been told, in order.
     pending: VecDeque<usize>,
     asked: usize,
     told: usize,
@@ -63,19 +64,19 @@ pub struct Annealing<V: Variation> {
 
 #[derive(Debug)]
 struct Chain<C> {
-    /// For neighbours, and for what is accepted.
+    /// Draws the neighbours and the acceptance of candidates.
     sampler: Sampler,
     present: Option<(C, Evaluation)>,
-    /// Starts that are still to be asked for.
+    /// Starts that remain to be asked for.
     starts: usize,
-    /// The best since the chain started.
+    /// The best evaluation since the chain started.
     peak: Option<Evaluation>,
-    /// Candidates since then.
+    /// The number of candidates since then.
     stale: usize,
 }
 
 impl<V: Variation> Annealing<V> {
-    /// A search that has not begun.
+    /// Creates a search that has not begun.
     pub fn new(variation: V, config: AnnealingConfig, seed: Seed) -> Annealing<V> {
         let chain = |at: u64| Chain {
             sampler: seed.child("chain", at).sampler(),
@@ -99,22 +100,22 @@ impl<V: Variation> Annealing<V> {
         }
     }
 
-    /// The best candidate told so far, with what was told of it.
+    /// The best candidate told so far, with its evaluation.
     pub fn best(&self) -> Option<(&V::Candidate, &Evaluation)> {
         self.best.as_ref().map(|(candidate, evaluation)| (candidate, evaluation))
     }
 
-    /// Whether all evaluations have been told.
+    /// Returns `true` once all evaluations have been told.
     pub fn is_over(&self) -> bool {
         self.told >= self.config.evaluations
     }
 
-    /// What varies the candidates.
+    /// The variation that proposes the candidates.
     pub fn variation(&self) -> &V {
         &self.variation
     }
 
-    /// A candidate to start from.
+    /// Creates a candidate to start from.
     fn start(&mut self) -> Option<V::Candidate> {
         (0..STARTS).find_map(|_| {
             self.started += 1;
@@ -170,7 +171,7 @@ impl<V: Variation> Search for Annealing<V> {
 }
 
 impl<C> Chain<C> {
-    /// Goes to the candidate, or stays.
+    /// Moves to the candidate, or stays.
     fn take(&mut self, candidate: C, evaluation: Evaluation, temperature: f64, config: &AnnealingConfig) {
         if self.peak.as_ref().is_none_or(|peak| compare(&evaluation, peak) == Ordering::Greater) {
             self.peak = Some(evaluation.clone());
@@ -178,7 +179,7 @@ impl<C> Chain<C> {
         } else {
             self.stale += 1;
         }
-        // Drawn whatever comes, so that what follows does not depend on it.
+        // Drawn in every case, so that later draws do not depend on the outcome.
         let luck = self.sampler.unit();
         let goes = self.present.as_ref().is_none_or(|(_, present)| {
             compare(&evaluation, present) != Ordering::Less
@@ -194,7 +195,8 @@ impl<C> Chain<C> {
     }
 }
 
-/// Feasible ones by their objective, above all others, which go by their feasibility.
+/// Compares feasible candidates by objective and infeasible ones by feasibility; every feasible one ranks above every
+/// infeasible one.
 fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
     let key = |evaluation: &Evaluation| {
         let feasible = evaluation.is_feasible();
@@ -204,7 +206,7 @@ fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
     one.0.cmp(&two.0).then(one.1.total_cmp(&two.1))
 }
 
-/// How much worse the first is; none if no luck makes up for it.
+/// The amount by which the first is worse; `None` if only one of the two is feasible.
 fn loss(one: &Evaluation, two: &Evaluation) -> Option<f64> {
     match (one.is_feasible(), two.is_feasible()) {
         (true, true) => Some(two.objective - one.objective),
@@ -240,8 +242,8 @@ mod tests {
         }
     }
 
-    /// Feasible with no more than 12 ones in the lower half; good are ones that fill groups of four. The
-    /// optimum is 12 + 24 ones in nine full groups.
+    /// Feasible with at most 12 ones in the lower half; the objective rewards ones that fill groups of four. The optimum
+    /// is 12 + 24 ones in nine full groups.
     fn judge(bits: &u64) -> Evaluation {
         let lower = (bits & 0xFF_FFFF).count_ones() as f64;
         let squares = (0..BITS / 4).map(|at| (bits >> (4 * at) & 0xF).count_ones().pow(2));

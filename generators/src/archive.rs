@@ -1,25 +1,25 @@
-//! A grid of elites: the best candidate of every kind, where measures say what kind a candidate is.
+//! A grid of elites: the best candidate of each cell, where measures decide the cell of a candidate.
 
 use crate::Evaluation;
 use std::collections::BTreeMap;
 
-/// A candidate with what the judges said of it.
+/// A candidate with its evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged<C> {
     /// The candidate.
     pub candidate: C,
-    /// What was said of it.
+    /// Its evaluation.
     pub evaluation: Evaluation,
 }
 
-/// One measure as a side of the grid: a range cut into bins of equal width.
+/// One measure as an axis of the grid: a range cut into bins of equal width.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What is measured, for people to read.
+    /// The name of the measure, for people to read.
     pub name: String,
-    /// The range that is told apart, from and to. What lies outside counts as the first or the last bin.
+    /// The range that the bins divide, from and to. Values outside count as the first or the last bin.
     pub range: (f64, f64),
-    /// How many bins.
+    /// The number of bins.
     pub bins: usize,
 }
 
@@ -34,7 +34,7 @@ impl Axis {
         Axis { name: name.to_owned(), range, bins }
     }
 
-    /// The bin of a value. What is not a number counts as the lowest.
+    /// Returns the bin of a value. NaN counts as the lowest.
     pub fn bin(&self, value: f64) -> usize {
         let share = (value - self.range.0) / (self.range.1 - self.range.0);
         // The cast saturates at 0 and takes NaN to 0.
@@ -42,45 +42,45 @@ impl Axis {
     }
 }
 
-/// What became of a candidate that was shown to an archive.
+/// The outcome of adding a candidate to an archive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AddStatus {
     /// It is the first of its cell.
     New,
-    /// It took the place of a worse one.
+    /// It replaced a worse one.
     Improved,
-    /// The archive does without it.
+    /// The archive does not keep it.
     Rejected,
 }
 
 /// The best feasible candidate of every cell of a grid of measures (the archive of Mouret and Clune, "Illuminating search
-/// spaces by mapping elites", 2015), and beside it in every cell a pocket of infeasible ones that come close (Khalifa et al.,
-/// "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
+/// spaces by mapping elites", 2015). Each cell also has a pocket of infeasible candidates that come close (Khalifa et
+/// al., "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
 ///
-/// Cells are numbered row-major, the last axis fastest; whatever iterates does so in that order.
+/// Cells are numbered row-major, the last axis fastest; every iteration uses this order.
 #[derive(Clone, Debug)]
 pub struct Archive<C> {
     axes: Vec<Axis>,
-    /// How many infeasible candidates a cell keeps.
+    /// The maximum number of infeasible candidates in a cell.
     pocket_size: usize,
     elites: BTreeMap<usize, Judged<C>>,
-    /// By cell, the least infeasible first; of equals the youngest first. None is empty.
+    /// By cell, the least infeasible first; among equals the youngest first. No pocket is empty.
     pockets: BTreeMap<usize, Vec<Judged<C>>>,
 }
 
 impl<C> Archive<C> {
-    /// An empty archive that keeps up to `pocket_size` infeasible candidates in each cell. Its axes are the measures of the
-    /// evaluations, in their order.
+    /// Creates an empty archive that keeps up to `pocket_size` infeasible candidates in each cell. Its axes are the
+    /// measures of the evaluations, in their order.
     pub fn new(axes: Vec<Axis>, pocket_size: usize) -> Archive<C> {
         Archive { axes, pocket_size, elites: BTreeMap::new(), pockets: BTreeMap::new() }
     }
 
-    /// Shows it a candidate. A feasible one becomes the elite of its cell if its objective is higher than the elite's. An
-    /// infeasible one goes to the pocket, and pushes out the worst one if that is full: of equals the oldest, so that
-    /// what cannot be told apart yet can still drift. Cost: O(log cells + pocket).
+    /// Adds a candidate if it is good enough. A feasible one becomes the elite of its cell if its objective is higher
+    /// than the elite's. An infeasible one goes to the pocket and evicts the worst one if that is full: among equals the
+    /// oldest, so that candidates of equal feasibility can still drift. Cost: O(log cells + pocket).
     ///
     /// # Panics
-    /// If there are not as many measures as axes.
+    /// If the number of measures differs from the number of axes.
     pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
         let cell = self.cell(&evaluation.measures);
         let judged = Judged { candidate, evaluation };
@@ -113,11 +113,11 @@ impl<C> Archive<C> {
         status
     }
 
-    /// Takes the elite of a cell out, because a closer look found that it is not feasible after all; it goes to the pocket. The
-    /// cell is free for the next one.
+    /// Removes the elite of a cell because a closer look found it infeasible after all, and moves it to the pocket. The
+    /// cell is then free for another elite.
     ///
     /// # Panics
-    /// If the feasibility that was found is that of a feasible candidate.
+    /// If `feasibility` is that of a feasible candidate.
     pub fn refuse(&mut self, cell: usize, feasibility: f64) {
         assert!(feasibility < 1.0, "what is refused is not feasible");
         if let Some(mut judged) = self.elites.remove(&cell) {
@@ -131,22 +131,22 @@ impl<C> Archive<C> {
         &self.axes
     }
 
-    /// How many cells there are, empty ones included.
+    /// The number of cells, empty ones included.
     pub fn cells(&self) -> usize {
         self.axes.iter().map(|axis| axis.bins).product()
     }
 
-    /// The cell of these measures.
+    /// Returns the cell of these measures.
     ///
     /// # Panics
-    /// If there are not as many measures as axes.
+    /// If the number of measures differs from the number of axes.
     pub fn cell(&self, measures: &[f64]) -> usize {
         assert_eq!(measures.len(), self.axes.len(), "one measure for each axis");
         let bins = self.axes.iter().zip(measures);
         bins.fold(0, |cell, (axis, &measure)| cell * axis.bins + axis.bin(measure))
     }
 
-    /// The bins of a cell, by axis.
+    /// Returns the bins of a cell, by axis.
     pub fn bins(&self, cell: usize) -> Vec<usize> {
         let mut rest = cell;
         let mut bins: Vec<usize> = Vec::with_capacity(self.axes.len());
@@ -158,7 +158,7 @@ impl<C> Archive<C> {
         bins
     }
 
-    /// The cells that differ from a cell by one bin of one axis, in the order of the axes.
+    /// Returns the cells that differ from a cell by one bin of one axis, in the order of the axes.
     pub fn neighbours(&self, cell: usize) -> Vec<usize> {
         let mut stride = self.cells();
         let mut cells = Vec::with_capacity(2 * self.axes.len());
@@ -185,7 +185,7 @@ impl<C> Archive<C> {
         self.pockets.get(&cell).map_or(&[], Vec::as_slice)
     }
 
-    /// All cells that hold infeasible candidates, with these, in the order of the cells.
+    /// All cells that hold infeasible candidates, with these candidates, in the order of the cells.
     pub fn pockets(&self) -> impl ExactSizeIterator<Item = (usize, &[Judged<C>])> {
         self.pockets.iter().map(|(&cell, pocket)| (cell, pocket.as_slice()))
     }
@@ -197,11 +197,11 @@ impl<C> Archive<C> {
 
     /// The sum of the objectives of all elites: an empty cell counts as the worst objective, 0.
     pub fn qd_score(&self) -> f64 {
-        // Not `sum`, which makes -0.0 of nothing.
+        // `sum` would return -0.0 for an empty archive.
         self.elites.values().fold(0.0, |sum, elite| sum + elite.evaluation.objective)
     }
 
-    /// The elite with the highest objective; of equals that of the first cell.
+    /// The elite with the highest objective; among equals that of the first cell.
     pub fn best(&self) -> Option<&Judged<C>> {
         self.elites.values().reduce(|best, elite| {
             if elite.evaluation.objective > best.evaluation.objective { elite } else { best }

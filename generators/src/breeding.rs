@@ -1,25 +1,25 @@
-//! How populations and archives come by new candidates: from nothing, or from parents, and never the same one twice.
+//! Creation and breeding of candidates for populations and archives, without proposing any candidate twice.
 
 use crate::Variation;
 use engine::{Digest, Sampler, Seed};
 use std::collections::BTreeSet;
 
-/// How often a candidate that is known already is changed further before it is given up.
+/// The number of attempts to get an unseen candidate before the proposal is given up.
 const TRIES: usize = 8;
 
-/// Whose candidates are the same: those with the same key.
+/// The key function: candidates with the same key are the same.
 type Key<'a, C> = Box<dyn Fn(&C) -> Digest + Send + 'a>;
 
-/// Makes candidates, each of which nobody has asked for before.
+/// Makes candidates that have not been proposed before.
 pub(crate) struct Breeding<'a, V: Variation> {
     variation: &'a V,
     key: Key<'a, V::Candidate>,
     seed: Seed,
     /// The probability that two parents are crossed.
     crossing: f64,
-    /// Proposals so far: each draws from a seed of its own.
+    /// The number of proposals so far: each draws from a seed of its own.
     drawn: u64,
-    /// The keys of all that was proposed.
+    /// The keys of all proposed candidates.
     seen: BTreeSet<Digest>,
 }
 
@@ -28,13 +28,13 @@ impl<'a, V: Variation> Breeding<'a, V> {
         Breeding { variation, key, seed, crossing, drawn: 0, seen: BTreeSet::new() }
     }
 
-    /// The draws for the next proposal.
+    /// Returns the sampler for the next proposal.
     pub(crate) fn next_sampler(&mut self) -> Sampler {
         self.drawn += 1;
         self.seed.child("proposal", self.drawn).sampler()
     }
 
-    /// A new candidate from nothing; none if no seed of a few leads to one.
+    /// Creates a new candidate from nothing; `None` if none of a few seeds leads to one.
     pub(crate) fn create(&mut self) -> Option<V::Candidate> {
         for _ in 0..TRIES {
             self.drawn += 1;
@@ -46,8 +46,8 @@ impl<'a, V: Variation> Breeding<'a, V> {
         None
     }
 
-    /// A new candidate from one parent or from two: crossed, and mutated once in two times; or only mutated. What is known
-    /// already is mutated on. None if it stays known.
+    /// Breeds a new candidate from one parent or from two: crossed, and then mutated half of the time; or only mutated. A
+    /// child that is already known is mutated further. `None` if it stays known.
     pub(crate) fn breed(
         &mut self,
         parent: &V::Candidate,
@@ -71,7 +71,7 @@ impl<'a, V: Variation> Breeding<'a, V> {
         None
     }
 
-    /// Notes a candidate. Whether it was new.
+    /// Records a candidate; returns `true` if it was new.
     pub(crate) fn note(&mut self, candidate: &V::Candidate) -> bool {
         self.seen.insert((self.key)(candidate))
     }

@@ -1,12 +1,12 @@
-//! Why a generator gives nothing.
+//! The reasons why a generator returns nothing.
 
-/// Nothing was made.
+/// A failure to generate anything.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GenerateError {
-    /// The game leaves the generator no way, whatever the seed.
+    /// The generator can make nothing for the game, whatever the seed.
     #[error("no level can be made for this game: {0}")]
     Unsuitable(String),
-    /// This seed leads nowhere; another may not.
+    /// Generation fails with this seed; another may succeed.
     #[error("this seed leads nowhere: {0}")]
     Unlucky(String),
 }

@@ -1,23 +1,24 @@
-//! Two populations: one evolves towards better, the other towards feasible.
+//! A search with two populations: one evolves towards a better objective, the other towards feasibility.
 
 use crate::breeding::Breeding;
 use crate::{Evaluation, Judged, Search, Variation};
 use engine::{Digest, Sampler, Seed};
 
-/// How [`FeasibleInfeasible`] searches.
+/// The parameters of [`FeasibleInfeasible`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeasibleInfeasibleConfig {
-    /// How many members each of the two populations keeps.
+    /// The maximum size of each of the two populations.
     pub size: usize,
-    /// How many candidates are created before the first one is bred.
+    /// The number of candidates to create before the first one is bred.
     pub initial: usize,
-    /// How many members a parent is the best of: 1 chooses blindly, more presses harder.
+    /// The tournament size: a parent is the best of this many members; 1 chooses blindly, more raises the selection
+    /// pressure.
     pub tournament: usize,
-    /// The share of each batch that the feasible population breeds at least, however small it is.
+    /// The minimum share of each batch that the feasible population breeds, however small it is.
     pub boost: f64,
     /// The probability that a child has two parents.
     pub crossing: f64,
-    /// The share of candidates that are created from nothing later on.
+    /// The share of candidates that are created from nothing once breeding has started.
     pub fresh: f64,
 }
 
@@ -37,11 +38,11 @@ impl Default for FeasibleInfeasibleConfig {
 /// A genetic algorithm with two populations (Kimbrough et al., "On a Feasible-Infeasible Two-Population (FI-2Pop) Genetic
 /// Algorithm for Constrained Optimization", 2008).
 ///
-/// Feasible candidates compete by their objective, infeasible ones by their feasibility. Parents and mates come from one
-/// population; children go where they belong, so that each population feeds the other from its side of the border.
-/// The feasible one breeds at least a given share of every batch, however small it is (the offspring boost of Liapis et al.,
-/// "Enhancements to Constrained Novelty Search", 2013). Members stay until better ones come, and no candidate is asked for
-/// twice.
+/// Feasible candidates compete by their objective, infeasible ones by their feasibility. Both parents come from one
+/// population; each child joins the population that it belongs to, so that each population feeds the other. The feasible
+/// one breeds at least a given share of every batch, however small it is (the offspring boost of Liapis et al.,
+/// "Enhancements to Constrained Novelty Search", 2013). Members stay until better ones displace them, and no candidate is
+/// asked for twice.
 ///
 /// ```
 /// use engine::{Digest, Sampler, Seed};
@@ -84,17 +85,17 @@ pub struct FeasibleInfeasible<'a, V: Variation> {
     breeding: Breeding<'a, V>,
     /// Candidates that are still to be created before breeding starts.
     initial: usize,
-    /// By objective, the best first; of equals the youngest first.
+    /// By objective, the best first; among equals the youngest first.
     feasible: Vec<Judged<V::Candidate>>,
-    /// By feasibility, the best first; of equals the youngest first.
+    /// By feasibility, the best first; among equals the youngest first.
     infeasible: Vec<Judged<V::Candidate>>,
 }
 
 impl<'a, V: Variation> FeasibleInfeasible<'a, V> {
-    /// A search that has not begun. Candidates with equal keys are the same.
+    /// Creates a search that has not begun. Candidates with equal keys are the same.
     ///
     /// # Panics
-    /// If the configuration has no members, or parents that are the best of none.
+    /// If the population size or the tournament size is 0.
     pub fn new(
         variation: &'a V,
         key: impl Fn(&V::Candidate) -> Digest + Send + 'a,
@@ -115,7 +116,7 @@ impl<'a, V: Variation> FeasibleInfeasible<'a, V> {
         &self.feasible
     }
 
-    /// The infeasible population, the nearest to feasible first.
+    /// The infeasible population, the closest to feasible first.
     pub fn infeasible(&self) -> &[Judged<V::Candidate>] {
         &self.infeasible
     }
@@ -143,12 +144,12 @@ impl<'a, V: Variation> FeasibleInfeasible<'a, V> {
 impl<V: Variation> Search for FeasibleInfeasible<'_, V> {
     type Candidate = V::Candidate;
 
-    /// Fewer than `count` only if variation gives nothing new; then again, perhaps, the next time.
+    /// Returns fewer than `count` only if the variation yields nothing new; a later call may return more.
     fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
         (0..count).filter_map(|_| self.propose()).collect()
     }
 
-    /// Candidates that were not asked for are welcome too, as a start.
+    /// Also accepts candidates that were not asked for, as a start.
     fn tell(&mut self, evaluated: Vec<(V::Candidate, Evaluation)>) {
         for (candidate, evaluation) in evaluated {
             self.breeding.note(&candidate);
@@ -162,12 +163,12 @@ impl<V: Variation> Search for FeasibleInfeasible<'_, V> {
     }
 }
 
-/// The index of the best of a few members of a sorted population.
+/// Draws a few members of a sorted population and returns the index of the best.
 fn tournament(members: usize, size: usize, sampler: &mut Sampler) -> usize {
     (0..size).map(|_| sampler.below(members)).min().expect("a tournament has entrants")
 }
 
-/// Puts a member in its place, before its equals, and lets the last one go if there are too many.
+/// Inserts a member at its rank, before its equals, and drops the last one if there are too many.
 fn settle<C>(
     population: &mut Vec<Judged<C>>,
     judged: Judged<C>,
@@ -189,7 +190,7 @@ mod tests {
         FeasibleInfeasible::new(fences, |fence| Fences::key(fence), FeasibleInfeasibleConfig::default(), seed)
     }
 
-    /// Random sampling meets one feasible candidate in 26,000, and then a poor one.
+    /// Random sampling finds one feasible candidate in 26,000, and then a poor one.
     #[test]
     fn the_optimum_is_found_where_random_sampling_finds_nothing_feasible() {
         let fences = Fences { posts: 48 };

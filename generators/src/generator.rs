@@ -1,16 +1,16 @@
-//! What a generator is.
+//! The interface of generators.
 
 use crate::GenerateError;
 use engine::Seed;
 
-/// Makes one thing from a seed: the same seed gives the same thing, on every machine.
+/// Makes an object from a seed: the same seed gives the same object on every machine.
 pub trait Generator: Sync {
-    /// What it makes.
+    /// The type of the result.
     type Output;
 
     /// Makes the output of this seed.
     ///
     /// # Errors
-    /// If this seed, or the configuration, gives nothing.
+    /// If this seed, or the configuration, gives no result.
     fn generate(&self, seed: Seed) -> Result<Self::Output, GenerateError>;
 }

@@ -1,6 +1,6 @@
-//! Pure functions of a configuration and a seed that make levels and games.
+//! Generators of levels and games: pure functions of a configuration and a seed.
 //!
-//! Generators never judge what they make: `snapshots::mint` is where a candidate meets its judges.
+//! Generators never judge their own output: `snapshots::mint` evaluates the candidates.
 
 mod annealing;
 mod archive;
@@ -23,5 +23,5 @@ pub use generator::Generator;
 pub use map_elites::{MapElites, MapElitesConfig};
 pub use search::{Evaluation, Search, Variation};
 
-/// Bumped when any minted byte moves for an unchanged recipe.
+/// The version of the generators: incremented when any minted byte changes for an unchanged recipe.
 pub const GENERATION: u32 = 12;

@@ -1,27 +1,27 @@
-//! Illumination: the best candidate of every kind, found by varying those that are known.
+//! Illumination search: finds the best candidate of each cell by varying the known ones.
 
 use crate::breeding::Breeding;
 use crate::{Archive, Axis, Evaluation, Judged, Search, Variation};
 use engine::{Digest, Sampler, Seed};
 
-/// Of how many candidates from pockets an infeasible parent is the least infeasible one, at least: pockets keep much of what
-/// leads nowhere, and the more, the more of them there are.
+/// The minimum size of the tournament among infeasible parents: pockets keep many dead ends, and more of them the more
+/// pockets there are.
 const TOURNAMENT: usize = 3;
-/// Pockets for which the tournament of infeasible parents grows by one.
+/// The number of pockets for which the tournament of infeasible parents grows by one.
 const SHARE: usize = 8;
 
-/// How [`MapElites`] searches.
+/// The parameters of [`MapElites`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapElitesConfig {
-    /// How many candidates are created before the first one is bred.
+    /// The number of candidates to create before the first one is bred.
     pub initial: usize,
     /// The probability that a child has two parents.
     pub crossing: f64,
-    /// The share of candidates that are created from nothing later on.
+    /// The share of candidates that are created from nothing once breeding has started.
     pub fresh: f64,
-    /// The share of candidates that are bred from infeasible parents, as long as there are elites too.
+    /// The share of candidates that are bred from infeasible parents once there are elites.
     pub infeasible: f64,
-    /// How many infeasible candidates each cell keeps.
+    /// The maximum number of infeasible candidates in each cell.
     pub pocket: usize,
 }
 
@@ -35,9 +35,8 @@ impl Default for MapElitesConfig {
 /// Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with Interactive Constrained
 /// MAP-Elites", 2019).
 ///
-/// Parents are elites, each filled cell as likely as any other; mates are elites too. A share of parents are infeasible, from
-/// the pockets of empty cells beside filled ones first: there the frontier can be moved. No candidate is asked for
-/// twice.
+/// Parents are elites, drawn uniformly from the filled cells; so are mates. A share of parents are infeasible, preferably
+/// from the pockets of empty cells next to filled ones: there the frontier can advance. No candidate is asked for twice.
 ///
 /// ```
 /// use engine::{Digest, Sampler, Seed};
@@ -79,14 +78,14 @@ impl Default for MapElitesConfig {
 pub struct MapElites<'a, V: Variation> {
     config: MapElitesConfig,
     breeding: Breeding<'a, V>,
-    /// Candidates that are still to be created before breeding starts.
+    /// The number of candidates to create before breeding starts.
     initial: usize,
     archive: Archive<V::Candidate>,
 }
 
 impl<'a, V: Variation> MapElites<'a, V> {
-    /// A search that has not begun. Candidates with equal keys are the same; the axes are the measures of the evaluations, in
-    /// their order.
+    /// Creates a search that has not begun. Candidates with equal keys are the same; the axes are the measures of the
+    /// evaluations, in their order.
     pub fn new(
         variation: &'a V,
         key: impl Fn(&V::Candidate) -> Digest + Send + 'a,
@@ -99,17 +98,17 @@ impl<'a, V: Variation> MapElites<'a, V> {
         MapElites { config, breeding, initial, archive }
     }
 
-    /// What has been found so far.
+    /// The archive of all results so far.
     pub fn archive(&self) -> &Archive<V::Candidate> {
         &self.archive
     }
 
-    /// Takes an elite out that a closer look found infeasible: see [`Archive::refuse`].
+    /// Removes an elite that a closer look found infeasible: see [`Archive::refuse`].
     pub fn refuse(&mut self, cell: usize, feasibility: f64) {
         self.archive.refuse(cell, feasibility);
     }
 
-    /// Ends the search: what has been found.
+    /// Ends the search and returns the archive.
     pub fn into_archive(self) -> Archive<V::Candidate> {
         self.archive
     }
@@ -142,13 +141,13 @@ impl<'a, V: Variation> MapElites<'a, V> {
 impl<V: Variation> Search for MapElites<'_, V> {
     type Candidate = V::Candidate;
 
-    /// Fewer than `count` only if variation gives nothing new; then again, perhaps, the next time. Cost of each candidate beside
-    /// its variation: O(pockets × axes).
+    /// Returns fewer than `count` only if the variation yields nothing new; a later call may return more. Cost of each
+    /// candidate besides its variation: O(pockets × axes).
     fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
         (0..count).filter_map(|_| self.propose()).collect()
     }
 
-    /// Candidates that were not asked for are welcome too, as a start.
+    /// Also accepts candidates that were not asked for, as a start.
     fn tell(&mut self, evaluated: Vec<(V::Candidate, Evaluation)>) {
         for (candidate, evaluation) in evaluated {
             self.breeding.note(&candidate);
@@ -157,13 +156,14 @@ impl<V: Variation> Search for MapElites<'_, V> {
     }
 }
 
-/// An elite; there is one.
+/// Draws an elite from an archive that has one.
 fn elite<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Judged<C> {
     let at = sampler.below(archive.elites().len());
     archive.elites().nth(at).expect("an index below the length").1
 }
 
-/// An infeasible candidate; there is one. From an empty cell beside a filled one if possible, else from any pocket.
+/// Draws an infeasible candidate from an archive that has one: from an empty cell next to a filled one if possible,
+/// otherwise from any pocket.
 fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Judged<C> {
     let is_filled = |cell: usize| archive.elite(cell).is_some();
     let at_frontier = |(cell, _): &(usize, &[Judged<C>])| {
@@ -202,7 +202,7 @@ mod tests {
         MapElites::new(&Slopes, Slopes::key, axes(), config, seed)
     }
 
-    /// The means of random numbers crowd in the middle; illumination reaches the corners, and smooths what it finds.
+    /// The means of random numbers cluster in the middle; illumination reaches the corners, and smooths its candidates.
     #[test]
     fn far_more_is_illuminated_than_by_random_sampling() {
         for seed in 0..3 {
@@ -220,7 +220,7 @@ mod tests {
         }
     }
 
-    /// Where all that is created is infeasible, pockets are all there is to breed from.
+    /// Pockets are the only parents when all created candidates are infeasible.
     #[test]
     fn the_way_to_the_first_feasible_candidate_leads_through_pockets() {
         let steep = |slope: &[u8; 8]| {

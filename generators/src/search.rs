@@ -1,54 +1,55 @@
-//! Search by asking and telling: a search proposes candidates, somebody else judges them, the search learns from that.
+//! Ask-and-tell search: a search proposes candidates, the caller evaluates them, and the search learns from the results.
 //!
-//! A search never knows what it searches, nor who judges: the same three algorithms make levels, rules, or whatever else has a
-//! [`Variation`]. The shape is that of Fontaine et al., "pyribs: A Bare-Bones Python Library for Quality Diversity
-//! Optimization" (2023).
+//! A search is independent of the candidates and of their evaluation: the same three algorithms make levels, rules, or
+//! anything else that has a [`Variation`]. The interface follows Fontaine et al., "pyribs: A Bare-Bones Python Library
+//! for Quality Diversity Optimization" (2023).
 
 use engine::{Sampler, Seed};
 
-/// Proposes candidates and learns from what the judges say of them.
+/// Proposes candidates and learns from their evaluations.
 pub trait Search {
-    /// What is searched for.
+    /// The type of the candidates.
     type Candidate;
 
-    /// The next candidates to be judged, `count` of them or fewer. They do not depend on who judges, or on how many threads.
+    /// Returns the next candidates to evaluate, at most `count`. They do not depend on the evaluator, or on the number of
+    /// threads.
     fn ask(&mut self, count: usize) -> Vec<Self::Candidate>;
 
-    /// Takes what the judges found of the candidates that were asked for, all of them, in their order.
+    /// Takes the evaluations of all the candidates that were asked for, in their order.
     fn tell(&mut self, evaluated: Vec<(Self::Candidate, Evaluation)>);
 }
 
-/// What the judges say of a candidate, as numbers.
+/// The evaluation of a candidate, as numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluation {
-    /// How much of what every candidate must meet it meets, from 0.0 to 1.0: the mean of graded constraints. It is feasible
-    /// at 1.0, and only there.
+    /// The degree to which it meets the constraints, from 0.0 to 1.0: the mean of graded constraints. It is feasible at
+    /// 1.0, and only there.
     pub feasibility: f64,
-    /// How good it is, from 0.0 to 1.0. It counts among feasible candidates only.
+    /// Its quality, from 0.0 to 1.0. It counts among feasible candidates only.
     pub objective: f64,
-    /// What it is like, in the order of the measures that the judges declare: the axes of an archive.
+    /// Its characteristics, in the order of the measures that the judges declare: the axes of an archive.
     pub measures: Vec<f64>,
 }
 
 impl Evaluation {
-    /// Whether every constraint is met.
+    /// Returns `true` if every constraint is met.
     pub fn is_feasible(&self) -> bool {
         self.feasibility >= 1.0
     }
 }
 
-/// How candidates of one kind come about. Whatever it gives is well-formed; it need not be any good.
+/// Creates and varies candidates of one kind. All results are well-formed, but not necessarily good.
 pub trait Variation: Sync {
-    /// What is varied.
+    /// The type of the candidates.
     type Candidate: Clone + Send + Sync;
 
-    /// A candidate from nothing; none if this seed leads nowhere.
+    /// Creates a candidate from nothing; `None` if that fails with this seed.
     fn create(&self, seed: Seed) -> Option<Self::Candidate>;
 
-    /// A candidate that differs from another in a small way.
+    /// Returns a candidate that differs slightly from another.
     fn mutate(&self, parent: &Self::Candidate, sampler: &mut Sampler) -> Self::Candidate;
 
-    /// A candidate with parts of two others.
+    /// Returns a candidate with parts of two others.
     fn cross(&self, one: &Self::Candidate, two: &Self::Candidate, sampler: &mut Sampler) -> Self::Candidate;
 }
 

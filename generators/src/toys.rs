@@ -1,11 +1,12 @@
-//! What the searches are tested with: variations whose best candidates are known.
+//! Toy problems for tests of the searches: variations whose best candidates are known.
 
 use crate::{Evaluation, Search, Variation};
 use engine::{Digest, Sampler, Seed};
 
-/// Rows of places with or without a post: no two posts side by side, as many as fit. The most is every other place.
+/// Rows of places with or without a post: no two posts side by side, and as many as possible. The optimum is every other
+/// place.
 pub(crate) struct Fences {
-    /// Places; with none there are no candidates.
+    /// The number of places; with none there are no candidates.
     pub(crate) posts: usize,
 }
 
@@ -50,9 +51,9 @@ impl Variation for Fences {
     }
 }
 
-/// Rows of eight numbers of 0..=100. The measures are the means of the two halves, the objective is how alike the numbers
-/// of each half are: every cell can be filled, with an objective near 1. Feasible is what ends lower than it begins by 10 or
-/// more, or the other way round.
+/// Rows of eight numbers of 0..=100. The measures are the means of the two halves; the objective is the similarity of the
+/// numbers within each half. Every cell can be filled, with an objective near 1. Feasible rows begin and end with numbers
+/// that differ by at least 10.
 pub(crate) struct Slopes;
 
 impl Slopes {
@@ -99,7 +100,7 @@ impl Variation for Slopes {
     }
 }
 
-/// Asks and tells so many batches; all that was asked, judged.
+/// Asks for and evaluates a number of batches; returns all candidates with their evaluations.
 pub(crate) fn run<S: Search>(
     search: &mut S,
     judge: impl Fn(&S::Candidate) -> Evaluation,
@@ -119,7 +120,7 @@ where
     all
 }
 
-/// So many candidates from nothing, judged.
+/// Creates and evaluates random candidates.
 pub(crate) fn sample<V: Variation>(
     variation: &V,
     judge: impl Fn(&V::Candidate) -> Evaluation,
@@ -134,7 +135,7 @@ pub(crate) fn sample<V: Variation>(
     })
 }
 
-/// The best objective of so many candidates from nothing; none if none is feasible.
+/// Returns the best objective of a number of random candidates; `None` if none is feasible.
 pub(crate) fn best_of_random<V: Variation>(
     variation: &V,
     judge: impl Fn(&V::Candidate) -> Evaluation,

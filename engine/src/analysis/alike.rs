@@ -1,4 +1,4 @@
-//! What the rules cannot tell of sprites of one type: which is which, and where they face.
+//! Sprites of one type that the rules cannot tell apart, by identity or by orientation.
 
 use super::Analysis;
 use super::encounter::{Deed, Encounter};
@@ -9,10 +9,10 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 
 impl Analysis {
-    /// By type: exchanging two of its sprites changes nothing but which is which.
+    /// By type: exchanging two of its sprites changes nothing but their identity.
     ///
-    /// Their updates concern each by itself, nobody looks for the nearest of them, and every rule that they take part in
-    /// does the same whichever it comes to first.
+    /// Each sprite's update concerns that sprite alone, nothing looks for the nearest one, and every rule that involves
+    /// the type gives the same result whichever sprite it processes first.
     pub(super) fn alike(&self) -> Vec<bool> {
         let rules = &*self.game.0;
         let types = rules.types.len();
@@ -52,7 +52,7 @@ impl Analysis {
                 };
             }
         }
-        // What turns into sprites whose order counts, does so in some order.
+        // A type that turns into sprites whose order matters does so in some order, too.
         loop {
             let mut changed = false;
             for encounter in &self.encounters {
@@ -72,7 +72,7 @@ impl Analysis {
         }
     }
 
-    /// By type: nothing reads where such a sprite faces, as long as it is not oriented.
+    /// By type: nothing reads the orientation of such a sprite, as long as the sprite is not oriented.
     pub(super) fn faceless(&self) -> Vec<bool> {
         use SpriteClass as C;
         let rules = &*self.game.0;
@@ -101,12 +101,12 @@ impl Analysis {
     }
 }
 
-/// Whether the effect does not read where the first sprite faces, if that is not oriented.
+/// Returns `true` if the effect does not read the orientation of a first sprite that is not oriented.
 fn is_blind_to_first(effect: &Effect) -> bool {
     is_blind_to_second(effect) || matches!(effect, Effect::BounceForward)
 }
 
-/// Whether the effect does not read where the second sprite faces, if that is not oriented.
+/// Returns `true` if the effect does not read the orientation of a second sprite that is not oriented.
 fn is_blind_to_second(effect: &Effect) -> bool {
     matches!(
         effect,
@@ -126,7 +126,7 @@ fn is_blind_to_second(effect: &Effect) -> bool {
     )
 }
 
-/// Whether the update of such a sprite concerns it alone.
+/// Returns `true` if the update of such a sprite concerns that sprite alone.
 fn is_by_itself(info: &TypeInfo) -> bool {
     use SpriteClass as C;
     let plain = matches!(
@@ -151,7 +151,8 @@ fn is_by_itself(info: &TypeInfo) -> bool {
         && !info.repeats()
 }
 
-/// Whether a rule between others treats sprites of the type one after the other, where the order could tell.
+/// Returns `true` if a rule between other types treats sprites of this type one after the other, so that the order can
+/// matter.
 fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
     let afar = |deed: &Deed| match deed {
@@ -161,12 +162,12 @@ fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     encounter.does(afar)
 }
 
-/// Whether executing the effect leaves the score alone and is remembered nowhere.
+/// Returns `true` if executing the effect leaves the score alone and is recorded nowhere.
 fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }
 
-/// What is done to the first sprite depends on it and its partner alone, and changes nothing else.
+/// Returns `true` if the effect on the first sprite depends on it and its partner alone, and changes nothing else.
 fn is_for_each(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let own = match info.effect {
         Effect::KillSprite
@@ -186,10 +187,10 @@ fn is_for_each(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool 
     own && !info.in_batch && !rules.remembering.contains(&encounter.effect)
 }
 
-/// What is done to the first sprite is done by the first of its partners as well as by any other.
+/// Returns `true` if the effect on the first sprite is the same whichever partner comes first.
 fn is_once(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let once = match info.effect {
-        // The first sprite is gone, and meets no other partner.
+        // The first sprite is gone and meets no other partner.
         Effect::KillSprite | Effect::TransformTo { kill_second: false, force_orientation: false, .. } => true,
         Effect::KillIfHasLess { .. }
         | Effect::KillIfHasMore { .. }
@@ -200,7 +201,7 @@ fn is_once(rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     once && !info.in_batch && !rules.remembering.contains(&encounter.effect)
 }
 
-/// All goes back, whoever met whom.
+/// Returns `true` if everything is moved back, whichever sprites met.
 fn is_undo(info: &EffectInfo) -> bool {
     matches!(info.effect, Effect::UndoAll { .. }) && info.score_change == 0 && info.counting.is_none()
 }

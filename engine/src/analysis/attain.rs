@@ -1,4 +1,4 @@
-//! Whether the rules can bring a termination about at all.
+//! Tests, from the rules alone, whether a termination can ever hold.
 
 use super::Analysis;
 use super::encounter::{Deed, Side, clockwork};
@@ -12,35 +12,35 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::terminations::{Condition as Written, Decision, can_be_held_up};
 use serde::Serialize;
 
-/// Whether the rules can bring a termination about. Every answer but [`Attainable::InPlay`] is proved; that one means
+/// The conditions under which a termination can hold. Every answer but [`Attainable::InPlay`] is proved; that one means
 /// that nothing in the rules alone forbids it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Attainable {
-    /// It holds at the end of the first tick, whatever the level.
+    /// It holds at the end of the first tick in every level.
     AtOnce,
-    /// Play may bring it about.
+    /// Play may make it hold.
     InPlay,
-    /// It holds from the start of a level or never: nothing changes what it counts in its direction.
+    /// It holds from the start of a level or never: nothing moves its count in the required direction.
     FromStart,
-    /// It never holds, whatever the level.
+    /// It never holds in any level.
     Never,
 }
 
-/// How the numbers of sprites can change in play.
+/// The ways in which the numbers of sprites can change in play.
 struct Flux {
-    /// By type: such sprites can be there.
+    /// By type: such sprites can exist.
     there: Vec<bool>,
-    /// By type: a sprite can go away, with nothing in its place.
+    /// By type: a sprite can disappear without a replacement.
     goes: Vec<bool>,
-    /// By type: a sprite can appear, out of nothing.
+    /// By type: a sprite can appear without replacing another.
     appears: Vec<bool>,
-    /// Types that can turn into others.
+    /// Pairs of types: a sprite of the first can turn into one of the second.
     turns: Vec<(SpriteType, SpriteType)>,
 }
 
-/// Fills in how each goal can be attained. Cost: that of a [`Prospect`], and O(types × types) for each of the first
-/// [`MAX_GOALS`]; the others are taken for [`Attainable::InPlay`].
+/// Determines how each goal can be attained. Cost: that of a [`Prospect`], and O(types × types) for each of the first
+/// [`MAX_GOALS`]; the others are assumed to be [`Attainable::InPlay`].
 pub(super) fn judge(rules: &Rules, facts: &[Facts], prospect: &Prospect<'_>, goals: &mut [Goal]) {
     let flux = Flux::of(rules, facts, prospect);
     let held_up = can_be_held_up(rules);
@@ -50,7 +50,7 @@ pub(super) fn judge(rules: &Rules, facts: &[Facts], prospect: &Prospect<'_>, goa
             _ => None,
         };
         goal.attainable = match flux.judge(&goal.condition, kinds) {
-            // What holds from the start may end the game later, when a StopCounter lets it.
+            // A condition that holds from the start may end the game later, once a StopCounter lets it.
             Attainable::AtOnce | Attainable::FromStart
                 if held_up && !matches!(goal.condition, Condition::Tick(_)) =>
             {
@@ -89,7 +89,7 @@ impl Flux {
         flux
     }
 
-    /// Adds what deeds do to the sprites on both sides.
+    /// Adds the effects on the sprites of both sides.
     fn add(&mut self, rules: &Rules, sides: [&[SpriteType]; 2], deeds: &[Deed], turns: &mut [bool]) {
         let types = self.there.len();
         let mut turn = |from: SpriteType, to: SpriteType| turns[from.index() * types + to.index()] = true;
@@ -97,7 +97,7 @@ impl Flux {
             let gone: &[SpriteType] = match deed {
                 Deed::Kill(Side::Second) => sides[1],
                 Deed::KillAll(stype) => std::slice::from_ref(stype),
-                // Where there is no exit, the sprite dies.
+                // Without an exit, the sprite dies.
                 Deed::Kill(Side::First) | Deed::Teleport => sides[0],
                 Deed::Health { of, dies_at, .. } if *dies_at > i32::MIN => {
                     let other = of.map_or(&[][..], |of| &*rules.types[of.index()].tree);
@@ -132,7 +132,7 @@ impl Flux {
         }
     }
 
-    /// `kinds`: the number of kinds that must be alive, where the termination asks for one.
+    /// `kinds`: the number of kinds that must be alive, if the termination asks for one.
     fn judge(&self, condition: &Condition, kinds: Option<i32>) -> Attainable {
         let mut weights = vec![0u32; self.there.len()];
         for stype in condition.types().iter().filter(|stype| self.there[stype.index()]) {
@@ -165,7 +165,7 @@ impl Flux {
             (Condition::AtMost(..), _) => when(falls),
             (Condition::AtLeast(..), _) => when(rises),
             (Condition::Exactly(_, 0), None) => when(falls),
-            // One kind may turn into another while their number stays.
+            // One kind may turn into another while their total number stays the same.
             (Condition::Exactly(..), Some(_)) => {
                 when(falls || rises || turns().any(|(from, to)| from > 0 || to > 0))
             }
@@ -174,7 +174,7 @@ impl Flux {
     }
 }
 
-/// Whether sprites of the type go away by themselves.
+/// Returns `true` if sprites of the type disappear by themselves.
 pub(super) fn is_mortal(rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
     let is_a = |class: SpriteClass| info.class.is_some_and(|own| own.is_a(class));
@@ -183,23 +183,24 @@ pub(super) fn is_mortal(rules: &Rules, stype: SpriteType) -> bool {
 }
 
 impl Analysis {
-    /// Whether some level can be won by playing it. False only if it is proved that none can: every termination that wins
-    /// never holds, or holds only where a level starts so, or comes after one that ends every game in its first tick.
+    /// Returns `false` only if it is proved that no level can be won by playing it: every winning termination either
+    /// never holds, or holds only from the start of a level, or comes after one that ends every game in its first tick.
     pub fn can_win(&self) -> bool {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Whether some level can be lost by playing it, the reference's own limit of ticks apart. False only if it is proved
-    /// that none can, as for [`Analysis::can_win`].
+    /// Returns `false` only if it is proved that no level can be lost by playing it, the reference's own limit of ticks
+    /// apart: see [`Analysis::can_win`].
     pub fn can_lose(&self) -> bool {
         self.can_end(false, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Whether a termination with that sign can be the first to hold; `holds` says which ones, with their indices, can.
+    /// Returns `true` if a termination with that result can be the first to hold; `holds` tells which goals, given with
+    /// their indices, can hold.
     pub(super) fn can_end(&self, win: bool, holds: impl Fn(usize, &Goal) -> bool) -> bool {
         let rules = &*self.game.0;
         for (at, goal) in self.goals.iter().enumerate() {
-            // Where the score or a counter decides, what may be won may be lost.
+            // A termination decided by the score or a counter may end either way.
             let open = rules.terminations[goal.line].decided_by != Decision::Line;
             if holds(at, goal) && (goal.win == win || open && !win) {
                 return true;

@@ -1,4 +1,4 @@
-//! Interactions in a neutral form: who meets whom, what happens, under which condition.
+//! Interactions in a neutral form: the two sprites, the effects and the condition.
 
 use crate::game::{Rules, SpriteType};
 use crate::ontology::effects::Effect;
@@ -7,7 +7,7 @@ use smallvec::{SmallVec, smallvec};
 /// One side of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The sprite that is named first: the one acted upon.
+    /// The sprite named first: the one acted upon.
     First,
     /// Its partner.
     Second,
@@ -22,34 +22,34 @@ impl Side {
     }
 }
 
-/// One thing that an interaction does.
+/// One effect of an interaction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Deed {
-    /// The sprite of that side goes away.
+    /// The sprite of that side is removed.
     Kill(Side),
-    /// Every sprite of exactly this type goes away.
+    /// Every sprite of exactly this type is removed.
     KillAll(SpriteType),
     /// The first sprite turns into one of this type.
     Become(SpriteType),
-    /// The first sprite turns into one of these types, by chance.
+    /// The first sprite turns into one of these types, chosen at random.
     BecomeAny(Box<[SpriteType]>),
     /// Every sprite of exactly the one type turns into one of the other.
     BecomeAll(SpriteType, SpriteType),
-    /// The first sprite goes back to where it came from: the second one blocks it.
+    /// The first sprite moves back to its previous position: the second one blocks it.
     Stop,
-    /// Everything that moved goes back, sprites of these types apart.
+    /// Every sprite that moved moves back, except sprites of these types.
     Undo(Box<[SpriteType]>),
-    /// The first sprite faces another way.
+    /// The first sprite changes its orientation.
     Turn,
     /// The first sprite is pushed along by the second.
     Push,
-    /// The first sprite is carried along by the second, or put in its place.
+    /// The first sprite is carried along by the second, or moved to its position.
     Carry,
-    /// The first sprite appears where the second one leads to.
+    /// The first sprite reappears at the exit of the second one.
     Teleport,
-    /// The first sprite comes in again at the opposite edge.
+    /// The first sprite reappears at the opposite edge.
     Wrap,
-    /// Sprites of this type (with its relatives), or the first sprite alone, change their speed.
+    /// Sprites of this type and its relatives, or the first sprite alone, change their speed.
     Speed(Option<SpriteType>),
     /// A sprite of this type appears.
     Make(SpriteType),
@@ -57,29 +57,30 @@ pub enum Deed {
     Clone,
     /// The second sprite takes the first one as a resource: as many as the first one's `value`, up to its limit.
     Collect,
-    /// The sprite of that side has so many more (or fewer) of a resource.
+    /// The sprite of that side gains (or loses) this amount of a resource.
     Change {
-        /// Whose holdings change.
+        /// The side whose resources change.
         who: Side,
-        /// Which resource.
+        /// The resource.
         resource: SpriteType,
-        /// By how many.
+        /// The change in the amount.
         by: i32,
     },
-    /// Health points change, and a sprite that has too few dies.
+    /// Health points change, and a sprite with too few of them dies.
     Health {
-        /// The type whose sprite is meant; none: the first sprite.
+        /// The type whose sprites are affected; none: the first sprite.
         of: Option<SpriteType>,
-        /// By how many.
+        /// The change in health points.
         by: i32,
-        /// It dies with so many or fewer.
+        /// The number of health points at or below which it dies.
         dies_at: i32,
     },
-    /// For the rest of the tick, one keyword's interactions with sprites of this type leave the first one's type alone.
+    /// For the rest of the tick, interactions of one keyword with sprites of this type do not affect the first sprite's
+    /// type.
     Shield {
-        /// The partner that is kept off.
+        /// The shielded-off partner.
         from: SpriteType,
-        /// The keyword that is switched off, as in VGDL.
+        /// The suppressed keyword, as in VGDL.
         keyword: &'static str,
     },
 }
@@ -94,54 +95,55 @@ impl Deed {
     }
 }
 
-/// When an interaction does its deeds.
+/// The condition under which an interaction takes effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Provided {
     /// At every meeting.
     Always,
-    /// If the sprite of that side holds at least so many of the resource.
+    /// The sprite of that side holds at least this amount of the resource.
     Holds(Side, SpriteType, i32),
-    /// If the sprite of that side holds at most so many of the resource.
+    /// The sprite of that side holds at most this amount of the resource.
     HoldsAtMost(Side, SpriteType, i32),
     /// With that probability.
     Chance(f64),
-    /// Depending on how the two move: from above, head-on, leaving a place behind.
+    /// Depends on the movement of the two: from above, head-on, leaving a place behind.
     Way,
 }
 
-/// One interaction line with one of its partners, neutrally put.
+/// One interaction line with one of its partners, in neutral form.
 #[derive(Clone, Debug)]
 pub struct Encounter {
-    /// The type named first, as written: the rule holds for its whole tree (see [`Analysis::applies`](super::Analysis::applies)).
+    /// The type named first, as written. The rule holds for its whole tree (see
+    /// [`Analysis::applies`](super::Analysis::applies)).
     pub first: SpriteType,
     /// The partner, as written; none: the edge of the screen.
     pub second: Option<SpriteType>,
-    /// What happens, in order.
+    /// The effects, in order.
     pub deeds: SmallVec<[Deed; 2]>,
-    /// When.
+    /// The condition.
     pub provided: Provided,
-    /// What the score changes by, if it happens.
+    /// The change in the score if the interaction happens.
     pub score: i32,
     /// Index of the line in [`Description::interactions`](crate::Description).
     pub line: usize,
-    /// The effect, with its fine print.
+    /// The effect with all its parameters.
     pub(super) effect: u16,
-    /// The effect's place among the keywords, for shields.
+    /// The index of the effect's keyword, for shields.
     pub(super) keyword: u16,
 }
 
 impl Encounter {
-    /// Whether the deeds include one that `wanted` accepts.
+    /// Returns `true` if `wanted` accepts one of the effects.
     pub fn does(&self, wanted: impl Fn(&Deed) -> bool) -> bool {
         self.deeds.iter().any(wanted)
     }
 
-    /// Whether the first sprite is held up: it, or everything, goes back.
+    /// Returns `true` if the first sprite is blocked: it, or everything, moves back.
     pub fn blocks(&self) -> bool {
         self.does(|deed| matches!(deed, Deed::Stop | Deed::Undo(_)))
     }
 
-    /// Whether the sprite of that side goes away or turns into another type.
+    /// Returns `true` if the sprite of that side is removed or turns into another type.
     pub fn ends(&self, side: Side) -> bool {
         self.does(|deed| match deed {
             Deed::Kill(who) => *who == side,
@@ -152,15 +154,15 @@ impl Encounter {
     }
 }
 
-/// All interactions, those with the edge first, in the order in which a tick goes through them, repeats left out.
+/// Returns all interactions in the order of a tick, those with the edge first, without repetitions.
 pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
-    // Nothing shields from the edge.
+    // There is no shield against the edge.
     let edge = rules.edge.iter().filter(|(stype, _)| *stype != SpriteType::NONE);
     let edge = edge.map(|&(stype, effect)| (stype, None, effect, u16::MAX));
     let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect, pass.keyword));
     for key in edge.chain(pairs) {
-        // Repeats of a pass, and of an edge effect, stand close together.
+        // Repetitions of a pass, or of an edge effect, are close together.
         if !seen.iter().rev().take(64).any(|other| *other == key) {
             seen.push(key);
         }
@@ -171,7 +173,7 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
         if let Effect::AddTimer { timed } = info.effect {
             deeds.extend(later(rules, timed));
         }
-        // What is done to or with undeclared types, in games loaded as the reference does, is never done.
+        // Effects on or with undeclared types, in games loaded as the reference does, never happen.
         deeds.retain(|deed| !deed.names(SpriteType::NONE));
         if matches!(provided, Provided::Holds(_, SpriteType::NONE, _)) {
             provided = Provided::Way;
@@ -186,7 +188,7 @@ pub(super) fn encounters(rules: &Rules) -> Vec<Encounter> {
     seen.into_iter().map(encounter).collect()
 }
 
-/// What happens by the clock: to which sprites (none: to no sprite in particular), and what.
+/// Returns the timed effects, each with the type of its target (none: no particular sprite).
 pub(super) fn clockwork(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[Deed; 2]>)> {
     let deeds = |effect: u16| {
         let (mut deeds, _) = neutral(&rules.effects[usize::from(effect)].effect);
@@ -196,8 +198,8 @@ pub(super) fn clockwork(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[Dee
     rules.timed.iter().map(|timed| (timed.target, deeds(timed.effect))).collect()
 }
 
-/// What a planned effect does to whom it may concern: all sprites of a type. (What asks for a sprite of its own finds
-/// none.)
+/// Returns the part of a timed effect that concerns all sprites of a type. (Effects that need one particular sprite
+/// find none.)
 fn later(rules: &Rules, timed: u16) -> impl Iterator<Item = Deed> {
     let effect = rules.timed[usize::from(timed)].effect;
     let (deeds, _) = neutral(&rules.effects[usize::from(effect)].effect);
@@ -210,11 +212,11 @@ fn later(rules: &Rules, timed: u16) -> impl Iterator<Item = Deed> {
     deeds.into_iter().filter(at_large)
 }
 
-/// What an effect does and when, without its fine print.
+/// Returns the effects and their condition, without the details.
 fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
     use Side::{First, Second};
     let always = |deeds: SmallVec<[Deed; 2]>| (deeds, Provided::Always);
-    // A second deed that a flag of the effect asks for.
+    // A second effect, requested by a flag of the first.
     let with = |deed: Deed, flag: bool, more: Deed| {
         let mut deeds: SmallVec<[Deed; 2]> = smallvec![deed];
         deeds.extend(flag.then_some(more));
@@ -314,7 +316,7 @@ fn neutral(effect: &Effect) -> (SmallVec<[Deed; 2]>, Provided) {
         Effect::BounceDirection { .. } => always(smallvec![Deed::Turn]),
         Effect::WallStop => always(smallvec![Deed::Stop]),
         Effect::WallBounce | Effect::WallReverse => always(smallvec![Deed::Stop, Deed::Turn]),
-        // What happens, happens later: see `later`.
+        // The effect happens later: see `later`.
         Effect::AddTimer { .. } | Effect::Disabled(_) => always(smallvec![]),
         Effect::ShieldFrom { stype, keyword } => {
             let keyword =

@@ -1,4 +1,4 @@
-//! What a sprite type is by itself: how it moves, what it makes, whether it can occur.
+//! Properties of a sprite type by itself: its movement, the sprites it makes, and whether it can occur.
 
 use super::encounter::{Encounter, Provided};
 use super::prospect::{Prospect, Start};
@@ -7,17 +7,17 @@ use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::traits::Traits;
 
-/// Pixels of a cell on a board of usual size.
+/// The size of a cell in pixels on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;
 
-/// How sprites of a type move by themselves.
+/// The movement of sprites of a type by themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// Not at all.
     Still,
-    /// Always ahead; [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is given later.
+    /// Always ahead; [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is set later.
     Straight(Direction),
-    /// By chance.
+    /// At random.
     Wandering,
     /// Towards the closest sprite of a type.
     Chasing(SpriteType),
@@ -27,7 +27,7 @@ pub enum Motion {
     Steered,
 }
 
-/// How the player moves an avatar.
+/// The ways in which the player can move an avatar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Steering {
     /// Up, left, down, right.
@@ -42,9 +42,9 @@ pub enum Steering {
     Unsteered,
     /// It stays where it is; the player aims and shoots.
     Fixed,
-    /// It turns and speeds up, and keeps moving as it does.
+    /// It turns and accelerates, and keeps its velocity.
     Thrust,
-    /// It falls, walks left and right on what it stands on, and jumps or flaps.
+    /// It falls, walks left and right on solid ground, and jumps or flaps.
     Jumping,
 }
 
@@ -53,45 +53,46 @@ pub enum Steering {
 pub struct Avatar {
     /// The type.
     pub stype: SpriteType,
-    /// How the player moves it.
+    /// The way in which the player moves it.
     pub steering: Steering,
-    /// What the use key makes: the first kind for which there is ammunition.
+    /// The types that the use key makes: the first one with ammunition is made.
     pub shots: Vec<SpriteType>,
-    /// The resources that its shots cost, by kind of shot.
+    /// The resources that its shots cost, one per type of shot.
     pub ammo: Vec<SpriteType>,
-    /// Whether a level can place it; the others come about by transformation.
+    /// `true` if a level can place it; the others arise by transformation.
     pub starts: bool,
 }
 
-/// What a sprite type is by itself.
+/// The properties of a sprite type by itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
-    /// It has a class, so there can be sprites of it.
+    /// It has a class, so sprites of it can exist.
     pub concrete: bool,
-    /// Such sprites can be on the board at some time: placed by a level, or made from what is.
+    /// Such sprites can be on the board at some time: placed by a level, or made from existing ones.
     pub possible: bool,
-    /// The level characters that place it: those that place the fewest sprites first, then by code.
+    /// The level characters that place it, those that place the fewest sprites first, then by code.
     pub symbols: Vec<u8>,
-    /// How it moves.
+    /// Its movement.
     pub motion: Motion,
-    /// How fast it moves, as it starts, in cells per tick; 0 for what does not.
+    /// Its initial speed in cells per tick; 0 for types that do not move.
     pub pace: f64,
-    /// What it makes by itself; for avatars, by the use key.
+    /// The types that it makes by itself; for avatars, by the use key.
     pub makes: Vec<SpriteType>,
-    /// Columns and rows of the cells that it covers, from the one that a level places it in to the right and down.
+    /// The columns and rows of the cells that it covers, from its placement cell to the right and down.
     pub span: (usize, usize),
-    /// It lives for a few ticks only.
+    /// It lives only for a few ticks.
     pub fleeting: bool,
-    /// At most one at a time (with its singleton relatives).
+    /// At most one sprite exists at a time (counting its singleton relatives).
     pub singleton: bool,
     /// It can be held.
     pub is_resource: bool,
-    /// Players do not see it.
+    /// It is invisible to players.
     pub hidden: bool,
 }
 
 pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
-    // Sprites with continuous physics move by pixels; where the game does not say how many make a cell, a usual number.
+    // Sprites with continuous physics move by pixels; if the game does not give the size of a cell, the usual one is
+    // assumed.
     let block = f64::from(rules.square_size.unwrap_or(USUAL_BLOCK));
     let mut facts: Vec<Facts> = rules
         .types
@@ -139,8 +140,8 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     facts
 }
 
-/// Whether the character has a meaning only because every game maps `w` and `A`, and this game does without it: it has
-/// no such interaction, or another avatar.
+/// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does not use
+/// it: it has no such interaction, or another avatar.
 fn is_idle_default(rules: &Rules, encounters: &[Encounter], symbol: u8) -> bool {
     let stype = match symbol {
         b'w' => SpriteType(0),
@@ -174,7 +175,7 @@ fn motion(class: SpriteClass, traits: &Traits) -> Motion {
         },
         C::RandomNPC | C::RandomInertial | C::RandomBomber => Motion::Wandering,
         C::Walker | C::WalkerJumper => Motion::Straight(traits.orientation),
-        // What has no direction of its own moves only if it is given one.
+        // A sprite without a direction of its own moves only if it is given one.
         _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
         _ => Motion::Still,
     }
@@ -184,7 +185,7 @@ fn pace(class: SpriteClass, traits: &Traits, block: f64) -> f64 {
     if motion(class, traits) == Motion::Still {
         return 0.0;
     }
-    // Active movement takes a speed of 0 for 1, passive movement one of −1.
+    // In active movement a speed of 0 means 1; in passive movement, a speed of −1 does.
     let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
     let speed = if traits.continuous { speed / block } else { speed };
     speed / f64::from(traits.cooldown.max(1))
@@ -195,12 +196,12 @@ fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
     let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
     let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
-    // Walls, unless it names something else.
+    // Walls, unless the type names something else.
     let behind = traits.spawn_behind.or((class == C::OngoingTurningAvatar).then_some(SpriteType(0)));
     made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }
 
-/// The avatar types that can occur: those that levels place first, then by type.
+/// Returns the avatar types that can occur: those that levels place first, then by type.
 pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     use SpriteClass as C;
     let mut avatars: Vec<Avatar> = Vec::new();
@@ -230,7 +231,7 @@ pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     avatars
 }
 
-/// Whether an interaction happens whatever the avatar holds and however things move.
+/// Returns `true` if an interaction happens whatever the avatar holds and however the sprites move.
 pub(super) fn is_certain(encounter: &Encounter) -> bool {
     matches!(encounter.provided, Provided::Always | Provided::Chance(_))
 }

@@ -1,4 +1,4 @@
-//! Goals with a sign: what wins, what loses, in terms of counts of sprite types.
+//! Goals: the winning and losing terminations, in terms of sprite counts.
 
 use super::Analysis;
 use super::attain::Attainable;
@@ -6,22 +6,22 @@ use crate::game::{Rules, SpriteType};
 use crate::ontology::terminations::Condition as Written;
 use crate::state::State;
 
-/// What must hold for a termination to end the game.
+/// The condition under which a termination ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Condition {
-    /// At most so many sprites of these types live.
+    /// At most this number of sprites of these types live.
     AtMost(Vec<SpriteType>, i32),
-    /// At least so many sprites of these types live.
+    /// At least this number of sprites of these types live.
     AtLeast(Vec<SpriteType>, i32),
-    /// Exactly so many sprites of these types live.
+    /// Exactly this number of sprites of these types live.
     Exactly(Vec<SpriteType>, i32),
     /// This tick is reached.
     Tick(i32),
 }
 
 impl Condition {
-    /// The types that are counted: those that can have sprites, relatives included. A type that a
-    /// `MultiSpriteCounter` counts twice stands twice.
+    /// The counted types: those that can have sprites, relatives included. A type that a `MultiSpriteCounter` counts
+    /// twice occurs twice.
     pub fn types(&self) -> &[SpriteType] {
         match self {
             Condition::AtMost(types, _) | Condition::AtLeast(types, _) | Condition::Exactly(types, _) => {
@@ -31,7 +31,7 @@ impl Condition {
         }
     }
 
-    /// Whether it holds with these counts, given by type, at this tick.
+    /// Returns `true` if the condition holds with these counts, given by type, at this tick.
     pub fn holds(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> bool {
         let sum = || self.types().iter().map(|&stype| count(stype)).sum::<i32>();
         match self {
@@ -42,7 +42,8 @@ impl Condition {
         }
     }
 
-    /// How far it is from holding with these counts at this tick: sprites that must go or come, or ticks that must pass.
+    /// Returns the distance from holding with these counts at this tick: the number of sprites to remove or add, or of
+    /// ticks to pass.
     pub fn missing(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> u32 {
         let sum = || self.types().iter().map(|&stype| i64::from(count(stype))).sum::<i64>();
         let missing = match self {
@@ -58,32 +59,32 @@ impl Condition {
 /// A termination, in order of priority: the first one that holds at the end of a tick ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Goal {
-    /// Whether the player wins by it.
+    /// `true` if it wins the game.
     pub win: bool,
-    /// When.
+    /// Its condition.
     pub condition: Condition,
     /// Index of the line in [`Description::terminations`](crate::Description).
     pub line: usize,
-    /// Whether the rules can bring it about.
+    /// The conditions under which it can hold.
     pub attainable: Attainable,
 }
 
-/// What the terminations ask of the player, sorted by type.
+/// The demands of the terminations on the player, sorted by type.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Aims {
-    /// Types of which few or none may be left for a win.
+    /// Types that must be removed, entirely or down to a few, for a win.
     pub remove: Vec<SpriteType>,
-    /// Types of which more have to appear for a win.
+    /// Types that must increase in number for a win.
     pub create: Vec<SpriteType>,
-    /// Types, avatars apart, whose loss loses.
+    /// Types, except avatars, whose loss loses the game.
     pub protect: Vec<SpriteType>,
-    /// Types whose appearance loses.
+    /// Types whose appearance loses the game.
     pub prevent: Vec<SpriteType>,
-    /// The tick at which mere survival wins.
+    /// The tick at which surviving wins.
     pub survive: Option<i32>,
-    /// The tick at which the player has lost at the latest, the reference's own limit apart.
+    /// The latest tick at which the game is lost, the reference's own limit apart.
     pub deadline: Option<i32>,
-    /// Whether the loss of the avatar loses.
+    /// `true` if the loss of the avatar loses the game.
     pub avatar_must_live: bool,
 }
 
@@ -102,7 +103,7 @@ pub(super) fn goals(rules: &Rules) -> Vec<Goal> {
             Written::StopCounter { .. } => return None,
             Written::Timeout { limit } => Condition::Tick(*limit),
         };
-        // `attain::judge` says more.
+        // `attain::judge` determines `attainable` later.
         Some(Goal { win: termination.win, condition, line, attainable: Attainable::InPlay })
     };
     rules.terminations.iter().enumerate().filter_map(goal).collect()
@@ -117,7 +118,7 @@ pub(super) fn aims(rules: &Rules, goals: &[Goal]) -> Aims {
     let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
     let mut aims = Aims::default();
     for goal in goals {
-        // "Exactly 0" is "none left"; "exactly 3" is "so many appear", because levels start with fewer.
+        // "Exactly 0" means "none left"; "exactly 3" means "more must appear", because levels start with fewer.
         let fewer = match &goal.condition {
             Condition::AtMost(..) => true,
             Condition::Exactly(_, limit) => *limit <= 0,
@@ -156,18 +157,18 @@ impl Analysis {
         &self.goals
     }
 
-    /// What the terminations ask of the player.
+    /// The demands of the terminations on the player.
     pub fn aims(&self) -> &Aims {
         &self.aims
     }
 
-    /// The termination that would end the game if this state were the end of a tick. Cost: O(goals × types).
+    /// Returns the termination that would end the game if this state were the end of a tick. Cost: O(goals × types).
     pub fn goal_met(&self, state: &State) -> Option<&Goal> {
         let rules = &*self.game.0;
         self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, state))
     }
 
-    /// How far a goal is from being met in this state: see [`Condition::missing`]. Cost: O(types).
+    /// Returns the distance of a goal from being met in this state: see [`Condition::missing`]. Cost: O(types).
     pub fn missing(&self, goal: &Goal, state: &State) -> u32 {
         let live = |stype: SpriteType| {
             let group = state.group(stype);

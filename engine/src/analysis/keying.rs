@@ -1,4 +1,4 @@
-//! What may be left out of the keys of all states that can follow from one state: what a search need not tell apart.
+//! Parts of the state that a search need not distinguish among the successors of one state.
 
 use super::Analysis;
 use super::encounter::{Deed, Encounter, Side, clockwork};
@@ -11,14 +11,14 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::terminations::{Condition, Decision, Termination};
 use crate::state::State;
 
-/// How a search tells states apart that follow from one state.
+/// The state abstraction for a search among the successors of one state, the root state.
 ///
-/// Beyond what [`State::search_key`] leaves out, it leaves out
-/// - sprites of types that nothing changes, makes or ends: they are the same in all these states;
-/// - the order of sprites of one type, and where they face, where the rules cannot tell it;
-/// - the chance, where it decides nothing from here on;
+/// In addition to [`State::search_key`], the key leaves out
+/// - sprites of types that nothing changes, makes or removes: they are the same in all these states;
+/// - the order of sprites of one type, and their orientation, if the rules cannot distinguish them;
+/// - the random state, if it decides nothing from here on;
 /// - the phases of spawners that can no longer be made;
-/// - the tick, if all that reads it is a Timeout that loses: see [`Keying::earlier_is_better`].
+/// - the tick, if only a losing Timeout reads it: see [`Keying::earlier_is_better`].
 #[derive(Clone, Debug)]
 pub struct Keying {
     pub(crate) tick: bool,
@@ -33,38 +33,38 @@ pub struct Keying {
 }
 
 impl Keying {
-    /// Whether the tick is left out though the game is lost at some tick: of two states with one key, all that can be won
-    /// from the later one can be won from the earlier one too. A search that meets states in the order of their ticks, as
-    /// breadth-first search does, loses nothing by dropping the second.
+    /// Returns `true` if the tick is left out although the game is lost at some tick. Of two states with one key, the
+    /// earlier one can then win whatever the later one can win. A search that visits states in the order of their
+    /// ticks, such as breadth-first search, loses nothing by dropping the second.
     pub fn earlier_is_better(&self) -> bool {
         self.earlier_is_better
     }
 
-    /// Whether sprites of the type are the same in all states that can follow: nothing changes, makes or ends one.
+    /// Returns `true` if sprites of the type are the same in all successors: nothing changes, makes or removes one.
     pub fn is_constant(&self, stype: SpriteType) -> bool {
         self.constant[stype.index()]
     }
 
-    /// Whether chance decides anything from the state on that this was made for, so that keys cover it.
+    /// Returns `true` if chance decides anything from the root state on, so that keys include the random state.
     pub fn reads_chance(&self) -> bool {
         self.chance
     }
 
-    /// The key of a state that follows from the one that this was made for. For two such states, equal keys mean equal
-    /// keys and outcomes after any same actions (losses by Timeout apart, if [`Keying::earlier_is_better`]). Cost:
-    /// O(sprites of types that can change).
+    /// Returns the key of a successor of the root state. For two successors, equal keys mean equal keys and outcomes
+    /// after the same actions (losses by Timeout apart, if [`Keying::earlier_is_better`]). Cost: O(sprites of types
+    /// that can change).
     pub fn key(&self, analysis: &Analysis, state: &State) -> SearchKey {
         state.key_left_out(&analysis.game.0, self)
     }
 
-    /// All that the key is a hash of: for checking that equal keys are no accident.
+    /// Returns the data that the key is a hash of, for checking that equal keys are not a hash collision.
     pub fn words(&self, analysis: &Analysis, state: &State) -> Vec<u64> {
         state.words_left_out(&analysis.game.0, self)
     }
 }
 
 impl Analysis {
-    /// How a search from this state on may tell states apart. Cost: O(types × interactions).
+    /// Returns the state abstraction for a search from this state. Cost: O(types × interactions).
     pub fn keying(&self, state: &State) -> Keying {
         let rules = &*self.game.0;
         let prospect = self.prospect(state);
@@ -96,7 +96,7 @@ impl Analysis {
         }
     }
 
-    /// By type: no sprite of it is ever changed, made or ended, by whatever can still happen.
+    /// By type: no sprite of it is ever changed, made or removed by anything that can still happen.
     fn constant(&self, prospect: &Prospect<'_>) -> Vec<bool> {
         let rules = &*self.game.0;
         let mut constant: Vec<bool> =
@@ -124,7 +124,7 @@ impl Analysis {
         constant
     }
 
-    /// Whether sprites of the type do nothing by themselves.
+    /// Returns `true` if sprites of the type do nothing by themselves.
     fn is_inert(&self, stype: SpriteType, prospect: &Prospect<'_>) -> bool {
         use SpriteClass as C;
         let (facts, info) = (self.facts(stype), &self.game.0.types[stype.index()]);
@@ -160,7 +160,7 @@ fn changes_second(encounter: &Encounter) -> bool {
     })
 }
 
-/// Whether the deed concerns sprites of the type wherever they are.
+/// Returns `true` if the effect concerns sprites of the type wherever they are.
 pub(super) fn changes_afar(deed: &Deed, info: &TypeInfo, stype: SpriteType) -> bool {
     match deed {
         Deed::KillAll(of) | Deed::Speed(Some(of)) | Deed::Health { of: Some(of), .. } => info.in_tree(*of),

@@ -1,4 +1,4 @@
-//! Locks and keys, resources, and things that are pushed.
+//! Locks and keys, resources, and pushable sprites.
 
 use super::encounter::{Deed, Encounter, Provided, Side};
 use super::facts::{Avatar, Facts, Motion, Steering};
@@ -7,36 +7,36 @@ use super::prospect::Prospect;
 use super::touch::{Harm, Removal, Touch};
 use crate::game::{Rules, SpriteType};
 
-/// What the avatar needs for a locked thing.
+/// The requirement for opening a locked sprite.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Key {
-    /// So many of a resource; `spent`: opening uses them up.
+    /// An amount of a resource.
     Resource {
-        /// Which.
+        /// The resource.
         resource: SpriteType,
-        /// How many at once.
+        /// The amount needed at once.
         amount: i32,
-        /// Whether they are used up.
+        /// `true` if opening uses it up.
         spent: bool,
     },
-    /// To be of this avatar type.
+    /// The avatar must be of this type.
     Avatar(SpriteType),
-    /// To have touched a sprite of the one type, or pushed one of the second type onto one of the first.
+    /// The avatar must have touched a sprite of the first type, or pushed one of the second type onto one of the first.
     Switch(SpriteType, Option<SpriteType>),
 }
 
-/// A type that the avatar cannot pass or remove as it starts, but can later.
+/// A type that the avatar cannot pass or remove at the start, but can later.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lock {
     /// The locked type.
     pub stype: SpriteType,
-    /// What opens it.
+    /// The requirement for opening it.
     pub key: Key,
-    /// Until then it blocks the way or hurts: it can guard what lies behind it.
+    /// Until it is opened it blocks the way or hurts, so it can guard the cells behind it.
     pub guards: bool,
-    /// Opening removes it; else the avatar passes it.
+    /// `true` if opening removes it; otherwise the avatar passes it.
     pub vanishes: bool,
-    /// Types that give the key on contact, and how much of it each.
+    /// Types that give the key on contact, and the amount each gives.
     pub givers: Vec<(SpriteType, i32)>,
 }
 
@@ -45,41 +45,41 @@ pub struct Lock {
 pub struct Resource {
     /// The resource's type.
     pub stype: SpriteType,
-    /// How many an avatar can hold.
+    /// The largest amount that an avatar can hold.
     pub limit: i32,
-    /// Types that give it on contact, and how much each.
+    /// Types that give it on contact, and the amount each gives.
     pub givers: Vec<(SpriteType, i32)>,
-    /// Types that use it up on contact, and the most that one takes.
+    /// Types that use it up on contact, and the largest amount that one takes.
     pub takers: Vec<(SpriteType, i32)>,
-    /// The most that an interaction asks for at once; 0 if none asks.
+    /// The largest amount that an interaction requires at once; 0 if none does.
     pub needed: i32,
-    /// Whether some sprite can ever hold that many.
+    /// `true` if some sprite can ever hold that amount.
     pub obtainable: bool,
-    /// Whether shots cost it.
+    /// `true` if shots cost it.
     pub is_ammunition: bool,
 }
 
-/// What becomes of a pushed sprite on a partner.
+/// The outcome for a pushed sprite on a partner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
-    /// Nothing; it lies there too.
+    /// It stays unchanged, on the same cell.
     Stays,
     /// It turns into this type.
     Becomes(SpriteType),
-    /// It goes away.
+    /// It is removed.
     Goes,
 }
 
-/// A meeting of a pushed sprite and a partner that ends or changes one of them, or opens something.
+/// A collision of a pushed sprite with a partner that removes or changes one of them, or opens something.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sink {
-    /// The partner: something that lies there, or another pushed thing.
+    /// The partner: a sprite on the cell, or another pushable one.
     pub partner: SpriteType,
-    /// What becomes of the pushed sprite.
+    /// The outcome for the pushed sprite.
     pub fate: Fate,
-    /// Whether the partner goes away or changes.
+    /// `true` if the partner is removed or changes.
     pub fills: bool,
-    /// Types whose sprites all go away or change by it.
+    /// Types whose sprites are all removed or changed by it.
     pub opens: Vec<SpriteType>,
 }
 
@@ -90,7 +90,7 @@ pub struct Pushable {
     pub stype: SpriteType,
     /// Types that it cannot be pushed onto.
     pub blocked_by: Vec<SpriteType>,
-    /// Types that end or change it.
+    /// Types that remove or change it.
     pub sinks: Vec<Sink>,
 }
 
@@ -122,7 +122,7 @@ pub(super) fn pushables(
     list
 }
 
-/// What happens when a pushed sprite comes to a partner.
+/// The outcome of pushing a sprite onto a partner.
 enum Meeting {
     Blocked,
     Free(Sink),
@@ -134,7 +134,7 @@ impl Sink {
     }
 }
 
-/// What happens when a pushed sprite comes to each type, by type.
+/// Returns the outcome of pushing a sprite onto each type, by type.
 fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> {
     let sink = |partner: u16| Sink {
         partner: SpriteType(partner),
@@ -149,7 +149,7 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
         let stops = encounter.does(|deed| match deed {
             Deed::Stop => own == Side::First,
             Deed::Undo(spare) => !spare.contains(&stype),
-            // A row of pushed things moves together; that is too subtle to count on.
+            // A row of pushed sprites moves together; that is too subtle to rely on.
             Deed::Push => true,
             _ => false,
         });
@@ -209,7 +209,7 @@ pub(super) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
     changes(facts, touches, |by| by)
 }
 
-/// By resource: the types whose touch changes it by an amount whose `share` is positive, with the largest share.
+/// By resource: the types whose touch changes it by an amount whose `share` is positive, with the largest such value.
 fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
     for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {
@@ -226,14 +226,14 @@ fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Gi
     givers
 }
 
-/// The types whose touch turns some avatar into another one.
+/// Returns the types whose touch turns some avatar into `avatar`.
 fn turners(facts: &[Facts], touches: &Touches, avatar: SpriteType) -> Vec<(SpriteType, i32)> {
     let turns = |stype: SpriteType| touches.iter().any(|row| row[stype.index()].becomes == Some(avatar));
     let types = (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible);
     types.filter(|&(stype, _)| turns(stype)).map(|(stype, _)| (stype, 1)).collect()
 }
 
-/// Everything that starts locked. Cost: O(types × types × avatars).
+/// Returns everything that starts locked. Cost: O(types × types × avatars).
 pub(super) fn locks(
     facts: &[Facts],
     avatars: &[Avatar],
@@ -264,7 +264,7 @@ pub(super) fn locks(
         } else if still {
             let later = avatars.iter().zip(touches).skip(1).find_map(|(avatar, row)| {
                 let then = &row[stype.index()];
-                // What flies on by itself, or is turned by the touch, has not passed.
+                // An avatar that flies on by itself, or is transformed by the touch, has not passed.
                 let settled = avatar.steering != Steering::Unsteered && then.becomes.is_none();
                 let opens = then.ends_other() && !first.ends_other() && then.harm == Harm::None;
                 let passes = guards && then.lets_pass() && !first.ends_other();
@@ -283,7 +283,7 @@ pub(super) fn locks(
     locks
 }
 
-/// By type: what, touched or filled with a pushed thing, removes it everywhere; what is filled comes first.
+/// By type: the sprite that, touched or filled with a pushed one, removes it everywhere; filled ones take precedence.
 fn switches(
     types: usize,
     touches: &Touches,

@@ -1,4 +1,4 @@
-//! What the interactions between others say of each type, gathered in one pass over them.
+//! The facts that interactions with other types establish about each type, gathered in one pass.
 
 use super::encounter::{Deed, Encounter, Side};
 use super::facts::{Avatar, Facts, Motion, is_certain};
@@ -6,27 +6,27 @@ use super::goal::Aims;
 use super::touch::Harm;
 use crate::game::{Rules, SpriteType};
 
-/// What interactions say of one type.
+/// The facts that interactions establish about one type.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Marks {
     /// Some interaction concerns it.
     pub(super) takes_part: bool,
-    /// Others end what must be protected, or make what must not appear, when they meet it.
+    /// Others remove a protected type, or make a forbidden one, when they meet it.
     pub(super) threat: bool,
-    /// It holds up something other than an avatar.
+    /// It blocks something other than an avatar.
     pub(super) holds_up: bool,
-    /// It holds up what moves and is hostile.
+    /// It blocks a hostile type that moves.
     pub(super) holds_up_enemies: bool,
-    /// A shot of the avatar, or something harmful, ends it for certain.
+    /// A shot of the avatar, or something harmful, is certain to remove it.
     pub(super) breakable: bool,
-    /// What moves makes, on meeting it, what must not appear.
+    /// A moving sprite that meets it makes a forbidden type.
     pub(super) spoilt: bool,
-    /// Shots, the avatar's or others', end on it, or it ends by them.
+    /// Shots, the avatar's or others', are removed by it, or remove it.
     pub(super) meets_shots: bool,
 }
 
-/// Whether others end what must be protected, or make what must not appear, when they meet a type: by type. Of two,
-/// the one that moves is to blame; of two that move, the second.
+/// By type: others remove a protected type, or make a forbidden one, when they meet it. Of two types, the moving one is
+/// the threat; if both move, the second.
 pub(super) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], aims: &Aims) -> Vec<bool> {
     let moving = by_family(rules, |stype| facts[stype.index()].motion != Motion::Still);
     let guarded = by_family(rules, |stype| aims.protect.binary_search(&stype).is_ok());
@@ -50,7 +50,7 @@ pub(super) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], 
     threat
 }
 
-/// The marks of every type. Cost: O(interactions × relatives).
+/// Computes the marks of every type. Cost: O(interactions × relatives).
 pub(super) fn marks(
     rules: &Rules,
     encounters: &[Encounter],
@@ -103,7 +103,7 @@ pub(super) fn marks(
     marks
 }
 
-/// Whether an interaction makes what must not appear.
+/// Returns `true` if an interaction makes a forbidden type.
 fn spoils(encounter: &Encounter, aims: &Aims) -> bool {
     encounter.does(|deed| match deed {
         Deed::Become(to) | Deed::Make(to) => aims.prevent.binary_search(to).is_ok(),
@@ -111,7 +111,7 @@ fn spoils(encounter: &Encounter, aims: &Aims) -> bool {
     })
 }
 
-/// By type: whether something holds for it or a relative, so that it can be meant by a rule on the type.
+/// By type: `holds` is true of it or of a relative, so that a rule on the type can refer to it.
 fn by_family(rules: &Rules, holds: impl Fn(SpriteType) -> bool) -> Vec<bool> {
     let own: Vec<bool> = (0..rules.types.len()).map(|at| holds(SpriteType(at as u16))).collect();
     rules.types.iter().map(|info| info.tree.iter().any(|stype| own[stype.index()])).collect()

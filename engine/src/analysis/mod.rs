@@ -1,8 +1,9 @@
-//! What the rules of a game mean: derived once, from the compiled rules, for every generator, validator and text.
+//! Static analysis of the rules of a game, derived once from the compiled rules for every generator, validator and
+//! text.
 //!
-//! Nothing here plays. The answers are about sprite types: goals with a sign, what blocks, harms, is taken, opens,
-//! turns, makes and pushes; resources and how many are needed; and one [`Role`] for every type. A rule that names a
-//! parent holds for all its subtypes; every answer here is already spelled out for them.
+//! Nothing here runs the game. The answers concern sprite types: the winning and losing terminations; which types
+//! block, harm, open, transform, make, push or can be collected; resources and the amounts needed; and one [`Role`] for
+//! every type. A rule that names a parent holds for all its subtypes; every answer here already accounts for that.
 
 mod alike;
 mod attain;
@@ -45,7 +46,7 @@ use prospect::{Prospect, Start};
 use role::Basis;
 use std::collections::BTreeSet;
 
-/// What the rules of one game mean. Immutable; the same game always gives the same analysis.
+/// The static analysis of one game. Immutable; the same game always gives the same analysis.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     game: Game,
@@ -145,12 +146,12 @@ impl Analysis {
         &self.encounters
     }
 
-    /// Whether a rule on `written` holds for sprites of `stype`: the two are related in the SpriteSet.
+    /// Returns `true` if a rule on `written` holds for sprites of `stype`: the two are related in the SpriteSet.
     pub fn applies(&self, written: SpriteType, stype: SpriteType) -> bool {
         self.game.0.types[written.index()].in_tree(stype)
     }
 
-    /// The interactions in which a sprite of `first` is acted upon by one of `second`. Cost: O(encounters).
+    /// Returns the interactions in which a sprite of `second` acts on one of `first`. Cost: O(encounters).
     pub fn between(&self, first: SpriteType, second: SpriteType) -> impl Iterator<Item = &Encounter> {
         self.encounters.iter().filter(move |encounter| {
             self.applies(encounter.first, first)
@@ -158,19 +159,19 @@ impl Analysis {
         })
     }
 
-    /// The interactions of a sprite with the edge of the screen. Cost: O(encounters).
+    /// Returns the interactions of a sprite with the edge of the screen. Cost: O(encounters).
     pub fn at_edge(&self, stype: SpriteType) -> impl Iterator<Item = &Encounter> {
         self.encounters
             .iter()
             .filter(move |encounter| encounter.second.is_none() && self.applies(encounter.first, stype))
     }
 
-    /// What a type is by itself.
+    /// The properties of a type by itself.
     pub fn facts(&self, stype: SpriteType) -> &Facts {
         &self.facts[stype.index()]
     }
 
-    /// What a type is for in a level.
+    /// The role of a type in a level.
     pub fn role(&self, stype: SpriteType) -> Role {
         self.roles[stype.index()]
     }
@@ -185,12 +186,12 @@ impl Analysis {
         &self.avatars
     }
 
-    /// The avatar that episodes start with (the first, if levels can place several); none: no level has one.
+    /// The avatar that episodes start with (the first, if levels can place several); none if no level has one.
     pub fn start_avatar(&self) -> Option<&Avatar> {
         self.avatars.first().filter(|avatar| avatar.starts)
     }
 
-    /// What happens when an avatar of that type touches a sprite of the other type.
+    /// The result of an avatar of that type touching a sprite of the other type.
     ///
     /// # Panics
     /// If `avatar` is not among [`Analysis::avatars`].
@@ -199,18 +200,19 @@ impl Analysis {
         &self.touches[at.expect("one of the avatar types")][other.index()]
     }
 
-    /// What contact with a type means for the avatar, at worst, over all avatar types.
+    /// The worst effect of contact with a type on the avatar, over all avatar types.
     pub fn harm(&self, stype: SpriteType) -> Harm {
         self.harm[stype.index()]
     }
 
-    /// Whether sprites of the type make, by themselves and perhaps in several steps, what harms the avatar or a goal:
-    /// such a type kills at a distance.
+    /// Returns `true` if sprites of the type make, by themselves and perhaps in several steps, sprites that harm the
+    /// avatar or a goal: such a type kills at a distance.
     pub fn makes_harm(&self, stype: SpriteType) -> bool {
         self.source[stype.index()]
     }
 
-    /// Whether a sprite of `mover` is held up by one of `obstacle`: it, or everything, goes back. Cost: O(encounters).
+    /// Returns `true` if a sprite of `obstacle` blocks one of `mover`: it, or everything, moves back. Cost:
+    /// O(encounters).
     pub fn blocks(&self, obstacle: SpriteType, mover: SpriteType) -> bool {
         let undone = |encounter: &Encounter| {
             encounter.does(|deed| matches!(deed, Deed::Undo(spare) if !spare.contains(&mover)))
@@ -218,7 +220,8 @@ impl Analysis {
         self.between(mover, obstacle).any(Encounter::blocks) || self.between(obstacle, mover).any(undone)
     }
 
-    /// What a type turns into, and by whom it is met then; edges left out. Cost: O(encounters).
+    /// Returns the types that a type turns into, each with the partner that it meets then; edges are left out. Cost:
+    /// O(encounters).
     pub fn turns(&self, stype: SpriteType) -> Vec<(SpriteType, SpriteType)> {
         let mut list = Vec::new();
         for encounter in self.encounters.iter().filter(|encounter| self.applies(encounter.first, stype)) {
@@ -231,12 +234,12 @@ impl Analysis {
         list
     }
 
-    /// Where touching a portal of this type leads.
+    /// Returns the type that a portal of this type leads to.
     pub fn leads_to(&self, stype: SpriteType) -> Option<SpriteType> {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
-    /// What a maker sends out, and in which direction, if that goes straight ahead.
+    /// Returns the type that a maker launches, and its direction, if it moves straight ahead.
     pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
         let made = *self.facts(maker).makes.first()?;
         let Motion::Straight(own) = self.facts(made).motion else { return None };
@@ -252,38 +255,38 @@ impl Analysis {
         (!unset(direction)).then_some((made, direction))
     }
 
-    /// Types that avatars push.
+    /// The types that avatars push.
     pub fn pushables(&self) -> &[Pushable] {
         &self.pushables
     }
 
-    /// Resources that occur in rules or can be gained.
+    /// The resources that occur in rules or can be gained.
     pub fn resources(&self) -> &[Resource] {
         &self.resources
     }
 
-    /// Everything that starts locked, by type.
+    /// The types that start locked, sorted by type.
     pub fn locks(&self) -> &[Lock] {
         &self.locks
     }
 
-    /// How many of what a level should place.
+    /// The numbers of sprites that a level should place.
     pub fn requirements(&self) -> &[Requirement] {
         &self.requirements
     }
 
-    /// Whether nothing draws from the chance; see also [`Analysis::chance_decides`].
+    /// Returns `true` if nothing draws random numbers; see also [`Analysis::chance_decides`].
     pub fn is_deterministic(&self) -> bool {
         self.game.is_deterministic()
     }
 
-    /// Whether anything is planned to happen by the clock, from the start or after some interaction.
+    /// Returns `true` if any effect is timed, from the start or after some interaction.
     pub fn has_clockwork(&self) -> bool {
         !self.game.0.timed.is_empty()
     }
 
-    /// Whether sprites of an avatar type go from cell to cell by the arrow keys: four ways or along a line, with grid
-    /// physics, a whole cell a step.
+    /// Returns `true` if sprites of an avatar type move from cell to cell by the arrow keys: four ways or along a line,
+    /// with grid physics, one whole cell per step.
     pub fn steps_by_cells(&self, avatar: SpriteType) -> bool {
         let traits = &self.game.0.types[avatar.index()].traits;
         let steering = self.avatars.iter().find(|known| known.stype == avatar).map(|known| known.steering);
@@ -294,7 +297,7 @@ impl Analysis {
         steps && !traits.continuous && (traits.speed <= 0.0 || traits.speed == 1.0)
     }
 
-    /// Whether nothing moves unless the player acts: what the player's own shots do apart.
+    /// Returns `true` if nothing moves unless the player acts, apart from the effects of the player's own shots.
     pub fn is_turn_based(&self) -> bool {
         let idle = |stype: SpriteType| {
             let facts = self.facts(stype);
@@ -317,13 +320,14 @@ impl Analysis {
                     _ => false,
                 }
         };
-        // What the clock does by itself moves something too.
+        // Timed effects that start by themselves move something too.
         let clock = self.game.0.timed.iter().any(|timed| timed.first_due.is_some());
         !clock && self.game.sprite_types().all(idle)
     }
 }
 
-/// Which types make harm: a fixed point over what makes what, from what is bad in itself.
+/// By type: it makes harmful sprites. A fixed point over the types that each type makes, from those harmful in
+/// themselves.
 fn sources(game: &Game, encounters: &[Encounter], facts: &[Facts], bad: &[bool]) -> Vec<bool> {
     let types = &game.0.types;
     let mut makes: Vec<BTreeSet<SpriteType>> = vec![BTreeSet::new(); facts.len()];

@@ -1,5 +1,4 @@
-//! Questions about what lies ahead, of a game or of a state: can chance decide anything, is everything that matters
-//! shown.
+//! Forward-looking questions about a game or a state: can chance decide anything, and is every relevant sprite visible?
 
 use super::Analysis;
 use super::encounter::{Deed, Encounter};
@@ -12,38 +11,38 @@ use crate::ontology::effects::Effect;
 use crate::state::State;
 
 impl Analysis {
-    /// Whether chance can decide anything in some level. Draws whose outcome is certain do not count, so this can be false
-    /// where [`Game::is_deterministic`](crate::Game::is_deterministic) is, too; if this is false, the same actions always
-    /// give the same sprites, scores and outcomes.
+    /// Returns `true` if chance can decide anything in some level. Draws with a certain outcome do not count, so this
+    /// can be `false` where [`Game::is_deterministic`](crate::Game::is_deterministic) is `false`, too. If this is
+    /// `false`, the same actions always give the same sprites, scores and outcomes.
     pub fn chance_decides(&self) -> bool {
         self.chance_decides
     }
 
-    /// Whether chance plays no part from here on: with what is there, and all that it can bring about, the same actions
-    /// give the same sprites, scores and outcomes, whatever the seed. True only if that is certain. Cost: O(sprites), and
-    /// that of the rules: O(rounds × interactions).
+    /// Returns `true` only if chance certainly plays no part from here on: given the sprites in this state, and all
+    /// that can follow, the same actions give the same sprites, scores and outcomes for every seed. Cost: O(sprites),
+    /// and for the rules O(rounds × interactions).
     pub fn is_deterministic_from(&self, state: &State) -> bool {
         state.is_over() || !draws(&self.game.0, &self.prospect(state), Some(state))
     }
 
-    /// The types that the player does not see, of those that can make a difference in some level: they take part in
-    /// interactions, are counted by terminations or interactions, make others, or are led to or followed by others.
+    /// The relevant types that the player does not see: in some level they take part in interactions, are counted by
+    /// terminations or interactions, make others, or are portal exits of others or followed by them.
     pub fn unseen(&self) -> &[SpriteType] {
         &self.unseen
     }
 
-    /// Whether the player sees every sprite that can make a difference, in any level: see [`Analysis::unseen`].
+    /// Returns `true` if the player sees every relevant sprite in any level: see [`Analysis::unseen`].
     pub fn is_fully_observable(&self) -> bool {
         self.unseen.is_empty()
     }
 
-    /// Whether the player sees every sprite that can make a difference from here on. Cost: as
+    /// Returns `true` if the player sees every relevant sprite from here on. Cost: as
     /// [`Analysis::is_deterministic_from`].
     pub fn is_fully_observable_from(&self, state: &State) -> bool {
         state.is_over() || unseen(&self.game.0, &self.facts, &self.prospect(state), &self.goals).is_empty()
     }
 
-    /// What can still come from a state on.
+    /// Returns the prospect of a state: all that can still follow.
     pub(super) fn prospect(&self, state: &State) -> Prospect<'_> {
         let rules = &*self.game.0;
         let there: Vec<SpriteType> =
@@ -63,12 +62,13 @@ impl Analysis {
     }
 }
 
-/// Whether a probability leaves the outcome open.
+/// Returns `true` if a probability leaves the outcome open.
 fn is_open(prob: f64) -> bool {
     prob > 0.0 && prob < 1.0
 }
 
-/// Whether anything that can happen can draw from the chance with an open outcome; without a state, in any level.
+/// Returns `true` if anything that can happen can draw a random number with an open outcome; without a state, in any
+/// level.
 pub(super) fn draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>) -> bool {
     let types = (0..rules.types.len()).map(|at| SpriteType(at as u16));
     let mut types = types.filter(|stype| prospect.there[stype.index()]);
@@ -82,7 +82,7 @@ pub(super) fn draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State
     types.any(|stype| update_draws(rules, prospect, state, stype)) || met.any(&mut open) || timed.any(open)
 }
 
-/// Whether sprites of the type draw, with an open outcome, in their own updates.
+/// Returns `true` if sprites of the type draw, with an open outcome, in their own updates.
 fn update_draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>, stype: SpriteType) -> bool {
     use SpriteClass as C;
     let info = &rules.types[stype.index()];
@@ -108,7 +108,7 @@ fn update_draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>, s
     }
 }
 
-/// Whether an effect draws with an open outcome.
+/// Returns `true` if an effect draws with an open outcome.
 fn effect_draws(
     rules: &Rules,
     prospect: &Prospect<'_>,
@@ -125,7 +125,7 @@ fn effect_draws(
         | Effect::SpawnBehind { prob, .. } => is_open(*prob),
         Effect::TransformToRandomChild { options, .. } => options.len() > 1,
         Effect::TeleportToExit => {
-            // Of one exit there is no choice.
+            // A single exit leaves no choice.
             let single = |exit: SpriteType| {
                 let few = state.is_some_and(|state| state.group(exit).count <= 1);
                 few && !prospect.made[exit.index()]
@@ -138,7 +138,7 @@ fn effect_draws(
     }
 }
 
-/// The types that the player does not see, of those that can be there and make a difference.
+/// Returns the types that the player does not see, among those that can exist and are relevant.
 pub(super) fn unseen(
     rules: &Rules,
     facts: &[Facts],
@@ -157,7 +157,7 @@ pub(super) fn unseen(
     goals.iter().for_each(|goal| mark(goal.condition.types()));
     let family = |stype: SpriteType| &*rules.types[stype.index()].tree;
     for (info, _) in rules.types.iter().zip(&prospect.there).filter(|(_, there)| **there) {
-        // What it chases, flees from, or leads to.
+        // The types that it chases, flees from, or leads to.
         info.traits
             .stypes
             .iter()

@@ -1,4 +1,5 @@
-//! What can still come: a fixed point over what is there, what that makes, and what happens when it meets.
+//! Possible futures: a fixed point over the existing sprites, the sprites that they make, and the effects of their
+//! collisions.
 
 use super::encounter::{Deed, Encounter, Provided, Side, clockwork};
 use super::facts::Facts;
@@ -6,51 +7,51 @@ use crate::game::{Rules, SpriteType};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 
-/// What can be there, be held and happen, from some start on; too much rather than too little: any two types that can
-/// be there at all can meet.
+/// An over-approximation of the sprites, resources and interactions that are possible from some start: any two types
+/// that can exist at all can meet.
 #[derive(Clone, Debug)]
 pub(super) struct Prospect<'a> {
     rules: &'a Rules,
     facts: &'a [Facts],
     encounters: &'a [Encounter],
-    /// By type: such sprites can be there.
+    /// By type: such sprites can exist.
     pub(super) there: Vec<bool>,
     /// By type: such sprites can appear from now on.
     pub(super) made: Vec<bool>,
-    /// By type: some sprite can hold one as a resource. None: whatever is asked for can be held.
+    /// By type: some sprite can hold one as a resource. None: any amount can be held.
     held: Option<Vec<bool>>,
     /// By interaction: it can happen.
     pub(super) live: Vec<bool>,
-    /// By number of the timed effect: it is planned, or can be.
+    /// By number of the timed effect: it is scheduled, or can be.
     pub(super) timed: Vec<bool>,
-    /// By type: it or a relative can be there, so that rules on it apply.
+    /// By type: it or a relative can exist, so that rules on it apply.
     alive: Vec<bool>,
     /// By type: as a resource, it can be held beyond its limit.
     unlimited: Vec<bool>,
 }
 
-/// What a prospect starts from.
+/// The starting point of a prospect.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Start {
-    /// Types of sprites that are there.
+    /// Types that have sprites.
     pub(super) there: Vec<SpriteType>,
-    /// Types that are made by what is there, besides what their types make.
+    /// Types that existing sprites make, in addition to those that their types make.
     pub(super) making: Vec<SpriteType>,
-    /// Timed effects that are planned.
+    /// Timed effects that are scheduled.
     pub(super) planned: Vec<u16>,
-    /// By type: somebody holds one as a resource. None: whatever is asked for can be held.
+    /// By type: some sprite holds one as a resource. None: any amount can be held.
     pub(super) held: Option<Vec<bool>>,
 }
 
 impl Start {
-    /// Everything that levels can place, at the start of an episode, with empty hands.
+    /// Returns everything that levels can place, at the start of an episode, with no resources held.
     pub(super) fn of_any_level(rules: &Rules) -> Start {
         let there = rules.mapping.iter().flatten().copied().collect();
         let held = Some(vec![false; rules.types.len()]);
         Start { there, making: Vec::new(), planned: Start::planned(rules), held }
     }
 
-    /// The timed effects that are planned when an episode starts.
+    /// Returns the timed effects that are scheduled when an episode starts.
     pub(super) fn planned(rules: &Rules) -> Vec<u16> {
         let timed = (0u16..).zip(&rules.timed);
         timed.filter(|(_, timed)| timed.first_due.is_some()).map(|(number, _)| number).collect()
@@ -58,7 +59,7 @@ impl Start {
 }
 
 impl<'a> Prospect<'a> {
-    /// Cost: O(rounds × interactions), with at most one round for each type that comes.
+    /// Computes a prospect. Cost: O(rounds × interactions), with at most one round for each type that is added.
     pub(super) fn of(
         rules: &'a Rules,
         facts: &'a [Facts],
@@ -88,7 +89,7 @@ impl<'a> Prospect<'a> {
         prospect
     }
 
-    /// Whether the rules written for a type can apply to some sprite.
+    /// Returns `true` if the rules written for a type can apply to some sprite.
     pub(super) fn is_alive(&self, written: SpriteType) -> bool {
         self.alive[written.index()]
     }
@@ -109,7 +110,7 @@ impl<'a> Prospect<'a> {
         new
     }
 
-    /// Goes through everything once; whether that brought something new.
+    /// Performs one pass over everything; returns `true` if it added anything.
     fn round(&mut self, clockwork: &[(Option<SpriteType>, smallvec::SmallVec<[Deed; 2]>)]) -> bool {
         let mut new = false;
         let facts = self.facts;
@@ -172,24 +173,24 @@ impl<'a> Prospect<'a> {
         new
     }
 
-    /// Somebody comes to hold so many of a resource, if its limit allows.
+    /// Records that a sprite can hold this amount of a resource, if its limit allows. Returns `true` if that is new.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
         let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };
         !std::mem::replace(&mut held[resource.index()], true)
     }
 
-    /// Whether the limit of a resource allows to hold so much of it.
+    /// Returns `true` if the limit of a resource allows holding this amount of it.
     pub(super) fn is_within(&self, resource: SpriteType, amount: i32) -> bool {
         self.is_unlimited(resource) || amount <= self.rules.types[resource.index()].resource_limit
     }
 
-    /// Whether some rule gives a resource whatever its limit.
+    /// Returns `true` if some rule gives a resource regardless of its limit.
     pub(super) fn is_unlimited(&self, resource: SpriteType) -> bool {
         self.unlimited[resource.index()]
     }
 
-    /// Whether what an interaction asks for can ever be so.
+    /// Returns `true` if the condition of an interaction can ever hold.
     fn can_happen(&self, provided: Provided) -> bool {
         match (&self.held, provided) {
             (Some(held), Provided::Holds(_, resource, amount)) => {
@@ -200,7 +201,7 @@ impl<'a> Prospect<'a> {
         }
     }
 
-    /// Whether a maker can make sprites of its `kind`-th type: avatars need ammunition for their shots.
+    /// Returns `true` if a maker can make sprites of its `kind`-th type: avatars need ammunition for their shots.
     pub(super) fn can_make(&self, maker: usize, kind: usize) -> bool {
         let info = &self.rules.types[maker];
         let Some(held) = &self.held else { return true };
@@ -210,20 +211,21 @@ impl<'a> Prospect<'a> {
         info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
     }
 
-    /// Whether a type leaves behind what has the number 0, whatever it is told to: all but the first sprite of it do.
+    /// Returns `true` if a type leaves behind sprites of type 0, whatever it is told to: all its sprites but the first
+    /// do.
     fn leaves_walls(&self, stype: usize) -> bool {
         self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
     }
 
-    /// What an avatar needs to make sprites of its `kind`-th type.
+    /// Returns the resource that an avatar needs to make sprites of its `kind`-th type.
     fn ammo(&self, maker: usize, kind: usize) -> Option<SpriteType> {
         let traits = &self.rules.types[maker].traits;
-        // Undeclared types are not among what it makes: then the two lists do not match.
+        // Undeclared types are not among those it makes: then the two lists do not match.
         let matched = !traits.stypes.contains(&SpriteType::NONE);
         traits.ammo.get(kind).copied().filter(|&ammo| matched && ammo != SpriteType::NONE)
     }
 
-    /// What a type can make by itself, and the ammunition that each costs.
+    /// Returns the types that a type can make by itself, each with the ammunition that it costs.
     pub(super) fn makes(&self, maker: usize) -> Vec<(SpriteType, Option<SpriteType>)> {
         let avatar = self.rules.types[maker].class.is_some_and(|class| class.is_avatar());
         let made = self.facts[maker].makes.iter().enumerate();
@@ -232,18 +234,18 @@ impl<'a> Prospect<'a> {
         made.chain(self.leaves_walls(maker).then_some((SpriteType(0), None))).collect()
     }
 
-    /// The interactions that [`Prospect::live`] is about.
+    /// The interactions that [`Prospect::live`] refers to.
     pub(super) fn encounters(&self) -> &'a [Encounter] {
         self.encounters
     }
 
-    /// Whether some sprite can ever hold so many of a resource.
+    /// Returns `true` if some sprite can ever hold this amount of a resource.
     pub(super) fn can_hold(&self, resource: SpriteType, amount: i32) -> bool {
         self.can_happen(Provided::Holds(Side::First, resource, amount))
     }
 }
 
-/// By type: some rule, or the use of it as ammunition, gives it as a resource whatever its limit.
+/// By type: some rule, or its use as ammunition, gives it as a resource regardless of its limit.
 fn unlimited(rules: &Rules) -> Vec<bool> {
     let mut unlimited = vec![false; rules.types.len()];
     let mut mark =

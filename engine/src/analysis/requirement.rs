@@ -1,4 +1,4 @@
-//! What a level must hold so that playing it makes sense.
+//! Requirements on the sprites of a level, so that playing it makes sense.
 
 use super::Analysis;
 use super::encounter::{Deed, Encounter};
@@ -7,34 +7,34 @@ use super::lock::{Fate, Key, Sink};
 use super::role::Role;
 use crate::game::SpriteType;
 
-/// Why a level needs something.
+/// The reason why a level needs something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// The player needs an avatar.
     Avatar,
-    /// The termination of this index must not hold at the start.
+    /// The termination at this index must not hold at the start.
     Goal(usize),
-    /// The termination of this index could never be met otherwise.
+    /// The termination at this index could never be met otherwise.
     Means(usize),
-    /// Locks of this type need so many of their key.
+    /// Locks of this type need this amount of their key.
     Lock(SpriteType),
-    /// Portals of this type need somewhere to lead to.
+    /// Portals of this type need an exit.
     Portal(SpriteType),
 }
 
-/// Terminations that requirements are derived from: the first ones. Real games have a handful.
+/// The number of terminations, from the first, that requirements are derived from. Real games have a handful.
 pub const MAX_GOALS: usize = 64;
 
-/// How many sprites of some types, together, a level should place.
+/// The number of sprites of some types, taken together, that a level should place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Requirement {
-    /// Types that a level can place. Empty: no level can meet the requirement.
+    /// The types that a level can place. Empty: no level can meet the requirement.
     pub types: Vec<SpriteType>,
-    /// At least so many of them together.
+    /// The smallest number of them together.
     pub at_least: u32,
-    /// At most so many of them together.
+    /// The largest number of them together.
     pub at_most: Option<u32>,
-    /// Why.
+    /// The reason for the requirement.
     pub reason: Reason,
 }
 
@@ -83,12 +83,12 @@ pub(super) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
     list
 }
 
-/// A number of sprites; negative ones count as none.
+/// Returns a number of sprites; negative numbers count as 0.
 fn count(number: i32) -> u32 {
     u32::try_from(number).unwrap_or(0)
 }
 
-/// By type: the first interaction that brings such sprites about.
+/// By type: the first interaction that makes such sprites.
 fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     let mut makers = vec![None; analysis.facts.len()];
     for encounter in &analysis.encounters {
@@ -101,7 +101,8 @@ fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     makers
 }
 
-/// What makes the sprites that a win asks for, or ends those that it wants gone where the avatar's touch does not.
+/// Returns what is needed to make the sprites that a win requires, or to remove unwanted ones that the avatar's touch
+/// does not remove.
 fn means(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
     let condition = &analysis.goals[at].condition;
     let wants_more = match condition {
@@ -129,7 +130,7 @@ fn means(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<R
     }
     for pushable in analysis.pushables.iter().filter(|pushable| condition.types().contains(&pushable.stype)) {
         let placed = |partner: SpriteType| !analysis.facts(partner).symbols.is_empty();
-        // One that lies there rather than another thing to push.
+        // Prefers a sprite that stays in place to another pushable one.
         let spoils =
             |sink: &&Sink| matches!(sink.fate, Fate::Becomes(to) if analysis.aims.prevent.contains(&to));
         let sinks = pushable.sinks.iter().filter(|sink| placed(sink.partner) && !spoils(sink));
@@ -139,7 +140,7 @@ fn means(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<R
     list
 }
 
-/// Enough of the key for one lock of each kind.
+/// Requires enough of the key for one lock of each kind.
 fn keys(analysis: &Analysis) -> Vec<Requirement> {
     let mut list = Vec::new();
     for lock in &analysis.locks {

@@ -1,4 +1,4 @@
-//! One role for every sprite type: what it is for in a level.
+//! The role of every sprite type in a level; each type has exactly one.
 
 use super::facts::{Avatar, Facts, Motion};
 use super::goal::Aims;
@@ -8,63 +8,63 @@ use super::touch::{Harm, Removal};
 use crate::game::{Rules, SpriteType};
 use crate::ontology::class::SpriteClass;
 
-/// What a sprite type is for in a level. Where several fit, the first one in this order counts, with the exceptions
-/// that the variants state.
+/// The role of a sprite type in a level. If several fit, the first one in this order counts, with the exceptions stated
+/// at the variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
     /// The player can control it.
     Avatar,
-    /// An avatar makes it by the use key: a shot, a sword, a bomb.
+    /// An avatar makes it with the use key: a shot, a sword, a bomb.
     Shot,
     /// Touching it takes the avatar to a [`Role::PortalExit`].
     Portal,
-    /// Where a portal leads.
+    /// The destination of a portal.
     PortalExit,
     /// The avatar pushes it.
     Pushable,
-    /// Touching it wins, or counts towards a win: a door, something locked, or what makes the winning sprite.
-    /// (Goods that lie open and count towards a win are [`Role::Collectable`].)
+    /// Touching it wins, or counts towards a win: a door, something locked, or something that makes the winning sprite.
+    /// (Unlocked items that count towards a win are [`Role::Collectable`].)
     Exit,
-    /// Still, and until something is held, done or become it blocks the way or hurts.
+    /// Still; it blocks the way or hurts until the avatar holds something, does something or changes its type.
     Gate,
-    /// It moves by itself, blocks the avatar, and kills only in some ways of moving: a falling rock.
+    /// It moves by itself, blocks the avatar, and kills only in some ways of moving: for example, a falling rock.
     Boulder,
-    /// It moves by itself and harms the avatar or what must be protected, takes what the avatar holds, or makes what does
-    /// so. (What the avatar catches for a win, unharmed, is [`Role::Prey`] all the same.)
+    /// It moves by itself and harms the avatar or a protected type, takes the avatar's resources, or makes sprites that
+    /// do. (A type that the avatar catches unharmed for a win is [`Role::Prey`] nevertheless.)
     Enemy,
-    /// Still; pushed things end on it, and either that is wanted or it is harmless. (What is deadly and wanted by no
-    /// goal is [`Role::Hazard`].)
+    /// Still; pushed sprites are removed by it, and either a goal requires that or it is harmless. (A deadly type that
+    /// no goal requires is [`Role::Hazard`].)
     Socket,
     /// Still, and it harms the avatar.
     Hazard,
     /// Still, and it makes other sprites by itself.
     Spawner,
-    /// Its loss loses the game, or what moves must not reach it.
+    /// Its loss loses the game, or moving sprites must not reach it.
     Ward,
-    /// It must go for a win, and goes by a shot, by others, or by being caught while it moves.
+    /// It must be removed for a win: by a shot, by others, or by being caught while it moves.
     Prey,
-    /// Its touch gives what a gate or an exit needs.
+    /// Touching it gives the requirement of a gate or an exit.
     Key,
-    /// Still; the avatar digs through it for no gain, while it holds up others.
+    /// Still; the avatar digs through it without gain, and it blocks others.
     Soil,
-    /// The avatar takes it, or changes it, by touch.
+    /// The avatar takes it, or changes it, by touching it.
     Collectable,
     /// Still; it blocks the avatar until a shot, or an enemy, removes it.
     Breakable,
-    /// Still; it blocks the avatar always, and nothing removes it.
+    /// Still; it always blocks the avatar, and nothing removes it.
     Wall,
-    /// Still; shots end on it or remove it, and it does nothing to the avatar.
+    /// Still; shots are stopped by it or remove it, and it does nothing to the avatar.
     Cover,
-    /// Still; it holds up enemies and lets the avatar pass.
+    /// Still; it blocks enemies and lets the avatar pass.
     Refuge,
-    /// Still, and nothing happens between it and any avatar: what lies under the others. It is in no interaction at
-    /// all, or a character places it together with an avatar.
+    /// Still, and no interaction with any avatar: a background under the others. It is in no interaction at all, or a
+    /// character places it together with an avatar.
     Floor,
     /// None of these.
     Neutral,
 }
 
-/// What the roles are derived from.
+/// The data from which roles are derived.
 pub(super) struct Basis<'a> {
     pub(super) rules: &'a Rules,
     pub(super) facts: &'a [Facts],
@@ -73,16 +73,16 @@ pub(super) struct Basis<'a> {
     pub(super) touches: &'a Touches,
     pub(super) pushables: &'a [Pushable],
     pub(super) locks: &'a [Lock],
-    /// By type: what contact with it does to some avatar, at worst.
+    /// By type: the worst effect of contact with it on some avatar.
     pub(super) harm: &'a [Harm],
-    /// By type: what interactions with others say of it.
+    /// By type: the facts established by interactions with others.
     pub(super) marks: &'a [Marks],
-    /// By type: it makes, by itself and perhaps in several steps, what harms the avatar or a goal.
+    /// By type: it makes, by itself and perhaps in several steps, sprites that harm the avatar or a goal.
     pub(super) source: &'a [bool],
 }
 
 impl Basis<'_> {
-    /// The role of a type. Cost: O(types × avatars).
+    /// Returns the role of a type. Cost: O(types × avatars).
     pub(super) fn role(&self, stype: SpriteType) -> Role {
         let at = stype.index();
         let fact = &self.facts[at];
@@ -197,7 +197,7 @@ impl Basis<'_> {
             || self.touches.iter().any(creates)
     }
 
-    /// Pushed things end on it, and that is wanted, uses it up, or hurts nobody.
+    /// Returns `true` if pushed sprites are removed by it, and that is required, uses it up, or hurts nobody.
     fn is_socket(&self, stype: SpriteType, harm: Harm) -> bool {
         self.pushables.iter().any(|pushable| {
             let Some(sink) = pushable.sinks.iter().find(|sink| sink.partner == stype) else { return false };
@@ -208,7 +208,7 @@ impl Basis<'_> {
         })
     }
 
-    /// Worth nothing to the avatar, in the way of something else.
+    /// Returns `true` if it is worth nothing to the avatar and blocks something else.
     fn is_soil(&self, stype: SpriteType) -> bool {
         let worthless = self.touches.iter().all(|row| {
             let touch = &row[stype.index()];
@@ -223,7 +223,7 @@ impl Basis<'_> {
             && !self.beside_avatar(stype)
     }
 
-    /// A character places it together with an avatar.
+    /// Returns `true` if a character places it together with an avatar.
     fn beside_avatar(&self, stype: SpriteType) -> bool {
         let is_avatar = |other: &SpriteType| self.avatars.iter().any(|avatar| avatar.stype == *other);
         let symbols = self.facts[stype.index()].symbols.iter();
@@ -237,7 +237,7 @@ impl Basis<'_> {
     }
 }
 
-/// A touch of which the avatar notices nothing.
+/// Returns a touch without any effect on the avatar.
 fn neutral_touch() -> super::Touch {
     super::Touch { any: true, ..super::Touch::default() }
 }

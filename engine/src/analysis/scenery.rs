@@ -1,12 +1,12 @@
-//! Which types no rule is about.
+//! Types that no rule mentions.
 
 use super::Analysis;
 use crate::game::SpriteType;
 
 impl Analysis {
-    /// Whether nothing but its own line, its parents' and the LevelMapping speaks of a type: its sprites are where the level
-    /// has put them, and make no difference to anything. False where in doubt: a value that is only spelled like the type
-    /// speaks of it, too.
+    /// Returns `true` if only its own line, its parents' lines and the LevelMapping mention a type: its sprites stay
+    /// where the level placed them, and make no difference to anything. `false` if in doubt: a value that merely has
+    /// the same spelling as the type mentions it, too.
     pub fn is_scenery(&self, stype: SpriteType) -> bool {
         let moves = self.facts(stype).motion != super::Motion::Still || !self.facts(stype).makes.is_empty();
         !moves && !self.game.0.spoken_of[stype.index()]

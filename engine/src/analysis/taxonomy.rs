@@ -1,6 +1,6 @@
-//! What kind of game it is: time, space and genre, by rules that look at nothing but the rules of the game.
+//! Taxonomy of games: time, space and genre, derived from the rules of the game alone.
 //!
-//! Every term has one definition, below, and no name counts: a game whose sprites are renamed has the same taxonomy.
+//! Every term has one definition, below, and names do not matter: a game with renamed sprites has the same taxonomy.
 
 use super::encounter::{Deed, Encounter};
 use super::facts::{Motion, Steering};
@@ -14,37 +14,38 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::{Effect, SpeedChange};
 use serde::{Deserialize, Serialize};
 
-/// How many of one resource an exit must ask for, for the game to be about collecting rather than about a key.
+/// The smallest amount of a resource that an exit must require for a collecting game; smaller amounts count as keys.
 const MANY: i32 = 3;
 
-/// What kind of game it is.
+/// The classification of a game.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Taxonomy {
-    /// Whether the game waits for the player.
+    /// The passing of time: turn-based or real-time.
     pub time: Time,
-    /// How the player moves in space: the widest over all avatar types that can occur, in the order of the variants.
+    /// The movement of the player in space: the widest over all avatar types that can occur, in the order of the
+    /// variants.
     pub spatiality: Spatiality,
-    /// What it is about, the main thing first; empty if none of the genres fits.
+    /// The genres, the main one first; empty if none fits.
     pub genres: Vec<Genre>,
-    /// Whether chance can decide anything: see [`Analysis::chance_decides`].
+    /// `true` if chance can decide anything: see [`Analysis::chance_decides`].
     pub chance: bool,
-    /// Whether sprites that the player does not see can make a difference: see [`Analysis::unseen`].
+    /// `true` if sprites that the player does not see can make a difference: see [`Analysis::unseen`].
     pub hidden: bool,
 }
 
-/// Whether the game waits for the player.
+/// The passing of time: turn-based or real-time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Time {
-    /// Nothing moves, appears or goes away unless the player acts, apart from what an action sets off for a moment (a
-    /// shot, a puff of smoke), what takes part in nothing, and a limit of ticks.
+    /// Nothing moves, appears or disappears unless the player acts, except for short effects of an action (a shot, a
+    /// puff of smoke), sprites that take part in nothing, and a limit on the number of ticks.
     TurnBased,
-    /// Something does.
+    /// Something changes without an action of the player.
     RealTime,
 }
 
-/// How the player moves in space.
+/// The movement of the player in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Spatiality {
@@ -52,7 +53,7 @@ pub enum Spatiality {
     Fixed,
     /// The avatar moves along one axis only, in steps or drifting.
     Line,
-    /// The avatar moves along both axes, up, left, down and right, in steps: whole cells, or parts of them.
+    /// The avatar moves along both axes, up, left, down and right, in steps of whole cells or parts of them.
     Grid,
     /// The avatar has a velocity that the keys change, and nothing pulls it down.
     Continuous,
@@ -60,42 +61,44 @@ pub enum Spatiality {
     Gravity,
 }
 
-/// What a game is about. Where several fit, they are named in this order; but shooting that is not what wins, where
-/// something else than waiting does, comes last.
+/// The genre of a game. If several fit, they are listed in this order; but shooting that does not win comes last if
+/// something other than waiting wins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Genre {
     /// The avatar falls, walks and jumps.
     Platformer,
-    /// The player and others make for the same goal: its touch wins or loses, depending on who comes first.
+    /// The player and others compete for the same goal: its touch wins or loses, depending on who comes first.
     Race,
-    /// Pushing things to where they belong wins or opens the way; or winning takes more than waiting, on a grid, with an
-    /// avatar that can stop, where chance plays no part and nothing hostile moves.
+    /// Pushing sprites to certain places wins or opens the way; or winning takes more than waiting, on a grid, with an
+    /// avatar that can stop, without chance and without hostile sprites that move.
     Puzzle,
-    /// The avatar, on a grid, has to mind traffic that it cannot shoot: what moves straight ahead without end, comes in
-    /// again at the opposite edge, and harms.
+    /// The avatar, on a grid, must avoid traffic that it cannot shoot: harmful sprites that move straight ahead
+    /// endlessly and reappear at the opposite edge.
     Crossing,
-    /// The avatar's shots end what moves and must go for a win; or they fly, and end what is hostile.
+    /// The avatar's shots remove moving sprites that must be removed for a win; or they fly, and remove hostile
+    /// sprites.
     Shooter,
-    /// What moves by itself must be caught by touch.
+    /// Sprites that move by themselves must be caught by touch.
     Hunt,
-    /// Things that lie about must be taken: all of a type, or many of a resource that an exit asks for.
+    /// Sprites lying around must be taken: all of a type, or many of a resource that an exit requires.
     Collect,
-    /// Something is locked, and its key has to be got.
+    /// Something is locked, and its key must be found.
     Adventure,
-    /// Touching an exit wins: a door, something that is dangerous to touch, or the one kind of thing that must be touched
-    /// where others are there for mere gain.
+    /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be touched while
+    /// others merely give points.
     Escape,
-    /// Others must be brought together with something: not the player's touch, shots or pushes win, but what others do.
+    /// Other sprites must be brought together with something: not the player's touch, shots or pushes win, but the
+    /// actions of others.
     Guide,
-    /// Something other than the avatar must be kept from harm.
+    /// Something other than the avatar must be protected.
     Defence,
-    /// Living up to some tick wins.
+    /// Surviving up to some tick wins.
     Survive,
 }
 
 impl Time {
-    /// As in data.
+    /// The name used in data files.
     pub fn name(self) -> &'static str {
         match self {
             Time::TurnBased => "turn-based",
@@ -105,7 +108,7 @@ impl Time {
 }
 
 impl Spatiality {
-    /// As in data.
+    /// The name used in data files.
     pub fn name(self) -> &'static str {
         match self {
             Spatiality::Fixed => "fixed",
@@ -118,7 +121,7 @@ impl Spatiality {
 }
 
 impl Genre {
-    /// As in data.
+    /// The name used in data files.
     pub fn name(self) -> &'static str {
         match self {
             Genre::Platformer => "platformer",
@@ -138,7 +141,7 @@ impl Genre {
 }
 
 impl Analysis {
-    /// What kind of game it is. Cost: O(types × avatars + interactions).
+    /// Classifies the game. Cost: O(types × avatars + interactions).
     pub fn taxonomy(&self) -> Taxonomy {
         Taxonomy {
             time: self.time(),
@@ -158,7 +161,7 @@ impl Analysis {
             let placed = fact.possible && !fact.symbols.is_empty();
             placed && attain::is_mortal(rules, stype) && self.takes_part(stype)
         };
-        // What stands still until an interaction gives it a speed.
+        // Sprites that stand still until an interaction gives them a speed.
         let sets_off = |encounter: &Encounter| {
             use SpeedChange as How;
             let effect = &rules.effects[usize::from(encounter.effect)].effect;
@@ -176,7 +179,7 @@ impl Analysis {
         if idle && !self.game.sprite_types().any(fades) { Time::TurnBased } else { Time::RealTime }
     }
 
-    /// Whether some interaction or termination is about the type.
+    /// Returns `true` if some interaction or termination concerns the type.
     fn takes_part(&self, stype: SpriteType) -> bool {
         let meets = self.encounters.iter().any(|encounter| {
             self.applies(encounter.first, stype)
@@ -244,7 +247,7 @@ impl Analysis {
         self.avatars.iter().filter_map(of).any(|own| own.is_a(class))
     }
 
-    /// Whether something that is pushed opens a way: it fills what blocks the avatar or harms it.
+    /// Returns `true` if a pushed sprite can open a way: it fills a type that blocks or harms the avatar.
     fn bridges(&self) -> bool {
         let bars = |stype: SpriteType| {
             let blocks = self.touches.iter().any(|row| row[stype.index()].blocks);
@@ -257,7 +260,8 @@ impl Analysis {
         self.pushables.iter().any(|pushable| pushable.sinks.iter().any(fills))
     }
 
-    /// Whether what harms, and is not shot down, moves straight ahead and comes in again at the opposite edge.
+    /// Returns `true` if some harmful type that is not shot down moves straight ahead and reappears at the opposite
+    /// edge.
     fn has_traffic(&self, ways: &Ways<'_>) -> bool {
         self.of_role(Role::Enemy).any(|stype| {
             let wraps = self.at_edge(stype).any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
@@ -266,8 +270,8 @@ impl Analysis {
         })
     }
 
-    /// Whether it decides who comes to something first: what moves by itself loses by its touch, and the avatar wins by
-    /// its own; or what such a touch brings about wins or loses.
+    /// Returns `true` if the first to reach something decides the game: a type that moves by itself loses the game by
+    /// touching it, and the avatar wins by touching it; or the first type's touch can cause either result.
     fn is_race(&self) -> bool {
         let (wins, losses) = (&self.aims.create, &self.aims.prevent);
         let runs = |stype: &SpriteType| {

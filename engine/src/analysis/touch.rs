@@ -1,17 +1,17 @@
-//! What happens when an avatar touches a sprite: all interactions of the two types, either way round, put together.
+//! The result of an avatar touching a sprite: all interactions of the two types, in either order, combined.
 
 use super::encounter::{Deed, Encounter, Provided, Side};
 use super::goal::Aims;
 use super::pairs::Pairs;
 use crate::game::{Rules, SpriteType};
 
-/// How badly contact ends for the avatar, from best to worst.
+/// The harm that contact does to the avatar, from least to most.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Harm {
     /// It does not hurt.
     #[default]
     None,
-    /// It kills sometimes: depending on how the two move, on what the avatar holds, or on what else is there.
+    /// It kills sometimes: depending on the movement of the two, on the avatar's resources, or on other sprites.
     Conditional,
     /// It costs health points, fewer than the avatar starts with.
     Wounds,
@@ -19,72 +19,72 @@ pub enum Harm {
     Kills,
 }
 
-/// Whether contact makes the other sprite go away.
+/// The conditions under which contact removes the other sprite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Removal {
     /// No.
     #[default]
     Never,
-    /// If the avatar holds so many of this resource.
+    /// It does if the avatar holds this amount of the resource.
     IfHolds(SpriteType, i32),
-    /// Depending on other things.
+    /// It does under other conditions.
     Sometimes,
     /// Yes.
     Always,
 }
 
-/// What happens when an avatar of one type touches a sprite of another.
+/// The result of an avatar of one type touching a sprite of another.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Touch {
-    /// What it means for the avatar.
+    /// The harm to the avatar.
     pub harm: Harm,
-    /// Holding so many of this resource keeps the avatar from harm.
+    /// Holding this amount of the resource keeps the avatar from harm.
     pub safe_with: Option<(SpriteType, i32)>,
     /// The avatar cannot enter.
     pub blocks: bool,
     /// The avatar pushes the sprite along.
     pub pushes: bool,
-    /// The avatar is carried along or put somewhere else.
+    /// The avatar is carried along or moved somewhere else.
     pub carries: bool,
-    /// Whether the sprite goes away.
+    /// The conditions under which the sprite is removed.
     pub removal: Removal,
-    /// What the avatar turns into.
+    /// The type that the avatar turns into.
     pub becomes: Option<SpriteType>,
-    /// What the sprite turns into.
+    /// The type that the sprite turns into.
     pub changes: Option<SpriteType>,
-    /// Resources that the avatar gains, or loses, with the amount.
+    /// The resources that the avatar gains or loses, with the amounts.
     pub gives: Vec<(SpriteType, i32)>,
-    /// The avatar appears where the sprite leads to.
+    /// The avatar reappears at the exit of the sprite.
     pub teleports: bool,
-    /// Types whose sprites all go away or change, wherever they are.
+    /// The types whose sprites are all removed or changed, wherever they are.
     pub opens: Vec<SpriteType>,
-    /// Types of which a sprite appears; among them what the avatar turns into for a win.
+    /// The types of which a sprite appears, including the type that the avatar turns into for a win.
     pub makes: Vec<SpriteType>,
     /// The sum of the score changes.
     pub score: i32,
-    /// Whether there is any interaction at all.
+    /// `true` if there is any interaction at all.
     pub any: bool,
 }
 
 impl Touch {
-    /// Whether the sprite goes away or changes, at least sometimes.
+    /// Returns `true` if the sprite is removed or changes, at least sometimes.
     pub fn ends_other(&self) -> bool {
         self.removal != Removal::Never || self.changes.is_some()
     }
 
-    /// Whether contact neither hurts nor stops the avatar.
+    /// Returns `true` if contact neither hurts nor stops the avatar.
     pub fn lets_pass(&self) -> bool {
         !self.blocks && self.harm == Harm::None
     }
 }
 
-/// What happens between an avatar type and each type, by type. Cost: O(interactions of the avatar × relatives).
+/// Returns the touches of an avatar type with each type, by type. Cost: O(interactions of the avatar × relatives).
 pub(super) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: SpriteType) -> Vec<Touch> {
     let mut row = vec![Touch::default(); rules.types.len()];
     pairs.with(avatar, |other, side, encounter| {
         add(rules, aims, avatar, other, encounter, side, &mut row[other.index()]);
     });
-    // Something else at the same place can keep the avatar from what a type does to it.
+    // Another sprite at the same position can shield the avatar from the effects of a type.
     for from in pairs.shields(avatar) {
         for other in &rules.types[from.index()].tree {
             let touch = &mut row[other.index()];
@@ -94,7 +94,7 @@ pub(super) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: Spr
     row
 }
 
-/// Adds what an interaction does in which the avatar is on the side `own`.
+/// Adds the effects of an interaction in which the avatar is on the side `own`.
 fn add(
     rules: &Rules,
     aims: &Aims,
@@ -188,7 +188,8 @@ fn add(
     }
 }
 
-/// An unconditional removal wins over one with a price, and that over one that merely may happen.
+/// Returns the stronger of two removals: an unconditional one outranks one with a price, which outranks a mere
+/// possibility.
 fn stronger(one: Removal, two: Removal) -> Removal {
     let rank = |removal: Removal| match removal {
         Removal::Never => 0,

@@ -1,4 +1,4 @@
-//! How wins come about: by what the player does, or by what others do.
+//! The ways in which a game can be won: by the player's own actions, or by those of others.
 
 use super::encounter::{Deed, Encounter, Side};
 use super::facts::Motion;
@@ -10,54 +10,54 @@ use super::{Analysis, Attainable};
 use crate::game::SpriteType;
 use std::collections::BTreeSet;
 
-/// How a win comes about.
+/// A way in which a win can be achieved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Means {
-    /// The avatar touches what leads out.
+    /// The avatar touches an exit.
     Exit,
-    /// The avatar touches things that lie about.
+    /// The avatar touches sprites lying around.
     Take,
-    /// The avatar touches what moves.
+    /// The avatar touches moving sprites.
     Catch,
-    /// The avatar's shots end what moves, or fly.
+    /// The avatar's shots remove moving sprites, or fly.
     Shoot,
-    /// What the avatar puts somewhere, and what stays there, ends what stands there.
+    /// A sprite that the avatar puts somewhere, and that stays there, removes one that stands there.
     Tool,
-    /// What the avatar pushes comes to where it belongs.
+    /// A sprite that the avatar pushes reaches its destination.
     Push,
-    /// Others do it.
+    /// Others achieve it.
     Others,
     /// Time passes.
     Wait,
 }
 
-/// For each type, how its sprites can come to an end, or come about.
+/// For each type, the ways in which its sprites can be removed or made.
 pub(super) struct Ways<'a> {
     analysis: &'a Analysis,
-    /// By type: a shot ends it, or turns it into something harmless.
+    /// By type: a shot removes it, or turns it into something harmless.
     shot: Vec<bool>,
-    /// By type: a shot that flies does.
+    /// By type: a flying shot does.
     flown: Vec<bool>,
-    /// By type: some touch ends all of it.
+    /// By type: some touch removes all sprites of it.
     opened: Vec<bool>,
-    /// By type: it ends, or fills, where something is pushed.
+    /// By type: it can be pushed onto something that removes or changes it, or is filled by a pushed sprite.
     pushed: Vec<bool>,
-    /// By type: it ends by meeting something.
+    /// By type: it is removed by meeting something.
     met: Vec<bool>,
-    /// By type: how the player makes one.
+    /// By type: the ways in which the player can make one.
     made: Vec<BTreeSet<Means>>,
 }
 
 impl Analysis {
-    /// How the wins come about that play can bring about, in the order of [`Means`]; empty if there are none. Cost: O(types ×
-    /// avatars + interactions × relatives).
+    /// Returns the ways to win that play can achieve, in the order of [`Means`]; empty if there are none. Cost: O(types
+    /// × avatars + interactions × relatives).
     pub fn means(&self) -> Vec<Means> {
         Ways::of(self).means().into_iter().collect()
     }
 }
 
 impl Ways<'_> {
-    /// Cost: O(types × avatars + interactions × relatives).
+    /// Computes the ways. Cost: O(types × avatars + interactions × relatives).
     pub(super) fn of(analysis: &Analysis) -> Ways<'_> {
         let none = vec![false; analysis.facts.len()];
         let shots = projectiles(analysis);
@@ -104,7 +104,7 @@ impl Ways<'_> {
         ways
     }
 
-    /// How the wins come about that play can bring about.
+    /// Returns the ways to win that play can achieve.
     pub(super) fn means(&self) -> BTreeSet<Means> {
         let mut means = BTreeSet::new();
         let goals = self.analysis.goals.iter();
@@ -146,7 +146,7 @@ impl Ways<'_> {
         means
     }
 
-    /// Whether a still thing that wins by touch is one to get to rather than one of many to take.
+    /// Returns `true` if a still type that wins by touch is a destination rather than one of many items to take.
     fn is_like_an_exit(&self, stype: SpriteType) -> bool {
         let Analysis { game, aims, touches, .. } = self.analysis;
         let wanted = |stype: SpriteType| {
@@ -162,12 +162,12 @@ impl Ways<'_> {
         self.analysis.harm(stype) != Harm::None || (alone() && gain())
     }
 
-    /// Whether a shot ends such sprites, or turns them into something harmless.
+    /// Returns `true` if a shot removes such sprites, or turns them into something harmless.
     pub(super) fn is_shot_down(&self, stype: SpriteType) -> bool {
         self.shot[stype.index()]
     }
 
-    /// Whether shots that fly end what is hostile or wanted.
+    /// Returns `true` if flying shots remove hostile sprites, or sprites that must be removed.
     pub(super) fn shoots(&self) -> bool {
         let analysis = self.analysis;
         analysis.game.sprite_types().any(|stype| {
@@ -182,7 +182,7 @@ fn is_hostile(role: Role) -> bool {
     matches!(role, Role::Enemy | Role::Spawner)
 }
 
-/// The avatars' shots, and what moves of all that these turn into or make.
+/// Returns the avatars' shots, and the moving types among all that these turn into or make.
 fn projectiles(analysis: &Analysis) -> BTreeSet<SpriteType> {
     let shots = analysis.avatars.iter().flat_map(|avatar| avatar.shots.iter().copied());
     let mut found: BTreeSet<SpriteType> = shots.collect();
@@ -198,7 +198,7 @@ fn projectiles(analysis: &Analysis) -> BTreeSet<SpriteType> {
     found
 }
 
-/// By type: whether one of these shots ends such sprites, or turns them into something harmless.
+/// By type: one of these shots removes such sprites, or turns them into something harmless.
 fn shot_down(analysis: &Analysis, shots: &BTreeSet<SpriteType>) -> Vec<bool> {
     let types = &analysis.game.0.types;
     let fires = |written: SpriteType| types[written.index()].tree.iter().any(|stype| shots.contains(stype));

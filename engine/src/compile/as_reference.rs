@@ -1,4 +1,4 @@
-//! What the reference makes of a file with faults: it goes through the sections as they stand, and reads no further than
+//! Compilation of a file with faults as the reference does it: it goes through the sections in file order and stops at
 //! the first fault that it does not overlook (`spec/01` §1.4).
 
 use super::header::Header;
@@ -28,7 +28,7 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
     let counters = Header::of(description, &mut Vec::new()).counters;
     let setting = Setting { policy: Policy::Reference, counters };
     let (types, _) = sprites::types(description, Policy::Reference, &mut Vec::new());
-    // Before the SpriteSet only the built-in types are known.
+    // Before the SpriteSet, only the built-in types are known.
     let (built_in, _) = sprites::types(&Description::default(), Policy::Reference, &mut Vec::new());
     let mut fate =
         Fate { messages: description.messages + Header::messages(description), dies_at_edge: false };
@@ -49,7 +49,7 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
                 read.mapping.extend_from_slice(&description.mapping[lines]);
                 false
             }
-            // There is nothing to put interactions in.
+            // Without a SpriteSet, there is nothing to add interactions to.
             Section::InteractionSet if !has_sprites => !lines.is_empty(),
             Section::InteractionSet => description.interactions[lines].iter().any(|line| {
                 let usable = usable(line, names, setting);
@@ -80,15 +80,15 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
     compile_with(&read, setting.policy, fate, Vec::new())
 }
 
-/// What the reference makes of a line.
+/// The result of reading a line as the reference does.
 struct Usable {
-    /// The line with the partners before the first one that it does not accept; None: nothing.
+    /// The line with the partners before the first one that the reference rejects; `None` if nothing is left.
     line: Option<InteractionLine>,
-    /// Messages that it logs about parameters.
+    /// The number of messages that the reference logs about parameters.
     messages: u32,
-    /// It reads no further.
+    /// `true` if the reference stops reading here.
     aborts: bool,
-    /// It has an undeclared sprite meet the edge, and dies of that in the first tick (`spec/03` §2).
+    /// `true` if an undeclared sprite meets the edge, on which the reference crashes in the first tick (`spec/03` §2).
     dies_at_edge: bool,
 }
 

@@ -1,5 +1,5 @@
-//! The rules of a game as plain clauses, for those who compare games: names resolved, what is inherited spelled out, what
-//! is as it would be anyhow left out.
+//! The rules of a game as plain clauses, for comparing games: names are resolved, inherited values are spelled out,
+//! defaults are left out.
 
 use super::Names;
 use super::interactions::{Partner, partner};
@@ -19,7 +19,7 @@ pub enum Term {
     Flag(bool),
     /// A number, whole or not.
     Number(f64),
-    /// Several numbers: an entry for each counter of the game.
+    /// Several numbers, one for each counter of the game.
     Numbers(Vec<f64>),
     /// A direction.
     Direction(Direction),
@@ -29,7 +29,7 @@ pub enum Term {
     Types(Vec<SpriteType>),
 }
 
-/// Parameters that are not as they would be if nobody wrote them.
+/// Parameters that differ from their defaults.
 pub type Terms = Vec<(&'static str, Term)>;
 
 /// A sprite type.
@@ -37,15 +37,16 @@ pub type Terms = Vec<(&'static str, Term)>;
 pub struct TypeClause {
     /// The type.
     pub stype: SpriteType,
-    /// Its class, inherited or not; none for bare grouping nodes.
+    /// Its class, inherited or not; `None` for bare grouping nodes.
     pub class: Option<SpriteClass>,
     /// The type above it in the SpriteSet.
     pub parent: Option<SpriteType>,
-    /// Whether it has no types below it.
+    /// `true` if no type is declared below it.
     pub leaf: bool,
-    /// Whether the file declares it: `wall` and `avatar` are there in any case.
+    /// `true` if the file declares it: `wall` and `avatar` exist in any case.
     pub declared: bool,
-    /// Its parameters, inherited or not, as they differ from those of its class. Looks are left out.
+    /// Its parameters, inherited or not, where they differ from those of its class. Parameters that only affect drawing
+    /// are left out.
     pub terms: Terms,
 }
 
@@ -58,20 +59,20 @@ pub enum Party {
     Edge,
     /// The clock.
     Clock,
-    /// Nobody: a line that runs by the clock on no sprite.
+    /// No sprite: the partner of the clock on a line that has no target.
     Nobody,
 }
 
-/// An interaction of two parties; a line with several partners is several clauses.
+/// An interaction of two parties; a line with several partners becomes several clauses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InteractionClause {
-    /// Who is acted upon; never the edge.
+    /// The party that the effect acts on; never the edge.
     pub first: Party,
     /// Its partner.
     pub second: Party,
     /// The keyword of the effect.
     pub effect: &'static str,
-    /// Its parameters, as they differ from the defaults.
+    /// Its parameters, where they differ from the defaults.
     pub terms: Terms,
     /// Index of the line in [`Description::interactions`](crate::Description).
     pub line: usize,
@@ -82,22 +83,22 @@ pub struct InteractionClause {
 pub struct TerminationClause {
     /// Its class.
     pub class: &'static str,
-    /// Whether the player wins by it, or may.
+    /// `true` if the player wins, or may win, by it.
     pub win: bool,
-    /// Its other parameters, as they differ from the defaults.
+    /// Its other parameters, where they differ from the defaults.
     pub terms: Terms,
 }
 
 /// All rules of a game.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clauses {
-    /// What holds for the game as a whole. The size of a cell in pixels is part of it only where continuous physics, which
+    /// Parameters of the game as a whole. The size of a cell in pixels is included only if continuous physics, which
     /// counts in pixels, makes it matter.
     pub header: Terms,
-    /// By type.
+    /// The clauses of the sprite types, by type.
     pub types: Vec<TypeClause>,
-    /// What each level character that stands for something places; characters that every game has, but this one does not
-    /// declare, are left out.
+    /// The sprites that each mapped level character places. Built-in mappings that the game does not declare are left
+    /// out.
     pub mapping: Vec<(char, Vec<SpriteType>)>,
     /// Interactions in the order of the file; those that are not enabled are left out.
     pub interactions: Vec<InteractionClause>,
@@ -106,7 +107,8 @@ pub struct Clauses {
 }
 
 impl Game {
-    /// The rules as clauses. Two games of equal clauses play alike; the converse does not hold. Cost: O(types + interactions).
+    /// The rules as clauses. Games with equal clauses play alike; the converse does not hold. Cost: O(types +
+    /// interactions).
     pub fn clauses(&self) -> Clauses {
         let rules = &*self.0;
         let of_type = |(at, info): (usize, &TypeInfo)| type_clause(rules, SpriteType(at as u16), info);
@@ -120,7 +122,7 @@ impl Game {
     }
 }
 
-/// What can be the value of a field.
+/// A field type that converts to a [`Term`].
 trait IntoTerm: Copy + PartialEq {
     fn term(self) -> Term;
 }
@@ -175,7 +177,7 @@ fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause 
         macro_rules! fields {
             ($($field:ident)*) => { $(note(&mut terms, stringify!($field), own.$field, default.$field);)* };
         }
-        // All of them but those that pictures, and whoever has read the class, know.
+        // All fields except those for pictures and those that the class determines.
         fields! {
             speed cooldown orientation is_oriented rotate_in_place is_static only_active stationary solid width_factor
             height_factor health max_health limit_health time_to_live portal is_npc is_from_avatar last_move is_first_tick
@@ -187,7 +189,7 @@ fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause 
         note(&mut terms, "singleton", info.singleton, false);
         note_types(&mut terms, "stype", own.stypes.iter().copied());
         note_types(&mut terms, "ammo", own.ammo.iter().copied());
-        // Without a type of its own, it leaves walls behind.
+        // Without `spawnBehind`, it leaves walls behind.
         let walls = (class == SpriteClass::OngoingTurningAvatar).then_some(SpriteType(0));
         note_types(&mut terms, "spawnBehind", own.spawn_behind.or(walls));
         note_types(&mut terms, "resource", Some(own.resource).filter(|&resource| resource != stype));
@@ -309,7 +311,7 @@ fn terminations(rules: &Rules) -> Vec<TerminationClause> {
     rules.terminations.iter().map(clause).collect()
 }
 
-/// Reads a line that has compiled once more, and notes what differs from the defaults.
+/// Reads a compiled line once more, and notes the parameters that differ from the defaults.
 struct Written<'a> {
     line: &'a InteractionLine,
     names: Names<'a>,
@@ -318,7 +320,7 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// The last parameter of that name counts.
+    /// The parameter of that name; of several, the last one.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }
@@ -348,7 +350,7 @@ impl<'a> Written<'a> {
         }
     }
 
-    /// When a line that runs by the clock does so.
+    /// The timing parameters of a line that runs by the clock.
     fn clock(&mut self) {
         self.int("timer", -1);
         self.flag("repeating", false);
@@ -427,7 +429,7 @@ impl Arguments for Written<'_> {
     fn timed(&mut self) -> u16 {
         let at = self.keyword("ftype");
         self.planned = effects::NAMES.get(usize::from(at)).copied();
-        // The parameters of the planned effect stand on the same line.
+        // The parameters of the planned effect are on the same line.
         if let Some(planned) = self.planned.filter(|&planned| planned != "addTimer") {
             effects::build(planned, self);
         }
@@ -476,7 +478,7 @@ mod tests {
         assert_eq!(of.terminations[0].terms.len(), 1);
         assert!(of.terminations[0].win && !of.terminations[1].win);
         assert_eq!(of.header, []);
-        // The file does not declare `wall`, so that what `w` places is no rule of it.
+        // The file does not declare `wall`, so the mapping of `w` is not one of its rules.
         let symbols: Vec<char> = of.mapping.iter().map(|(symbol, _)| *symbol).collect();
         assert_eq!(symbols, ['A', 'e']);
     }

@@ -1,4 +1,4 @@
-//! The first line: what it sets for the whole game (`spec/01` §1.5).
+//! The first line: settings of the whole game (`spec/01` §1.5).
 
 use super::params::{Expected, Value, convert, wrong_type};
 use crate::diagnostic::Diagnostic;
@@ -7,14 +7,14 @@ use crate::syntax::{Description, Param, Word};
 
 const KEYS: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counters", "obs"];
 
-/// What the first line says.
+/// The settings in the first line.
 #[derive(Debug, Default)]
 pub(super) struct Header {
     /// Pixels of a cell.
     pub(super) square_size: Option<i32>,
-    /// How many counters there are.
+    /// The number of counters.
     pub(super) counters: usize,
-    /// What path finding goes around; None: there is no path finding.
+    /// The sprite types that paths avoid; `None` without path finding.
     pub(super) obstacles: Option<Vec<Word>>,
 }
 
@@ -57,7 +57,7 @@ impl Header {
         header
     }
 
-    /// Messages that the reference logs about parameters that a game does not have: two each.
+    /// The number of messages that the reference logs about unknown parameters: two each.
     pub(super) fn messages(description: &Description) -> u32 {
         let mut unknown: Vec<&str> =
             description.header.params.iter().map(|param| param.key.text.as_str()).collect();
@@ -68,7 +68,7 @@ impl Header {
     }
 }
 
-/// What neither policy plays.
+/// The problem of a feature that neither policy supports.
 fn unsupported(param: &Param, message: String) -> Diagnostic {
     Diagnostic::error("unsupported", param.span(), message).help(format!("remove `{}`", param.key.text))
 }

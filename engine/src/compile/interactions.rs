@@ -17,24 +17,24 @@ pub(super) struct Program {
     pub(super) timed: Vec<Timed>,
 }
 
-/// A keyword that no effect has: a shield of it is of no use.
+/// The number of an unknown keyword: a shield against it has no effect.
 const NO_KEYWORD: u16 = u16::MAX;
 
 impl Program {
-    /// Types to whose sprites some effect can give speed.
+    /// The types to whose sprites some effect can give speed.
     pub(super) fn given_speed(&self, types: &[TypeInfo]) -> BTreeSet<SpriteType> {
         let pairs = self.passes.iter().map(|pass| (pass.first, pass.effect));
         let timed = self.timed.iter().map(|timed| (timed.target.unwrap_or(SpriteType::NONE), timed.effect));
         let executed = pairs.chain(self.edge.iter().copied()).chain(timed);
-        // What dies at the edge executes none.
+        // An edge pass of an undeclared type stops the game and has no effect.
         let given = executed
             .filter_map(|(one, effect)| self.effects.get(usize::from(effect))?.effect.gives_speed(one));
         let families = given.filter_map(|stype| types.get(stype.index()));
         families.flat_map(|info| info.tree.iter().copied()).collect()
     }
 
-    /// Effects that credit by what an earlier execution found: those that an execution may leave alone, because what is
-    /// collected is no resource, or because at the edge there is no partner.
+    /// Effects whose score depends on an earlier execution: an execution may leave the remembered flags alone, because
+    /// the collected sprite is not a resource, or because there is no partner at the edge.
     pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {
         let collects = |index: u16| {
             let effect = &self.effects[usize::from(index)].effect;
@@ -81,7 +81,7 @@ pub(super) fn program(
     problems: &mut Vec<Diagnostic>,
 ) -> Program {
     let mut program = Program::default();
-    // Pairs execute where they first appear, whatever stands between their lines.
+    // A pair executes at the place of its first line, whatever lines are in between.
     let mut pairs: Vec<((SpriteType, SpriteType), Vec<u16>)> = Vec::new();
     let mut places: BTreeMap<(SpriteType, SpriteType), usize> = BTreeMap::new();
     let mut edges: Vec<SpriteType> = Vec::new();
@@ -107,7 +107,7 @@ pub(super) fn program(
         let (score_change, apply_score) = (info.score_change, info.apply_score);
         let own = Timed { effect: index, wrapper: index, score_change, apply_score, line: at, ..clock };
         let target = by_the_clock(line, first, &seconds, problems);
-        // What is not enabled never runs; but the line has its place in the order of the pairs.
+        // A disabled line never runs, but it has its place in the order of the pairs.
         let index = enabled.then_some(index);
         if enabled {
             program.effects.push(EffectInfo { steady: target.is_some(), ..info });
@@ -178,7 +178,7 @@ pub(super) fn program(
     program
 }
 
-/// What a name in front of the arrow stands for.
+/// The meaning of a name in front of the arrow.
 #[derive(Clone, Copy)]
 pub(super) enum Partner {
     Sprite(SpriteType),
@@ -187,7 +187,7 @@ pub(super) enum Partner {
     Unknown,
 }
 
-/// Whether the line runs by the clock, and then on which type: `sprite TIME` or `TIME sprite` (`spec/03` §6).
+/// `Some` if the line runs by the clock, with its target if it has one: `sprite TIME` or `TIME sprite` (`spec/03` §6).
 fn by_the_clock(
     line: &InteractionLine,
     first: Partner,
@@ -244,24 +244,24 @@ pub(super) struct Reader<'a> {
     setting: Setting,
     used: Vec<&'a str>,
     pub(super) problems: Vec<Diagnostic>,
-    /// Problems of the lines before.
+    /// The number of problems of the lines before.
     told: usize,
-    /// The reference makes no effect of the line, and reads no further.
+    /// `true` if the reference makes no effect of the line and stops reading.
     pub(super) failed: bool,
-    /// `scoreChange` and `scoreChangeIfKilled` are no numbers.
+    /// `true` for each of `scoreChange` and `scoreChangeIfKilled` that is not a number.
     score_faults: [bool; 2],
     /// The place that a planned effect of this line will have.
     timed: u16,
-    /// What addTimer plans: the effect, and its keyword's place.
+    /// The effect that addTimer plans, and the number of its keyword.
     planned: Option<(EffectInfo, u16)>,
 }
 
 /// A line made into an effect.
 pub(super) struct Built {
     info: EffectInfo,
-    /// The keyword's place.
+    /// The number of the keyword.
     keyword: u16,
-    /// How often a tick goes through it.
+    /// The number of times that the pass is repeated in a tick.
     repeat: usize,
     enabled: bool,
 }
@@ -278,7 +278,7 @@ impl<'a> Reader<'a> {
         Reader { line, names, setting, used, problems, told: 0, failed, score_faults, timed, planned }
     }
 
-    /// None if there is no such effect.
+    /// Compiles the line; `None` if there is no such effect.
     pub(super) fn line(&mut self, at: usize) -> Option<Built> {
         let name = self.line.effect.text.as_str();
         let effect: Option<Effect> = effects::build(name, self);
@@ -322,13 +322,13 @@ impl<'a> Reader<'a> {
         Some(Built { info, keyword: keyword as u16, repeat, enabled })
     }
 
-    /// Whether the line is written with TIME: on the left, or first on the right.
+    /// Tests whether the line is written with TIME: on the left, or first on the right.
     fn has_clock(&self) -> bool {
         let mut words = std::iter::once(&self.line.first).chain(self.line.second.first());
         words.any(|word| word.text.eq_ignore_ascii_case("TIME"))
     }
 
-    /// Whether the reference overlooks unknown parameters: of lines with TIME, and with addTimer anywhere in them.
+    /// Tests whether the reference overlooks unknown parameters: it does so on lines with TIME or addTimer.
     pub(super) fn is_silent(&self) -> bool {
         let line = self.line;
         let words = line.second.iter().chain([&line.first, &line.effect]);
@@ -336,7 +336,7 @@ impl<'a> Reader<'a> {
         self.has_clock() || words.any(|word| word.text.contains("addTimer"))
     }
 
-    /// `counter` and `counterElse`, if the game counts and the line does.
+    /// `counter` and `counterElse`, if the game has counters and the line changes them.
     fn counting(&mut self) -> Option<Box<Counting>> {
         if self.setting.counters == 0 {
             return None;
@@ -351,7 +351,7 @@ impl<'a> Reader<'a> {
         amounts.any(|amount| *amount != Some(0)).then(|| Box::new(counting))
     }
 
-    /// A list with an entry a counter; counters beyond its end have the first entry.
+    /// A list with an entry for each counter; missing entries are copies of the first.
     fn amounts(&mut self, key: &'static str) -> Box<[Option<i32>]> {
         let nothing = std::iter::repeat_n(Some(0), self.setting.counters);
         let Some((param, value)) = self.value(key) else { return nothing.collect() };
@@ -378,7 +378,7 @@ impl<'a> Reader<'a> {
         self.problems.push(problem);
     }
 
-    /// When a line with TIME runs; its effect, target and score are filled in by the caller.
+    /// The timing of a line with TIME; the caller fills in effect, target and score.
     fn clock(&mut self) -> Timed {
         let timer = self.int("timer", -1);
         let repeating = self.flag("repeating", false);
@@ -397,7 +397,7 @@ impl<'a> Reader<'a> {
         Timed { effect, target, timer, repeating, first_due, wrapper, score_change, apply_score, line }
     }
 
-    /// Parameters that nothing has asked for.
+    /// Reports the parameters that no getter has read.
     fn leftovers(&mut self, name: &str) {
         for param in &self.line.params {
             let key = param.key.text.as_str();
@@ -429,7 +429,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A field that the reference's effects have besides their parameters, and compute themselves.
+    /// Tests whether the reference's effects have a field of that name that is not a parameter.
     fn is_internal(&self, key: &str) -> bool {
         let computed_from = match key {
             "hashCode" => return true,
@@ -441,7 +441,7 @@ impl<'a> Reader<'a> {
         self.used.contains(&computed_from)
     }
 
-    /// The last parameter of that name counts.
+    /// The parameter of that name; of several, the last one.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }
@@ -452,7 +452,7 @@ impl<'a> Reader<'a> {
         Some((param, convert(key, &param.value.text)))
     }
 
-    /// A sprite that the effect makes, kills or counts, and cannot do without.
+    /// A sprite type that the effect requires.
     fn required(&mut self, key: &'static str, undeclared: Undeclared) -> SpriteType {
         let found = self.optional_sprite(key, undeclared);
         if found.is_none() && self.param(key).is_none() {
@@ -522,7 +522,7 @@ impl Arguments for Reader<'_> {
     fn score(&mut self, key: &'static str) -> i32 {
         let Some((param, value)) = self.value(key) else { return 0 };
         let Value::Text(text) = value else {
-            // The name of a constant: the reference drops it.
+            // The value is the name of a constant: the reference drops it.
             self.problems.push(wrong_type(param, Expected::Int));
             return 0;
         };
@@ -618,7 +618,7 @@ impl Arguments for Reader<'_> {
             self.fail(problem.help("name another effect"));
             return 0;
         }
-        // The line as it would be for the planned effect.
+        // The line as the planned effect reads it.
         self.used.extend(["timer", "repeating"]);
         if let Some(effect) = effects::build(name, self) {
             let (score_change, apply_score, score_faults) = (0, true, [false; 2]);

@@ -35,29 +35,29 @@ use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-/// What to do about faults.
+/// The treatment of faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Policy {
-    /// Errors are errors.
+    /// Faults are errors.
     Strict,
-    /// Drops, ignores and overlooks as the reference does.
+    /// Faults are dropped, ignored or overlooked as the reference does.
     Reference,
 }
 
-/// What the lines below the first are read in the light of.
+/// The context in which the lines below the first are read.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     policy: Policy,
-    /// How many counters the game has.
+    /// The number of counters of the game.
     counters: usize,
 }
 
-/// What the reference has met while it read a file.
+/// The record of the reference's behaviour while it reads a file.
 #[derive(Clone, Copy, Debug, Default)]
 struct Fate {
-    /// Messages that it has logged.
+    /// The number of messages that it logs.
     messages: u32,
-    /// It will die of an undeclared sprite at the edge of the screen.
+    /// `true` if it will crash on an undeclared sprite at the edge of the screen.
     dies_at_edge: bool,
 }
 
@@ -96,7 +96,7 @@ fn compile_with(
         never_there(description, &types, &mapping, &program, &mut problems);
     }
     if policy == Policy::Reference {
-        // The rest is what the reference overlooks.
+        // The reference overlooks the rest.
         problems.retain(|problem| ["too-large", "unsupported"].contains(&problem.code));
     }
     let problems = Diagnostics::sorted(problems);
@@ -132,7 +132,8 @@ fn compile_with(
     let spoken_of = spoken_of(description, &types);
     let mut contacts = Contacts::of(&types, &program.passes);
     let barriers = barriers(&types, &program.passes, &program.effects, &mut contacts, &movers);
-    // The reference makes one of each resource to learn its limit, and complains of its parameters then, too.
+    // The reference makes one sprite of each resource to learn its limit, and logs messages about its parameters then,
+    // too.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
     let of_class = |is: &'static dyn Fn(SpriteClass) -> bool| {
@@ -192,7 +193,7 @@ fn compile_with(
     })
 }
 
-/// How many parameters a line has that its class does not know; one that is given twice counts once.
+/// The number of parameters of a line that its class does not know; repeated names count once.
 fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     let mut unknown: Vec<&str> = problems
         .iter()
@@ -228,7 +229,7 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
     }
 }
 
-/// Refuses games that would take long to look at: before anything is resolved.
+/// Refuses games that would take long to process, before anything is resolved.
 fn refuse_large(description: &Description) -> Result<(), Diagnostics> {
     let counts = [
         ("sprite types", description.sprite_lines().len(), MAX_TYPES),
@@ -249,8 +250,8 @@ fn too_many(description: &Description, what: &str, count: usize, most: usize) ->
     problem.help("split it into several games")
 }
 
-/// Names that nothing declares, next to a declared one that nothing uses: the declaration is what is misspelt, if the name is
-/// used more than once, or may be.
+/// Reports undeclared names with a similar declared name that nothing uses: the declaration is the misspelt one if the
+/// name is used more than once, or may be.
 fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = || description.sprite_lines().into_iter().map(|(_, line)| line);
     let params = lines().flat_map(|line| &line.params);
@@ -288,7 +289,7 @@ fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnosti
     }
 }
 
-/// Sprite types that no level can place and nothing makes: legal, but surely not meant.
+/// Reports sprite types that no level can place and nothing makes: legal, but surely not intended.
 fn never_there(
     description: &Description,
     types: &[TypeInfo],
@@ -313,7 +314,7 @@ fn never_there(
             let message =
                 format!("`{name}` is never there: no level character places it and nothing makes it");
             let problem = Diagnostic::warning("never-there", line.name.span, message);
-            // `wall` and `avatar` are there even if nothing declares them.
+            // `wall` and `avatar` exist even if nothing declares them.
             let undeclared = types[..2]
                 .iter()
                 .map(|info| info.name.as_str())
@@ -325,8 +326,8 @@ fn never_there(
     }
 }
 
-/// What each level character places, and the characters that name an undeclared sprite: a level that uses one does not
-/// load.
+/// The sprites that each level character places, and the characters that name an undeclared sprite: a level that uses one
+/// of those does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
@@ -350,7 +351,7 @@ fn mapping(
         }
         let types = line.names.iter().filter_map(|name| {
             let stype = names.resolve(name, problems)?;
-            // The reference dies of a type without a class when it makes the sprite.
+            // The reference crashes when it makes a sprite of a type without a class.
             names.instantiable(stype, name, problems);
             Some(stype)
         });
@@ -364,13 +365,13 @@ fn mapping(
     (mapping, unusable)
 }
 
-/// Looks names up, with a problem for those that do not exist.
+/// Looks up names, and reports those that do not exist.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     types: &'a [TypeInfo],
 }
 
-/// Subtypes that a message names at most.
+/// The maximum number of subtypes that a message names.
 const SUBTYPES_SHOWN: usize = 8;
 
 impl<'a> Names<'a> {
@@ -386,7 +387,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// The sprite that the value of a parameter, or an entry of it, names.
+    /// The sprite type that the value of a parameter, or an entry of it, names.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
@@ -399,8 +400,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// The problem of a name that no sprite has, and that is none of `others` either.
-    /// `found` problems were found before.
+    /// The problem of a name that is neither a sprite's nor one of `others`. `found` is the number of earlier problems.
     fn unknown(self, name: &Word, others: &[&str], found: usize) -> Diagnostic {
         let message = format!("no sprite named `{}`", name.text);
         let problem = Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
@@ -418,14 +418,14 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The types without subtypes of their own that are declared below one, those without a class aside.
+    /// The leaf types below a type, except those without a class.
     fn subtypes(self, stype: SpriteType) -> Vec<&'a str> {
         let leaves = self.types.iter().filter(|info| info.leaf && info.class.is_some());
         let below = leaves.filter(|info| info.path.contains(&stype));
         below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
     }
 
-    /// Whether sprites of the type can be made; a problem if not.
+    /// Tests whether sprites of the type can be made, and reports a problem if not.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {
@@ -433,7 +433,7 @@ impl<'a> Names<'a> {
             let of_it =
                 self.types.iter().filter(|other| other.path.contains(&stype) && other.class.is_some());
             let below: Vec<&str> = of_it.map(|other| other.name.as_str()).take(shown).collect();
-            // Without any class below, its own line has been told of.
+            // If no subtype has a class, the problem of the type's own line has been reported.
             if !below.is_empty() {
                 let message = format!("`{}` has no class, so there can be no such sprite", name.text);
                 let problem = Diagnostic::error("no-class", name.span, message);

@@ -1,4 +1,4 @@
-//! As much of a game as its levels need: which characters place something, and which of these an avatar.
+//! The part of a game that its levels need: the characters that place sprites, and which of these are avatars.
 
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::ontology::class::SpriteClass;
@@ -18,16 +18,16 @@ const HIDES_MAPPING: [&str; 9] = [
     "too-long",
 ];
 
-/// A faulty game with all but the characters of its levels left out.
+/// A faulty game reduced to the characters of its levels.
 pub(crate) struct Outline {
     pub(crate) description: Description,
-    /// Every character that the game maps is among its mappings.
+    /// `true` if all characters that the game maps are among its mappings.
     pub(crate) knows_characters: bool,
-    /// It is known of every character whether it places an avatar.
+    /// `true` if it is known for every character whether it places an avatar.
     pub(crate) knows_avatars: bool,
 }
 
-/// The outline of a description that was read with these problems; none if it has no LevelMapping.
+/// The outline of a description that was read with these problems; `None` if it has no LevelMapping.
 pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Option<Outline> {
     if !description.has[Section::LevelMapping as usize] || description.mapping.is_empty() {
         return None;
@@ -37,7 +37,7 @@ pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Opt
     for line in &description.sprites {
         sprites.add(line, None);
     }
-    // These are there even if nothing declares them.
+    // These exist even if nothing declares them.
     let known = |name: &str| sprites.names.contains(name) || ["wall", "avatar"].contains(&name);
     let mut symbols = BTreeSet::new();
     let mut sure = sprites.sure;
@@ -63,11 +63,11 @@ pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Opt
     Some(Outline { description, knows_characters, knows_avatars: sure && knows_characters })
 }
 
-/// The sprites of an outline, without their family.
+/// The sprites of an outline, without their hierarchy.
 struct Sprites {
     lines: Vec<SpriteLine>,
     names: BTreeSet<String>,
-    /// Which are avatars is known of all.
+    /// `true` if it is known for every sprite whether it is an avatar.
     sure: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Parameter values: from text to the type of the field they set (`spec/01` §1.10).
+//! Parameter values: conversion from text to the type of the field (`spec/01` §1.10).
 
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::geometry::Direction;
@@ -7,7 +7,7 @@ use crate::ontology::constants::{COLORS, Constant, constant, direction_names};
 use crate::ontology::traits::Traits;
 use crate::syntax::{Literal, Param, literal};
 
-/// A value after conversion, before the type of the field is looked at.
+/// A converted value, before it is matched with the type of the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value<'a> {
     Int(i32),
@@ -19,7 +19,7 @@ pub(super) enum Value<'a> {
     Unusable,
 }
 
-/// Converts in the reference's order: constant, integer, double, boolean, text.
+/// Converts a value in the reference's order: constant, integer, double, boolean, text.
 pub(super) fn convert<'a>(key: &str, text: &'a str) -> Value<'a> {
     match constant(text) {
         Some(Constant::Direction(direction)) => return Value::Direction(direction),
@@ -40,12 +40,12 @@ pub(super) fn convert<'a>(key: &str, text: &'a str) -> Value<'a> {
     }
 }
 
-/// Whether a value reads as a name, not as a number, a colour or the like.
+/// Tests whether a value reads as a name instead of a number, a colour or the like.
 pub(super) fn is_name(text: &str) -> bool {
     matches!(convert("", text), Value::Text(_))
 }
 
-/// What a field takes; in words for messages.
+/// The type of a field, with a description for messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Expected {
     Int,
@@ -69,7 +69,7 @@ impl Expected {
     }
 }
 
-/// The problem of a value that a field does not take. (The reference ignores it silently.)
+/// The problem of a value of the wrong type. (The reference ignores it silently.)
 pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     let value = param.value.text.as_str();
     let message = format!("`{}` takes {}, not `{value}`", param.key.text, expected.words());
@@ -97,13 +97,13 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     })
 }
 
-/// The number that a value starts with: `5` of `5x`.
+/// The number at the start of a value: `5` of `5x`.
 fn leading_number(value: &str) -> Option<&str> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
     Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())
 }
 
-/// The parameters of every sprite, whatever its class. Those that only pictures use are read and forgotten.
+/// The parameters of every sprite, whatever its class. Parameters that only affect pictures are read and ignored.
 pub const BASE: &[&str] = &[
     "speed",
     "cooldown",
@@ -149,16 +149,16 @@ pub const BASE: &[&str] = &[
     "on_ground",
 ];
 
-/// Fields of the reference that a parameter can name to no effect: they are overwritten, or only drawing reads them.
+/// Fields of the reference that a parameter can name without effect: they are overwritten, or only drawing reads them.
 const BOOK_KEEPING: &[&str] =
     &["spriteID", "bucket", "bucketSharp", "name", "images", "frameRemaining", "currentFrame"];
 
-/// Whether sprites of the class have a parameter.
+/// Tests whether sprites of the class have a parameter.
 pub(super) fn takes(class: SpriteClass, key: &str) -> bool {
     BASE.contains(&key) || BOOK_KEEPING.contains(&key) || class.parameters().contains(&key)
 }
 
-/// The problem of a parameter that the class does not have; `found` others were found before.
+/// The problem of a parameter that the class does not have. `found` is the number of earlier problems.
 pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize) -> Diagnostic {
     let key = param.key.text.as_str();
     let message = format!("{} has no parameter `{key}`", class.name());
@@ -167,8 +167,7 @@ pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize)
     problem.suggest_after(found, key, BASE.iter().copied().chain(class.parameters()))
 }
 
-/// Sets one parameter that the class has on the traits of a sprite type. Names of sprites (`stype`, `ammo`) are resolved by
-/// the caller.
+/// Sets one parameter of the class on the traits of a sprite type. The caller resolves sprite names (`stype`, `ammo`).
 pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) -> Result<(), Diagnostic> {
     let key = param.key.text.as_str();
     if BOOK_KEEPING.contains(&key) {
@@ -185,7 +184,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
     };
     let boolean = || if let Value::Bool(bool) = value { Ok(bool) } else { Err(fail(Expected::Bool)) };
     let direction = || if let Value::Direction(d) = value { Ok(d) } else { Err(fail(Expected::Direction)) };
-    // `hidden` and `invisible` are texts, one entry a player; ours is the first and only player.
+    // `hidden` and `invisible` are lists with one entry per player; there is one player here.
     let switch = || {
         let text = param.value.text.as_str();
         let first = text.split(',').next().unwrap_or_default();
@@ -239,7 +238,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "lastmove" => traits.last_move = int()?,
         "isFirstTick" => traits.is_first_tick = boolean()?,
         "on_ground" => traits.on_ground = boolean()?,
-        // Usable as a text only: what reads as a number, a boolean or a constant is lost.
+        // Only a text is usable: a number, a boolean or a constant is lost.
         "orientedImg" => traits.oriented_image = matches!(value, Value::Text(_)),
         "singleton" | "is_stochastic" | "draw_arrow" | "autotiling" => drop(boolean()?),
         "hidden" => traits.hidden = switch()?,
@@ -286,7 +285,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         _ => unreachable!("every parameter of the tables is matched: {key}"),
     }
     match value {
-        // The reference goes on with it.
+        // The reference continues with it.
         Value::Double(double) if !double.is_finite() => Err(fail(Expected::Number)),
         _ => Ok(()),
     }

@@ -1,4 +1,4 @@
-//! The sprites that a type's parameters name: what it makes, follows, spends, is collected as or leads to.
+//! The sprites that a type's parameters name: the types that it makes, follows, spends, is collected as or leads to.
 
 use super::Names;
 use super::params::{Expected, Value, convert, wrong_type};
@@ -15,11 +15,11 @@ pub(super) struct References {
     pub(super) ammo: SmallVec<[SpriteType; 2]>,
     pub(super) behind: Option<SpriteType>,
     pub(super) resource: Option<SpriteType>,
-    /// A parameter is missing without which the reference cannot make such a sprite.
+    /// `true` if a parameter is missing without which the reference cannot make such a sprite.
     pub(super) incomplete: bool,
 }
 
-/// A type with its parameters, those that it inherits among them.
+/// A type with its parameters, inherited ones included.
 #[derive(Clone, Copy)]
 pub(super) struct Subject<'a> {
     pub(super) name: &'a str,
@@ -37,7 +37,7 @@ pub(super) fn references(
     use SpriteClass as C;
     let class = sprite.class;
     let shoots = class.is_a(C::ShootAvatar) || class == C::WizardAvatar;
-    // What a class makes or follows, under the name that the class has for it.
+    // The parameter with the types that a class makes or follows.
     let (key, many) = match class {
         C::SpawnPointMultiSprite => ("stypes", true),
         C::BomberRandomMissile => ("stypeMissile", true),
@@ -67,7 +67,7 @@ pub(super) fn references(
     if shoots || produces || matches!(class, C::FlakAvatar | C::Spreader) {
         sprite.makes(key, &stypes, names, problems);
     }
-    // A spawn point without a type dies only of spawning.
+    // A spawn point without a type fails only when it spawns.
     let incomplete = nameless || missing && (many || !produces);
     References { stypes, ammo, behind, resource, incomplete }
 }
@@ -77,7 +77,7 @@ impl Subject<'_> {
         self.params.iter().copied().find(|param| param.key.text == key)
     }
 
-    /// The types that a parameter names, one or `many`, with commas between them.
+    /// The types that a parameter names: one, or if `many`, a list with commas.
     fn named(
         &self,
         key: &str,
@@ -104,7 +104,7 @@ impl Subject<'_> {
             found.push(SpriteType::NONE);
             return found;
         }
-        // Nothing stands between trailing commas.
+        // There are no entries between trailing commas.
         let list = text.trim_end_matches(',');
         let count = list.split(',').count();
         if count > MAX_LIST {

@@ -10,8 +10,8 @@ use std::borrow::Cow;
 
 const KEYS: [&str; 3] = ["values", "value", "string"];
 
-/// The game with the values put in. Strictly, each parameter says which one: `value=`. The reference draws the others
-/// without a seed, a value for each place; here they are drawn from the text of the game.
+/// The game with the parameter values filled in. Strictly, each parameter names its value: `value=`. The reference draws
+/// the others without a seed, once for each use; here they are drawn with a seed from the text of the game.
 pub(super) fn settled<'a>(
     description: &'a Description,
     policy: Policy,
@@ -23,7 +23,7 @@ pub(super) fn settled<'a>(
     let mut space = Space::default();
     for line in &description.parameters {
         let values = space.read(line, policy, problems);
-        // The last line of that name counts.
+        // Of several lines with that name, the last one counts.
         space.parameters.retain(|(name, ..)| *name != line.name.text);
         space.parameters.push((&line.name.text, line.name.span, values));
     }
@@ -32,7 +32,7 @@ pub(super) fn settled<'a>(
     let mut game = description.clone();
     space.sprites(&mut game.sprites);
     for line in &mut game.interactions {
-        // addTimer hands what it does not need itself on, as it is written.
+        // addTimer passes parameters that it does not use on to the planned effect as written.
         let own = |key: &str| COMMON.contains(&key) || ["timer", "repeating", "nextExecution"].contains(&key);
         let timer = line.effect.text == "addTimer";
         space.put_in(line.params.iter_mut().filter(|param| !timer || own(&param.key.text)));
@@ -48,14 +48,14 @@ pub(super) fn settled<'a>(
     Cow::Owned(game)
 }
 
-/// What a name stands for.
+/// The values that a parameter can take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Values {
-    /// This.
+    /// A single value.
     Int(i32),
     Double(f64),
     Bool(bool),
-    /// One of so many, from the first in steps.
+    /// One of a number of values, from `first` in steps of `step`.
     Ints {
         first: i32,
         step: i32,
@@ -119,7 +119,7 @@ impl<'a> Space<'a> {
 
     fn sprites(&mut self, lines: &mut [SpriteLine]) {
         for line in lines {
-            // Whether a type is a singleton is read from the text as it is written.
+            // The singleton flag is read from the text as written.
             self.put_in(line.params.iter_mut().filter(|param| param.key.text != "singleton"));
             self.sprites(&mut line.children);
         }
@@ -153,7 +153,7 @@ impl Values {
         }
     }
 
-    /// The text of a value, the first one being 0.
+    /// The text of a value, by its index from 0.
     fn text(self, at: i32) -> String {
         match self {
             Values::Int(value) => value.to_string(),
@@ -166,7 +166,7 @@ impl Values {
     }
 }
 
-/// `min:step:max` of whole numbers, of numbers if one has a point, or two truth values.
+/// Parses `min:step:max`: integers, decimals if one has a point, or two booleans.
 fn range(text: &str) -> Option<Values> {
     let parts: Vec<&str> = text.split(':').collect();
     let range = match parts[..] {

@@ -11,13 +11,13 @@ use crate::ontology::traits::Traits;
 use crate::syntax::{Description, Param, SpriteLine, Word};
 use std::collections::BTreeSet;
 
-/// A line with what it inherits.
+/// A line with its inherited class and parameters.
 struct Resolved<'a> {
     line: Option<&'a SpriteLine>,
     name: String,
     /// Names from the root down, itself included.
     path: Vec<String>,
-    /// In pre-order, itself left out.
+    /// The descendants in pre-order, without the type itself.
     descendants: Vec<String>,
     class: Option<Word>,
     params: Vec<&'a Param>,
@@ -40,7 +40,7 @@ pub(super) fn types(
         .collect();
 
     // `wall` and `avatar` come first in every registry, declared or not. A name keeps its place; of several definitions
-    // the last one counts (in files without faults there is one).
+    // the last one counts (files without faults have one).
     let mut registry: Vec<Resolved<'_>> =
         vec![built_in("wall", "Immovable"), built_in("avatar", "MovingAvatar")];
     for sprite in resolved {
@@ -74,8 +74,8 @@ pub(super) fn types(
     (types, order)
 }
 
-/// Parameters that a class does not have. A parent line passes its parameters to children of several classes; one is a
-/// mistake if none of them takes it.
+/// Parameters that a class does not have. A parent line passes its parameters to children of several classes; a parameter
+/// is a mistake if none of these accepts it.
 #[derive(Default)]
 struct Rejected<'a> {
     refused: Vec<(SpriteClass, &'a Param)>,
@@ -104,7 +104,8 @@ fn built_in(name: &str, class: &str) -> Resolved<'static> {
     }
 }
 
-/// An inherited class beats the written one; the written one is what children inherit (`spec/01` §1.6.2).
+/// Resolves the class: an inherited class beats the written one, but the children inherit the written one (`spec/01`
+/// §1.6.2).
 fn inherit<'a>(
     lines: &'a [SpriteLine],
     class: &Option<Word>,
@@ -143,7 +144,7 @@ fn inherit<'a>(
     }
 }
 
-/// Sprites without a class, told once for a parent and all its subtypes; and classes that an inherited one overrules.
+/// Reports sprites without a class, once for a parent and all its subtypes, and classes that an inherited one overrules.
 fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mut Vec<Diagnostic>) {
     for line in lines {
         let name = line.name.text.as_str();
@@ -180,7 +181,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
     }
 }
 
-/// Whether a line needs the class that it names and does not get.
+/// Tests whether a line needs the class that it names and does not get.
 fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     let Some(inherited) = SpriteClass::from_name(&inherited.text) else { return false };
     let lost = |param: &Param| !takes(inherited, &param.key.text) && is_of_own_class(line, param);
@@ -188,7 +189,7 @@ fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     own.is_some_and(|own| own.is_avatar() && !inherited.is_avatar()) || line.params.iter().any(lost)
 }
 
-/// Whether a parameter is one of the class that a line without subtypes names, be it overruled or not.
+/// Tests whether a parameter belongs to the class that a line without subtypes names, overruled or not.
 fn is_of_own_class(line: &SpriteLine, param: &Param) -> bool {
     let own = line.class.as_ref().and_then(|own| SpriteClass::from_name(&own.text));
     line.children.is_empty() && own.is_some_and(|own| takes(own, &param.key.text))
@@ -244,7 +245,7 @@ fn type_info<'a>(
         for param in &sprite.params {
             if !takes(class, &param.key.text) {
                 unknown_parameters += 1;
-                // Of a class that is overruled, that has been told.
+                // The overruled class has been reported already.
                 if !sprite.line.is_some_and(|line| is_of_own_class(line, param)) {
                     rejected.refused.push((class, param));
                 }
@@ -308,7 +309,7 @@ fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClas
     found
 }
 
-/// Drawing order: `wall`, the leaves as the file has them, `avatar` last; updates go backwards (`spec/01` §1.6.5).
+/// Drawing order: `wall`, the leaves in file order, `avatar` last; updates go backwards (`spec/01` §1.6.5).
 fn update_order(leaves: &[String], types: &[TypeInfo]) -> Vec<SpriteType> {
     let named =
         |name: &String| types.iter().position(|info| info.name == *name).map(|at| SpriteType(at as u16));

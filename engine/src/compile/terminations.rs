@@ -8,7 +8,7 @@ use crate::ontology::terminations::{Condition, Decision, NAMES, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
 use smallvec::SmallVec;
 
-/// The terminations, and what they say of the flag that lets counters end the game.
+/// The terminations, and the value that they give the flag that lets counters end the game.
 pub(super) fn terminations(
     description: &Description,
     names: Names<'_>,
@@ -21,7 +21,7 @@ pub(super) fn terminations(
     for line in &description.terminations {
         let mut reader = Reader { line, names, setting, problems };
         can_end = reader.flag("canEnd", can_end);
-        // What is neither true nor false has been told of, and may be meant as true.
+        // A value that is neither true nor false has been reported, and may be meant as true.
         let loses = |param: &Param| param.value.text.to_lowercase().starts_with("false");
         winnable |= reader.param("win").is_some_and(|param| !loses(param));
         if let Some(termination) = reader.termination() {
@@ -42,7 +42,8 @@ pub(super) fn terminations(
     (terminations, can_end)
 }
 
-/// Whether the reference makes a termination of the line, and how many messages it logs about its parameters.
+/// Tests whether the reference makes a termination of the line, and counts the messages that it logs about the
+/// parameters.
 pub(super) fn usable(line: &TerminationLine, names: Names<'_>, setting: Setting) -> (bool, u32) {
     let mut problems = Vec::new();
     let built = Reader { line, names, setting, problems: &mut problems }.termination();
@@ -58,7 +59,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// None where the reference reads no further.
+    /// Compiles the line; `None` if the reference stops reading there.
     fn termination(&mut self) -> Option<Termination> {
         let name = self.line.class.text.as_str();
         let own: &[&str] = match name {
@@ -117,7 +118,7 @@ impl<'a> Reader<'a> {
         Some(Termination { condition, win, decided_by })
     }
 
-    /// What counters decide, in a game of one player, and whether the player can win by it.
+    /// The decision by counters, in a game of one player; the flag is `true` if the player can win by it.
     fn by_counters(&mut self) -> Option<(bool, Decision)> {
         let (used, compared) = (self.flag("use_counter", false), self.flag("compare", false));
         let limits = self.param("limits").and_then(|param| match convert("limits", &param.value.text) {
@@ -131,7 +132,7 @@ impl<'a> Reader<'a> {
                 None
             }
         });
-        // A single number is no list: the reference drops it, and the list stays at 0.
+        // A single number is not a list: the reference drops it, and the list stays at 0.
         let value = limits.map_or(Ok(0), |(param, list)| {
             list.split(',').next().unwrap_or_default().parse::<i32>().map_err(|_| param)
         });
@@ -143,7 +144,7 @@ impl<'a> Reader<'a> {
             (false, ..) => None,
             (true, true, counters) => Some((counters > 1, Decision::Difference)),
             (true, false, 1) => Some((true, Decision::Value(value))),
-            // As many counters as players, or nobody wins.
+            // Unless there are as many counters as players, nobody wins.
             (true, false, _) => Some((false, Decision::Line)),
         }
     }
@@ -161,7 +162,7 @@ impl<'a> Reader<'a> {
         int
     }
 
-    /// A list with an entry a player; a missing entry is a loss.
+    /// The first entry of `win`, a list with an entry for each player; a missing entry is a loss.
     fn win(&mut self) -> bool {
         let Some(param) = self.param("win") else { return false };
         let first = param.value.text.split(',').next().unwrap_or_default();
@@ -189,7 +190,7 @@ impl<'a> Reader<'a> {
         self.names.resolve_value(param, &param.value, self.problems)
     }
 
-    /// Those of several that are given; strictly, the first one is.
+    /// The sprites of those parameters that are given; strictly, the first one must be.
     fn sprites(&mut self, keys: [&str; 3]) -> Option<SmallVec<[SpriteType; 3]>> {
         if self.param(keys[0]).is_none() {
             self.needs(keys[0]);
@@ -201,7 +202,7 @@ impl<'a> Reader<'a> {
         (found.len() == given.len()).then_some(found)
     }
 
-    /// A parameter, unless its value reads as something else than a name.
+    /// The parameter, unless its value reads as something other than a name.
     fn named<'b>(&mut self, param: &'b Param) -> Option<&'b Param> {
         if let Value::Text(_) = convert(&param.key.text, &param.value.text) {
             return Some(param);

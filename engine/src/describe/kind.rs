@@ -1,4 +1,4 @@
-//! What kind of game it is, in words.
+//! The kind of a game, in words.
 
 use super::words::list;
 use crate::analysis::{Spatiality, Taxonomy, Time};

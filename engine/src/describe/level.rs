@@ -1,4 +1,4 @@
-//! What can be said of one level, in words.
+//! The description of one level, in words.
 
 use super::rules;
 use super::words::list;
@@ -6,11 +6,11 @@ use crate::analysis::{Analysis, Cause, Hindrance, Reach};
 use crate::game::SpriteType;
 use crate::level::Level;
 
-/// Sprites that a sentence names one by one, at most.
+/// The maximum number of sprites that a sentence names one by one.
 const MAX_NAMED: usize = 3;
 
-/// What is certain of a level before it is played, a sentence each: how much of it you can get to, and which terminations
-/// can never hold in it.
+/// Sentences about a level that are certain before it is played: how much of it you can reach, and which terminations can
+/// never hold in it.
 pub fn level(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     if reach.is_coarse() {
         return vec!["There is too much in it to tell where everything can be.".to_owned()];
@@ -22,7 +22,7 @@ pub fn level(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     lines
 }
 
-/// Which terminations that win can never hold in a level, and why, a sentence each.
+/// The winning terminations that can never hold in a level, and the reasons, a sentence each.
 pub fn hindered_wins(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     hindrances(analysis, level, reach, |goal| analysis.goals()[goal].win)
 }

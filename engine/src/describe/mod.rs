@@ -17,24 +17,24 @@ use std::fmt;
 /// A game in plain English, in sections of sentences.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Guide {
-    /// What the keys do, a sentence for each avatar type that can occur.
+    /// The function of the keys, a sentence for each avatar type that can occur.
     pub controls: Vec<String>,
-    /// What wins, in order of priority.
+    /// The ways to win, in order of priority.
     pub winning: Vec<String>,
-    /// What loses, in order of priority.
+    /// The ways to lose, in order of priority.
     pub losing: Vec<String>,
-    /// What each other sprite does by itself, a line each, in registry order.
+    /// The behaviour of each other sprite, a line each, in registry order.
     pub sprites: Vec<String>,
-    /// What the names of groups mean in the interactions, a line each.
+    /// The members of the groups that the interactions name, a line each.
     pub groups: Vec<String>,
-    /// What happens by the clock, a line each.
+    /// The effects that run by the clock, a line each.
     pub clockwork: Vec<String>,
-    /// What happens when sprites meet, a line for each interaction, in order of the file.
+    /// The interactions, a line each, in file order.
     pub meetings: Vec<String>,
-    /// What each level character places, by character.
+    /// The sprites that each level character places, by character.
     pub legend: Vec<String>,
-    /// What kind of game it is, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). Not among the sections that
-    /// are printed: it is a judgement on the rules rather than one of them, and a player may be meant to find out.
+    /// The kind of the game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). It is not printed with the
+    /// other sections: it is a judgement on the rules and not one of them, and a player may be meant to find out.
     pub kind: Vec<String>,
 }
 
@@ -59,7 +59,7 @@ impl Guide {
         }
     }
 
-    /// What wins, as one sentence.
+    /// The ways to win, as one sentence.
     pub fn goal(&self) -> String {
         let mut ways = self.winning.iter().map(|way| way.trim_end_matches('.'));
         let Some(first) = ways.next() else { return "Nothing wins.".to_owned() };

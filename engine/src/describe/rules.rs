@@ -54,7 +54,7 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     Some(text)
 }
 
-/// What an execution adds to the game's counters, where the effect itself does not decide it.
+/// The counter changes of an execution, where the effect itself does not decide them.
 fn counters(counting: &Counting) -> String {
     let amount = |on: bool, amount: Option<i32>| if on { amount.unwrap_or(0) } else { 0 };
     let both = counting.counter.iter().zip(&counting.counter_else);
@@ -70,7 +70,7 @@ fn points(change: i32) -> String {
     if change > 0 { format!("You gain {number}") } else { format!("You lose {number}") }
 }
 
-/// What an effect does to the first party when it touches the second.
+/// The effect on the first party when it touches the second.
 fn happens(analysis: &Analysis, effect: &Effect, one: &Party, two: &Party) -> String {
     let name = |stype: SpriteType| analysis.game().name(stype);
     let (s, b) = (&one.name, &two.name);
@@ -290,7 +290,7 @@ pub(super) fn clockwork(analysis: &Analysis) -> Vec<String> {
     rules.timed.iter().filter_map(line).collect()
 }
 
-/// What an effect does without a partner, to every sprite of a type or to none in particular.
+/// The effect without a partner, on every sprite of a type or on none in particular.
 fn by_itself(analysis: &Analysis, effect: &Effect, target: Option<SpriteType>) -> String {
     let name = |stype: SpriteType| analysis.game().name(stype);
     let every = target.map_or_else(|| "everything".to_owned(), |stype| format!("every {}", name(stype)));
@@ -322,7 +322,7 @@ fn by_itself(analysis: &Analysis, effect: &Effect, target: Option<SpriteType>) -
     }
 }
 
-/// One line for each group that a rule names: what belongs to it.
+/// One line for each group that a rule names, with its members.
 pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let named = |stype: SpriteType| {

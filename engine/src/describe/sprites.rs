@@ -1,4 +1,4 @@
-//! What each sprite does by itself, what the player's keys do, what the level characters stand for.
+//! The behaviour of the sprites, the player's keys and the level characters, in words.
 
 use super::words::{a, count, list, pace, percent};
 use crate::analysis::{Analysis, Avatar, Motion, Role, Steering};
@@ -6,8 +6,8 @@ use crate::game::SpriteType;
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
 
-/// One line for each type that can occur and does something by itself, avatars left out; the last one is for those that
-/// only stand there.
+/// One line for each type that can occur and does something by itself, without avatars; the last line lists the types
+/// that only stand there.
 pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let (mut lines, mut still) = (Vec::new(), Vec::new());
@@ -30,7 +30,7 @@ pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     lines
 }
 
-/// What a type does, without its name; nothing for what only stands there.
+/// The behaviour of a type, without its name; empty for types that only stand there.
 fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
@@ -107,7 +107,7 @@ fn making(class: SpriteClass, traits: &crate::ontology::traits::Traits, made: &s
     format!("makes {made} {every}{}{total}", chance(traits.prob))
 }
 
-/// How fast a sprite with these traits moves.
+/// The speed of a sprite with these traits.
 fn step(traits: &crate::ontology::traits::Traits) -> String {
     if traits.continuous {
         return format!("{} pixels a tick", traits.speed);
@@ -126,7 +126,7 @@ fn direction_name(direction: Direction) -> Option<&'static str> {
     names.iter().find(|(known, _)| *known == direction).map(|(_, name)| *name)
 }
 
-/// One line for each avatar: what it looks like from the player's chair, and what the keys do.
+/// One line for each avatar: its place in the game, and its keys.
 pub(super) fn controls(analysis: &Analysis) -> Vec<String> {
     let single = analysis.avatars().len() == 1;
     analysis.avatars().iter().map(|avatar| control(analysis, avatar, single)).collect()
@@ -167,7 +167,7 @@ fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
     text + "."
 }
 
-/// What the keys do, shots apart.
+/// The function of the keys, except for shots.
 fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool) -> &'static str {
     use SpriteClass as C;
     match (class, avatar.steering) {
@@ -194,7 +194,7 @@ fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool
     }
 }
 
-/// One line for each character that the game's levels can use: what it places.
+/// One line for each character that the game's levels can use, with the sprites that it places.
 pub(super) fn legend(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let used = |symbol: &u8| {

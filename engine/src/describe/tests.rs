@@ -150,7 +150,7 @@ fn levels_with_goals_out_of_reach() {
     };
     let lost = "You lose when you are gone, but here nothing can ever end the picker in column 2, row 2.";
     check("wwwwwww\nwApppgw\nwwwwwww\n", &["You can get to 5 of its 21 cells, at most.", lost]);
-    // Of the three pears that the first gate costs there is one.
+    // The first gate costs three pears, and there is only one.
     let won = "You win when no gate, slug or snail is left, but here nothing can ever end the gate in column 4, row 2, \
                the gate in column 5, row 2, the gate in column 6, row 2 and 1 more.";
     check("wwwwwwwww\nwA ggggpw\nwwwwwwwww\n", &["You can get to 7 of its 27 cells, at most.", lost, won]);

@@ -4,12 +4,12 @@ use crate::analysis::Analysis;
 use crate::game::SpriteType;
 use std::fmt::Display;
 
-/// Somebody in a sentence.
+/// A subject or object of a sentence.
 #[derive(Clone, Debug)]
 pub(super) struct Party {
-    /// As the subject or object: `you`, `the crate`, `any beast`, `the edge of the board`.
+    /// The name as a subject or object: `you`, `the crate`, `any beast`, `the edge of the board`.
     pub(super) name: String,
-    /// It is the player.
+    /// `true` for the player.
     pub(super) you: bool,
 }
 
@@ -36,7 +36,7 @@ impl Party {
         Party { name: "the edge of the board".to_owned(), you: false }
     }
 
-    /// Several as one: `the crab or butterfly`, `you or the sword`.
+    /// Several parties as one: `the crab or butterfly`, `you or the sword`.
     pub(super) fn any(parties: &[Party]) -> Party {
         let mut names: Vec<&str> = parties.iter().map(|party| party.name.as_str()).collect();
         for at in (1..names.len()).rev() {
@@ -47,23 +47,23 @@ impl Party {
         Party { name: list(&names, "or"), you: parties.len() == 1 && parties[0].you }
     }
 
-    /// The verb that fits: `you die`, `the crate dies`.
+    /// The matching form of the verb: `you die`, `the crate dies`.
     pub(super) fn verb<'a>(&self, with_you: &'a str, with_it: &'a str) -> &'a str {
         if self.you { with_you } else { with_it }
     }
 
-    /// For a second mention: `you` or `it`.
+    /// The pronoun for a second mention: `you` or `it`.
     pub(super) fn again(&self) -> &'static str {
         if self.you { "you" } else { "it" }
     }
 
-    /// With a verb that people have and things have, too: `you hold`, `it holds`.
+    /// The pronoun with a verb for people and things alike: `you hold`, `it holds`.
     pub(super) fn again_holds(&self) -> &'static str {
         if self.you { "you hold" } else { "it holds" }
     }
 }
 
-/// The types below a type in the SpriteSet that can occur and have sprites; empty for a type of its own.
+/// The types below a type in the SpriteSet that can occur and have sprites; empty for a leaf type.
 pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType> {
     let game = analysis.game();
     let below = |stype: SpriteType| {
@@ -72,7 +72,7 @@ pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType>
     game.sprite_types().filter(|&stype| below(stype)).collect()
 }
 
-/// With its article: `a crate`, `an eel`.
+/// A name with its article: `a crate`, `an eel`.
 pub(super) fn a(name: &str) -> String {
     let vowel = name.starts_with(['a', 'e', 'i', 'o', 'u', 'A', 'E', 'I', 'O', 'U']);
     format!("{} {name}", if vowel { "an" } else { "a" })
@@ -90,7 +90,7 @@ pub(super) fn list(names: &[impl Display], word: &str) -> String {
     }
 }
 
-/// With a capital at the start and a full stop at the end.
+/// A text with a capital at the start and a full stop at the end.
 pub(super) fn sentence(text: &str) -> String {
     let mut characters = text.chars();
     let first: String = characters.next().into_iter().flat_map(char::to_uppercase).collect();
@@ -111,7 +111,7 @@ pub(super) fn percent(probability: f64) -> String {
     format!("{}%", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// How fast something moves that goes `speed` cells at a time, every `cooldown` ticks.
+/// The speed of a move of `speed` cells every `cooldown` ticks.
 pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     let cooldown = i64::from(cooldown);
     let per_cell = (1.0 / speed + 0.5) as i64;

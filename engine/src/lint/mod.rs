@@ -1,5 +1,5 @@
-//! What is legal in a game but surely not meant, as far as the meaning of its rules tells. (What the text alone tells, the
-//! parser and the compiler say.)
+//! Semantic lints: legal rules that are almost certainly mistakes, as far as the analysis of the rules can tell. (The
+//! parser and the compiler report mistakes that the text alone reveals.)
 
 mod swapped;
 mod terminations;
@@ -13,7 +13,7 @@ use crate::game::{Game, SpriteType};
 use crate::ontology::class::SpriteClass;
 use crate::syntax::Param;
 
-/// All warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].
+/// Returns all warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].
 pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
     let linter = Linter { game, analysis: &Analysis::of(game) };
     let mut problems = Vec::new();
@@ -33,7 +33,7 @@ struct Linter<'a> {
 }
 
 impl Linter<'_> {
-    /// Interactions of sprites that never meet, or that need more of a resource than anyone can have.
+    /// Reports interactions of sprites that never meet, or that need more of a resource than any sprite can have.
     fn rules_that_never_fire(&self, problems: &mut Vec<Diagnostic>) {
         let lines = &self.game.description().interactions;
         for (number, line) in lines.iter().enumerate() {
@@ -43,7 +43,7 @@ impl Linter<'_> {
             else {
                 continue;
             };
-            // What is never there has been told of by itself.
+            // Types that never occur have a warning of their own.
             let Some(reason) = reasons.into_iter().find(|reason| !reason.is_empty()) else { continue };
             let span = Span::new(line.first.span.start, line.effect.span.end);
             let message = format!("this rule never fires: {reason}");
@@ -52,7 +52,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Interactions that put back what never moves, where nothing else stops the avatar that walks into it.
+    /// Reports interactions that move back a sprite that never moves, while nothing else stops the avatar that walks
+    /// into it.
     fn barriers_that_hold_nobody(&self, problems: &mut Vec<Diagnostic>) {
         let encounters = self.analysis.encounters();
         for (number, line) in self.game.description().interactions.iter().enumerate() {
@@ -64,7 +65,7 @@ impl Linter<'_> {
                 let Some(avatar) = encounter.second.filter(|_| !still.is_empty()) else { return false };
                 let plays = |stype: &SpriteType| self.game.class(*stype).is_some_and(SpriteClass::is_avatar);
                 let avatars = self.tree(avatar);
-                // Whatever happens to the avatar there, it was thought of.
+                // Any effect on the avatar there counts as intended.
                 let meets = |other: &Encounter| {
                     let avatar = avatars.iter().any(|&stype| self.analysis.applies(other.first, stype));
                     let second =
@@ -95,7 +96,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Why an interaction never happens; empty if one of the two is never there; None if it may happen.
+    /// Returns the reason why an interaction never happens; empty if one of the two never occurs; None if it may
+    /// happen.
     fn idle(&self, encounter: &Encounter) -> Option<String> {
         let name = |stype: SpriteType| self.game.name(stype);
         let first = self.tree(encounter.first);
@@ -130,7 +132,7 @@ impl Linter<'_> {
         })
     }
 
-    /// The types that a rule on `written` holds for and that can occur.
+    /// Returns the types that can occur and for which a rule on `written` holds.
     fn tree(&self, written: SpriteType) -> Vec<SpriteType> {
         let types = self.game.sprite_types();
         types
@@ -138,7 +140,7 @@ impl Linter<'_> {
             .collect()
     }
 
-    /// Whether sprites of the type can be elsewhere than where a level places them.
+    /// Returns `true` if sprites of the type can be in other cells than those in which a level places them.
     fn roams(&self, stype: SpriteType) -> bool {
         let facts = self.analysis.facts(stype);
         let info = &self.game.0.types[stype.index()];
@@ -163,7 +165,7 @@ impl Linter<'_> {
             })
     }
 
-    /// Whether a sprite can come to hold more of a resource.
+    /// Returns `true` if a sprite can gain more of a resource.
     fn gained(&self, resource: SpriteType) -> bool {
         self.analysis.encounters().iter().any(|encounter| {
             encounter.does(|deed| match deed {
@@ -174,7 +176,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Sprites that take part in rules and are drawn under scenery that takes part in none.
+    /// Reports sprites that take part in rules but are drawn under scenery that takes part in none.
     fn hidden_sprites(&self, problems: &mut Vec<Diagnostic>) {
         let rules = &self.game.0;
         let acts = |stype: SpriteType| {
@@ -208,7 +210,8 @@ impl Linter<'_> {
         }
     }
 
-    /// An avatar type that is drawn before all others: the reference does not look for the player's avatar there.
+    /// Reports an avatar type that is drawn before all others: the reference does not look for the player's avatar
+    /// there.
     fn lost_avatar(&self, problems: &mut Vec<Diagnostic>) {
         let Some(&first) = self.game.0.order.first() else { return };
         if self.game.class(first).is_some_and(SpriteClass::is_avatar) {
@@ -222,12 +225,12 @@ impl Linter<'_> {
         }
     }
 
-    /// Parameters that no class that has them looks at.
+    /// Reports parameters that are ignored by every class that has them.
     fn ignored_parameters(&self, problems: &mut Vec<Diagnostic>) {
         let mut found: Vec<(&Param, bool, String)> = Vec::new();
         for (_, line) in self.game.description().sprite_lines() {
             let Some(stype) = self.game.sprite_type(&line.name.text) else { continue };
-            // On a parent's line it is for the subtypes to take or leave.
+            // On a parent's line, the subtypes may use it or not.
             let heirs: Vec<SpriteType> = self
                 .game
                 .sprite_types()
@@ -257,7 +260,7 @@ impl Linter<'_> {
         }
     }
 
-    /// Whether sprites of the type behave otherwise for the parameter.
+    /// Returns `true` if the parameter changes the behaviour of sprites of the type.
     fn looks_at(&self, stype: SpriteType, key: &str) -> bool {
         use SpriteClass as C;
         let info = &self.game.0.types[stype.index()];
@@ -304,7 +307,7 @@ BasicGame
         Timeout limit=300 win=True
 ";
 
-    /// The codes and lines of the warnings about the game with something replaced.
+    /// Checks the codes and lines of the warnings about the game with some text replaced.
     #[track_caller]
     pub(super) fn check(replace: &str, with: &str, expect: &[(&str, usize)]) {
         assert!(GAME.contains(replace), "{replace}");
@@ -324,7 +327,7 @@ BasicGame
     fn rules_that_never_fire() {
         let rule = "avatar stone fence nest > stepBack\n";
         check(rule, &format!("{rule}        stone fence > killSprite\n"), &[("never-fires", 20)]);
-        // Two in one cell.
+        // Two stones in one cell.
         let both = &GAME.replace("s > grass stone", "s > grass stone stone");
         assert!(
             Game::from_source(&both.replace(rule, &format!("{rule}        stone stone > killSprite\n")))
@@ -332,7 +335,7 @@ BasicGame
                 .warnings()
                 .is_empty()
         );
-        // Pushed things move.
+        // Pushed sprites move.
         let pushed = format!("{rule}        stone avatar > bounceForward\n        stone fence > undoAll\n");
         check(rule, &pushed, &[]);
         check("egg avatar > collectResource", "egg avatar > killSprite", &[("never-fires", 21)]);

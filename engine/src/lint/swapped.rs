@@ -1,4 +1,4 @@
-//! Rules whose two sides are the wrong way round.
+//! Rules whose two sides are swapped.
 
 use crate::analysis::Analysis;
 use crate::diagnostic::{Diagnostic, Span};
@@ -7,25 +7,25 @@ use crate::ontology::class::SpriteClass;
 use crate::syntax::{Description, InteractionLine};
 use std::fmt::Write;
 
-/// An interaction that most likely has its two sides swapped.
+/// An interaction whose two sides are most likely swapped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SwappedRule {
     /// Index of the line in [`Description::interactions`].
     pub line: usize,
     /// Its sprites and its effect.
     pub span: Span,
-    /// The rule most likely meant: a line for each partner.
+    /// The rule most likely intended: a line for each partner.
     pub repaired: Vec<String>,
 }
 
-/// Interactions of a game in which a swapped one is looked for: each takes two analyses.
+/// The largest number of interactions in a game that is searched for a swapped one: each takes two analyses.
 const MAX_LINES: usize = 128;
-/// The same times its sprite types.
+/// The largest product of interactions and sprite types in such a game.
 const MAX_TRIED: usize = 1 << 13;
 
-/// The one interaction without which, as it stands, a game still cannot be won, and with which, once its sides are swapped, it
-/// can; `wins` says whether a game can be won. None if there is no such line, or several. Cost: two games compiled and two
-/// calls of `wins` for each line; nothing is tried in games of unusual size.
+/// Returns the one interaction whose removal leaves the game unwinnable, but whose sides, once swapped, make it
+/// winnable; `wins` tells whether a game can be won. None if there is no such line, or several. Cost: two compilations
+/// and two calls of `wins` for each line; games of unusual size are skipped.
 pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<SwappedRule> {
     let description = game.description();
     let lines = &description.interactions;
@@ -48,13 +48,14 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
         goals.any(|goal| any(name, &|stype| goal.condition.types().contains(&stype)))
     };
     let plays = |name: &str| any(name, &|stype| game.class(stype).is_some_and(SpriteClass::is_avatar));
-    // What acts on what counts for an ending is the right way round; what is between two others was hardly meant for the win.
+    // A rule whose first sprite counts for an ending is the right way round; a rule between two unrelated sprites was
+    // hardly intended for the win.
     let suspect = |line: &InteractionLine| {
         let first = line.first.text.as_str();
         let partner = line.second.iter().any(|word| plays(&word.text) || counts(&word.text, true));
         !counts(first, true) && (plays(first) || partner && !counts(first, false))
     };
-    // Where the game can be won without the line, the line is in the way as it is: that makes no other one of it.
+    // If the game can be won without the line, the line is merely in the way: that does not make it a swapped one.
     let repairs =
         |at: &usize| swapped(&lines[*at]).is_some_and(|swapped| with(*at, swapped)) && !with(*at, Vec::new());
     let mut found = (0..lines.len()).filter(|&at| suspect(&lines[at])).filter(repairs);
@@ -65,7 +66,7 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
     Some(SwappedRule { line, span, repaired })
 }
 
-/// The line with its sides swapped: a line for each partner.
+/// Returns the line with its sides swapped: a line for each partner.
 fn swapped(line: &InteractionLine) -> Option<Vec<InteractionLine>> {
     let sides = || line.second.iter().chain([&line.first]);
     let is_sprite = |name: &str| !["EOS", "TIME"].contains(&name);
@@ -90,7 +91,7 @@ fn in_words(line: &InteractionLine) -> String {
     text
 }
 
-/// The swapped rule because of which a game cannot be won at all, and the game with it repaired.
+/// Returns the warning about the swapped rule that makes a game unwinnable, and the game with that rule repaired.
 pub(super) fn told(game: &Game) -> Option<(Diagnostic, Game)> {
     let found = swapped_rule(game, |game| Analysis::of(game).can_win())?;
     let SwappedRule { line, span, repaired } = found;
@@ -111,7 +112,7 @@ mod tests {
     use super::*;
     use crate::lint::tests::GAME;
 
-    /// A game that is won when the chick is gone, which takes two eggs.
+    /// A game that is won when the chick is removed, which takes two eggs.
     fn game(replace: &str, with: &str) -> Game {
         let source = GAME
             .replace(
@@ -147,11 +148,11 @@ mod tests {
 
     #[test]
     fn a_rule_that_is_only_in_the_way_is_not_taken_for_a_swapped_one() {
-        // Nothing ends posts, whatever is swapped; and without the fences nothing would be won either.
+        // Nothing removes posts, even with swapped rules; and without the fences no game would be won either.
         let immortal = game("stype=chick win", "stype=post win");
         check(&immortal, &[("no-win", "add a rule that lowers it, or another termination")]);
         let found = swapped_rule(&immortal, |game| {
-            // As in a level in which a fence stands before the post.
+            // Models a level in which a fence stands before the post.
             !Analysis::of(game).encounters().iter().any(|encounter| encounter.blocks())
         });
         assert_eq!(found, None);

@@ -9,7 +9,8 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::terminations::{Condition, Decision, can_be_held_up};
 use crate::syntax::{Param, TerminationLine};
 
-/// Terminations that hold when an episode of the level starts, by what the level places; `cells` are its characters.
+/// Returns warnings about terminations that hold when an episode of the level starts, given the level's characters
+/// `cells`.
 pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
     let rules = &game.0;
     if can_be_held_up(rules) {
@@ -21,7 +22,7 @@ pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
     }
     let tree = |written: SpriteType| rules.types[written.index()].tree.iter().copied();
     let count = |written: SpriteType| tree(written).map(|stype| placed[stype.index()]).sum::<i64>();
-    // What a placed sprite makes may be there before the first check.
+    // Sprites made by a placed sprite may exist before the first check.
     let made = |written: SpriteType| {
         let makers = game.sprite_types().filter(|stype| placed[stype.index()] > 0);
         makers
@@ -60,14 +61,14 @@ pub(crate) fn over_at_start(game: &Game, cells: &[u8]) -> Vec<Diagnostic> {
     problems
 }
 
-/// Where a termination says how many, or else its class.
+/// Returns the span of the limit of a termination, or of its class if it has none.
 fn limit_of(line: &TerminationLine) -> Span {
     let limit = line.params.iter().rfind(|param| param.key.text == "limit");
     limit.map_or(line.class.span, Param::span)
 }
 
 impl Linter<'_> {
-    /// Terminations that hold at the start or never, and the lack of one that can come to hold.
+    /// Reports terminations that hold at the start or never, and the lack of one that can become true.
     pub(super) fn terminations(&self, problems: &mut Vec<Diagnostic>) {
         let lines = &self.game.description().terminations;
         let all = &self.game.0.terminations;
@@ -102,17 +103,17 @@ impl Linter<'_> {
         }
     }
 
-    /// That the rules cannot bring about a win, or a loss, unless another warning says why.
+    /// Reports that the rules cannot lead to a win, or to a loss, unless another warning gives the reason.
     pub(super) fn lacking_ends(&self, problems: &mut Vec<Diagnostic>) {
         if problems.iter().any(|problem| problem.code == "ends-at-once") {
             return;
         }
         if !self.analysis.can_win() {
-            // What is never there has been told of; it may well be why.
+            // Types that never occur already have a warning, and may well be the reason.
             let told = self.game.0.warnings.iter().any(|problem| problem.code == "never-there");
             match Some(self.game).filter(|_| !told).and_then(swapped::told) {
                 Some((problem, repaired)) => {
-                    // What never fires because of it is no problem of its own.
+                    // Rules that never fire because of the swapped rule are no problems of their own.
                     let mut left = Vec::new();
                     let linter = Linter { game: &repaired, analysis: &Analysis::of(&repaired) };
                     linter.rules_that_never_fire(&mut left);
@@ -136,7 +137,7 @@ impl Linter<'_> {
             let Some((line, (reason, help))) = told else { return };
             (line, reason, help)
         } else {
-            // That none wins, the compiler tells.
+            // The compiler reports that no termination wins.
             let Some(first) = lines.first().filter(|_| !win) else { return };
             let reason = "no termination has `win=False`".to_owned();
             (first, reason, "add a Timeout, or what ends the game badly".to_owned())
@@ -144,7 +145,7 @@ impl Linter<'_> {
         problems.push(Diagnostic::warning(code, line.class.span, format!("{fault}: {reason}")).help(help));
     }
 
-    /// Why play does not bring a goal about, and what would help; None if another warning says so.
+    /// Returns the reason why play cannot attain a goal, and a suggestion; None if another warning gives it.
     fn unattained(&self, goal: &Goal) -> Option<(String, String)> {
         let stypes = match &self.game.0.terminations[goal.line].condition {
             Condition::SpriteCounter { stype, .. }
@@ -182,8 +183,8 @@ impl Linter<'_> {
         (!told).then(|| (reason, format!("add a rule that {verb} it, or another termination")))
     }
 
-    /// The rule that would end sprites of this type, if it asks for more of a resource than anybody can hold; and what would
-    /// help.
+    /// Returns the rule that would remove sprites of this type, if it requires more of a resource than any sprite can
+    /// hold, and a suggestion.
     fn out_of_hands(&self, written: SpriteType) -> Option<(String, String)> {
         let lines = &self.game.description().interactions;
         let encounters = self.analysis.encounters();
@@ -193,7 +194,7 @@ impl Linter<'_> {
             let ends = encounter.ends(Side::First) && on(encounter.first)
                 || encounter.ends(Side::Second) && encounter.second.is_some_and(on);
             let info = &self.game.0.types[resource.index()];
-            // What is given otherwise than by collecting may go beyond the limit.
+            // Amounts given by anything but collecting may exceed the limit.
             let given = encounters.iter().any(|other| {
                 other.does(|deed| matches!(deed, Deed::Change { resource: of, .. } if *of == resource))
             });
@@ -215,7 +216,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Whether sprites that count as this type would change by a rule that never happens, of which another warning tells.
+    /// Returns `true` if sprites counted as this type would be changed by a rule that never happens, which has a
+    /// warning of its own.
     fn has_idle_rules(&self, written: SpriteType) -> bool {
         let counts = |side: SpriteType| self.analysis.applies(side, written);
         let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
@@ -225,7 +227,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Whether a level can place what counts as this type, or something makes it in the first tick.
+    /// Returns `true` if a level can place sprites counted as this type, or something makes them in the first tick.
     fn at_start(&self, written: SpriteType) -> bool {
         self.game.sprite_types().filter(|&stype| self.analysis.applies(written, stype)).any(|stype| {
             let maker = |other: SpriteType| {
@@ -257,7 +259,7 @@ mod tests {
         check("stype=nest win=False", "stype=nest win=True", &[("no-lose", 23)]);
     }
 
-    /// What is said of the game with this TerminationSet and one rule more.
+    /// Checks the messages about the game with this TerminationSet and one more rule.
     #[track_caller]
     fn check_ends(rule: &str, terminations: &str, expect: &[&str]) {
         let (head, _) = GAME.split_once("        SpriteCounter").unwrap();
@@ -286,7 +288,7 @@ mod tests {
         check_ends(turn, &format!("{sum}\n        {lost}"), &[reason]);
         let reason = "the game cannot be won: the number of `stone` is never below 0";
         check_ends(rule, &format!("SpriteCounter stype=stone limit=-1 win=True\n        {lost}"), &[reason]);
-        // What is told of already is told once.
+        // A problem that has a warning is reported only once.
         let never = "an episode has 2000 ticks at most: this never happens";
         check_ends(rule, &format!("Timeout limit=9000 win=True\n        {lost}"), &[never]);
         let at_once = "this holds at the start of every level: the game is over in its first tick";
@@ -327,7 +329,7 @@ mod tests {
 
     #[test]
     fn what_holds_from_the_start_may_be_held_up() {
-        // This holds from the start, and ends nothing.
+        // This holds from the start and ends nothing.
         let ends = "SpriteCounterMore stype=stone win=True canEnd=False\n        Timeout limit=300 win=False";
         check_ends("stone chick > killSprite", ends, &[]);
     }

@@ -1,4 +1,4 @@
-//! What the player's sprite does with the player's action (`spec/02` §9).
+//! The avatars: the player's sprite and its reaction to actions (`spec/02` §9).
 
 use super::class::SpriteClass;
 use super::sprites::walkers::jump;
@@ -9,7 +9,7 @@ use crate::state::{Slot, flag};
 use crate::step::Step;
 use crate::trigonometry::{cos, sin};
 
-/// The update of the player's avatar, before all other sprites.
+/// Updates the player's avatar, before all other sprites.
 pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
     use SpriteClass as C;
     let stype = step.state.sprite(slot).stype;
@@ -53,7 +53,7 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, action: Action) {
     }
 }
 
-/// Where an action leads, of [`Direction::BASE`].
+/// The direction of an action, as an index into [`Direction::BASE`].
 fn base(action: Action) -> Option<usize> {
     match action {
         Action::Up => Some(0),
@@ -68,7 +68,7 @@ fn is_off_grid(step: &Step<'_>, slot: Slot) -> bool {
     step.rules.types[step.state.sprite(slot).stype.index()].traits.off_grid
 }
 
-/// The passive movement that grid physics does not give to avatars.
+/// The passive movement, which avatars with grid physics do not have.
 fn glide(step: &mut Step<'_>, slot: Slot) {
     if is_off_grid(step, slot) {
         physics::passive(step, slot);
@@ -85,7 +85,7 @@ fn moving(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
     }
 }
 
-/// Faces where it went.
+/// Moves, and faces the direction of the move.
 #[inline(always)]
 fn oriented(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
     let movement = moving(step, slot, action);
@@ -102,7 +102,7 @@ fn shooting(step: &mut Step<'_>, slot: Slot, action: Action) {
     }
 }
 
-/// Shoots from its own corner, if it has ammunition; the shot keeps its own orientation.
+/// Shoots from its own corner if it has ammunition; the shot keeps its own orientation.
 fn flak(step: &mut Step<'_>, slot: Slot) {
     let sprite = *step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
@@ -118,14 +118,14 @@ fn flak(step: &mut Step<'_>, slot: Slot) {
         step.add(traits.stypes.first().copied().unwrap_or(SpriteType::NONE), sprite.rect.x, sprite.rect.y)
     {
         if let Some(ammo) = ammo {
-            // The reference stores the difference as it is: ammunition may go below 0.
+            // The reference does not clamp the difference: ammunition may go below 0.
             step.state.overdraw(slot, ammo, traits.ammo_cost);
         }
         step.state.edit(shot).set(flag::FROM_AVATAR, true);
     }
 }
 
-/// Shoots the first kind of shot that it has ammunition for, one body length ahead.
+/// Shoots the first kind of shot for which it has ammunition, one body length ahead.
 fn shoot(step: &mut Step<'_>, slot: Slot) {
     let facing = step.state.form(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
@@ -164,7 +164,7 @@ fn shoot_kind(step: &mut Step<'_>, slot: Slot, kind: usize, facing: Direction) {
     }
 }
 
-/// Each key shoots another kind, always the same way.
+/// Shoots a different kind of shot with each key, always in the same direction.
 fn shoot_only(step: &mut Step<'_>, slot: Slot, action: Action) {
     glide(step, slot);
     let kind = match action {
@@ -182,7 +182,7 @@ fn shoot_only(step: &mut Step<'_>, slot: Slot, action: Action) {
     }
 }
 
-/// Turns to the sides only, and leaves something behind.
+/// Turns only at right angles, and leaves sprites behind.
 fn ongoing_turning(step: &mut Step<'_>, slot: Slot, direction: Direction) {
     let facing = step.state.form(slot).orientation;
     if direction != Direction::NONE && direction.x * facing.x + direction.y * facing.y == 0.0 {
@@ -219,7 +219,7 @@ fn aimed(step: &mut Step<'_>, slot: Slot, action: Action) {
     thrust(step, slot, action);
 }
 
-/// Along the rotation, or against it.
+/// Moves along the rotation, or against it.
 fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
     let rotation = step.state.rotation(step.rules, step.state.sprite(slot));
     let speed = step.state.form(slot).speed;
@@ -230,7 +230,7 @@ fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
     };
 }
 
-/// Left and right turn the rotation.
+/// Turns the rotation with the left and right keys.
 fn steer(step: &mut Step<'_>, slot: Slot, action: Action) {
     let diff = step.rules.types[step.state.sprite(slot).stype.index()].traits.angle_diff;
     let extra = step.state.extra(step.rules, slot);
@@ -252,7 +252,7 @@ fn spaceship(step: &mut Step<'_>, slot: Slot, action: Action) {
     thrust(step, slot, action);
 }
 
-/// Forwards or backwards, always at the same thrust.
+/// Drives forwards or backwards, always with the same thrust.
 fn car(step: &mut Step<'_>, slot: Slot, action: Action) {
     glide(step, slot);
     steer(step, slot, action);
@@ -289,7 +289,7 @@ fn bird(step: &mut Step<'_>, slot: Slot, action: Action) {
     step.state.extra(step.rules, slot).rotation = libm::atan2(facing.y, facing.x);
 }
 
-/// Runs, and jumps off the ground that the last events found.
+/// Runs, and jumps if the last event phase found ground.
 fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
     glide(step, slot);
     let sprite = *step.state.sprite(slot);
@@ -306,10 +306,10 @@ fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Act
     }
 }
 
-/// Ticks between two blocks of a wizard.
+/// The number of ticks between two blocks of a wizard.
 pub(crate) const BLOCK_PAUSE: i32 = 5;
 
-/// A platformer that puts blocks where it looks.
+/// Acts as a platformer, and puts blocks where it faces.
 fn wizard(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Action) {
     platformer(step, slot, direction, action);
     let rules = step.rules;

@@ -1,8 +1,8 @@
-//! The sprite classes of VGDL (`spec/02` §6–§9, §12): names, families, what each adds to the base sprite.
+//! The sprite classes of VGDL (`spec/02` §6–§9, §12): names, hierarchy and additional parameters.
 
 use crate::game::Action;
 
-/// Declares the classes once: variant, VGDL name is the variant's, `parent` is the class it extends.
+/// Declares the classes once: the variant, which is also the VGDL name, and the class that it extends.
 macro_rules! classes {
     ($($name:ident : $parent:ident, $own:expr;)*) => {
         /// A sprite class, named as in VGDL.
@@ -11,10 +11,10 @@ macro_rules! classes {
         pub enum SpriteClass { $($name),* }
 
         impl SpriteClass {
-            /// Every class that the engine plays.
+            /// All classes that the engine supports.
             pub const ALL: &[SpriteClass] = &[$(SpriteClass::$name),*];
 
-            /// As written in VGDL.
+            /// The name in VGDL.
             pub fn name(self) -> &'static str {
                 match self { $(SpriteClass::$name => stringify!($name)),* }
             }
@@ -91,27 +91,27 @@ impl SpriteClass {
         SpriteClass::ALL.iter().copied().find(|class| class.name() == name)
     }
 
-    /// Whether this class is `ancestor` or extends it.
+    /// Tests whether this class is `ancestor` or extends it.
     pub fn is_a(self, ancestor: SpriteClass) -> bool {
         self == ancestor || (self.parent() != self && self.parent().is_a(ancestor))
     }
 
-    /// Whether a player can control it.
+    /// Tests whether a player can control it.
     pub fn is_avatar(self) -> bool {
         self.is_a(SpriteClass::MovingAvatar)
     }
 
-    /// Whether sprites of the class make others by the clock (`spec/02` §8).
+    /// Tests whether sprites of the class produce others by the clock (`spec/02` §8).
     pub(crate) fn is_spawner(self) -> bool {
         self.is_a(SpriteClass::SpawnPoint) || self == SpriteClass::SpawnPointMultiSprite
     }
 
-    /// Whether sprites of the class notice what they stand on (`spec/02` §2.5).
+    /// Tests whether sprites of the class detect the ground (`spec/02` §2.5).
     pub(crate) fn is_ground_aware(self) -> bool {
         self.is_a(SpriteClass::PlatformerAvatar) || self.is_a(SpriteClass::Walker)
     }
 
-    /// The parameters that this class has beyond the base sprite's, its parents' included.
+    /// The parameters that this class has in addition to the base sprite's, including those of its parents.
     pub fn parameters(self) -> Vec<&'static str> {
         let inherited = if self.parent() == self { Vec::new() } else { self.parent().parameters() };
         inherited.into_iter().chain(self.own_parameters().iter().copied()).collect()

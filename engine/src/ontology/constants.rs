@@ -12,7 +12,7 @@ pub(crate) enum Constant {
     Unusable,
 }
 
-/// The constant of that name, exact case.
+/// The constant with that name; case matters.
 pub(crate) fn constant(name: &str) -> Option<Constant> {
     use Constant::{Color, Int};
     let bare = name.strip_prefix('D').filter(|rest| DIRECTIONS.iter().any(|(name, _)| name == rest));

@@ -1,5 +1,5 @@
-//! What VGDL's words do: sprite classes, avatars, effects, terminations, physics. Each set is closed: an enum, matched in
-//! one place; a file holds one tight family.
+//! The vocabulary of VGDL: sprite classes, avatars, effects, terminations, physics. Each set is closed: an enum, matched
+//! in one place; a file holds one family of related items.
 
 pub(crate) mod avatars;
 pub(crate) mod class;

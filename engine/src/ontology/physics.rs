@@ -6,7 +6,7 @@ use crate::geometry::{Direction, Rect};
 use crate::state::{Slot, flag};
 use crate::step::Step;
 
-/// What an active movement did.
+/// The result of an active movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Movement {
     Still,
@@ -14,7 +14,7 @@ pub(crate) enum Movement {
     Move,
 }
 
-/// Pixels of a grid cell as physics sees it: continuous physics has a constant of its own.
+/// The size of a grid cell in pixels as physics uses it: continuous physics has a constant of its own.
 pub(crate) fn grid_size(step: &Step<'_>, slot: Slot) -> f64 {
     if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.state.block) }
 }
@@ -23,7 +23,8 @@ fn is_continuous(rules: &Rules, step: &Step<'_>, slot: Slot) -> bool {
     rules.types[step.state.sprite(slot).stype.index()].traits.continuous
 }
 
-/// Moves a sprite along its own orientation, unless it is static. The first call only marks the sprite as having had it.
+/// Moves a sprite along its own orientation, unless it is static. The first call only clears the sprite's first-tick
+/// flag.
 #[inline]
 pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
     let sprite = step.state.sprite(slot);
@@ -61,7 +62,7 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
     }
 }
 
-/// Where passive movement takes a sprite of grid physics; None if nowhere.
+/// The rectangle after passive movement with grid physics; `None` if the sprite does not move.
 pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
     let sprite = step.state.sprite(slot);
     let &Form { orientation, speed, .. } = step.state.form_of(sprite);
@@ -73,7 +74,7 @@ pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
     step.shifted(slot, orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
-/// Moves a sprite where it, or its player, wants to go. A speed of 0 stands for the sprite's own.
+/// Moves a sprite in the direction that it, or its player, chooses. A speed of 0 stands for the sprite's own.
 #[inline]
 pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, speed: f64) -> Movement {
     let sprite = step.state.sprite(slot);
@@ -110,7 +111,7 @@ pub(crate) fn active_along(step: &mut Step<'_>, slot: Slot, base: usize, speed: 
     if step.displace_along(slot, base, pixels) { Movement::Move } else { Movement::Still }
 }
 
-/// Continuous physics: a force changes orientation and speed; the next passive movement moves.
+/// Applies a force in continuous physics: it changes orientation and speed; the next passive movement moves the sprite.
 fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> Movement {
     let &Form { orientation, speed: own, .. } = step.state.form(slot);
     let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
@@ -131,7 +132,7 @@ fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> 
     if force == Direction::NONE { Movement::Still } else { Movement::Move }
 }
 
-/// Changes the orientation if the sprite has one and it is another.
+/// Changes the orientation if the sprite has one and it differs.
 #[inline(always)]
 pub(crate) fn turn(step: &mut Step<'_>, slot: Slot, direction: Direction) -> bool {
     let sprite = step.state.sprite(slot);
@@ -142,7 +143,7 @@ pub(crate) fn turn(step: &mut Step<'_>, slot: Slot, direction: Direction) -> boo
     true
 }
 
-/// Distance of top-left corners: Manhattan on the grid, Euclidean in continuous physics.
+/// The distance of the top-left corners: Manhattan on the grid, Euclidean in continuous physics.
 pub(crate) fn distance(continuous: bool, a: Rect, b: Rect) -> f64 {
     let (dx, dy) = (f64::from(a.x) - f64::from(b.x), f64::from(a.y) - f64::from(b.y));
     if continuous { (dy * dy + dx * dx).sqrt() } else { dy.abs() + dx.abs() }

@@ -1,4 +1,4 @@
-//! When a game ends (`spec/01` §4.8).
+//! The terminations: conditions that end a game (`spec/01` §4.8).
 
 use crate::game::{Rules, SpriteType};
 use crate::state::State;
@@ -8,38 +8,38 @@ use smallvec::SmallVec;
 #[derive(Clone, Debug)]
 pub(crate) struct Termination {
     pub(crate) condition: Condition,
-    /// Whether the player wins by it, or may.
+    /// `true` if the player wins, or may win, by it.
     pub(crate) win: bool,
-    /// What else decides.
+    /// The decision between win and loss.
     pub(crate) decided_by: Decision,
 }
 
-/// What decides whether the player wins by a termination (`spec/01` §4.8, with one player).
+/// The decision between win and loss by a termination (`spec/01` §4.8, with one player).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Decision {
-    /// `win`.
+    /// The `win` of the line.
     Line,
-    /// `count_score`: any score but 0 is the highest one.
+    /// `count_score`: any score other than 0 wins.
     Score,
-    /// `use_counter` and `compare`: counters that are not all equal.
+    /// `use_counter` and `compare`: the player wins if the counters are not all equal.
     Difference,
-    /// `use_counter`: the one counter has this value.
+    /// `use_counter`: the player wins if the only counter has this value.
     Value(i32),
 }
 
 #[derive(Clone, Debug)]
 pub(crate) enum Condition {
-    /// At most so many are left.
+    /// Holds while at most `limit` sprites are left.
     SpriteCounter { stype: SpriteType, limit: i32 },
-    /// At least so many are there.
+    /// Holds while there are at least `limit` sprites.
     SpriteCounterMore { stype: SpriteType, limit: i32 },
-    /// Exactly so many of several types together; `min`: that many or more.
+    /// Holds while several types together have exactly `limit` sprites, or at least as many if `min`.
     MultiSpriteCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
-    /// Exactly so many of a type, of so many kinds.
+    /// Holds while a type has exactly `limit` sprites, of `kinds` kinds.
     MultiSpriteCounterSubTypes { stype: SpriteType, limit: i32, kinds: i32 },
-    /// Never holds, and keeps counters from ending the game while the sum is the limit (`min`: is above it).
+    /// Never holds, but keeps counters from ending the game while the sum equals the limit, or exceeds it if `min`.
     StopCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
-    /// The tick is reached.
+    /// Holds from the tick `limit` on.
     Timeout { limit: i32 },
 }
 
@@ -53,14 +53,14 @@ pub const NAMES: &[&str] = &[
     "Timeout",
 ];
 
-/// Whether something can keep counting terminations that hold from ending the game.
+/// Tests whether anything can keep counting terminations that hold from ending the game.
 pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
     !rules.can_end
         || rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }))
 }
 
 impl Termination {
-    /// The tick from which on it holds, of those that hold by the tick.
+    /// The tick from which on it holds, for terminations that depend on the tick.
     pub(crate) fn timeout(&self) -> Option<i32> {
         match self.condition {
             Condition::Timeout { limit } => Some(limit),
@@ -68,7 +68,7 @@ impl Termination {
         }
     }
 
-    /// The types whose families it counts.
+    /// The types whose trees it counts.
     pub(crate) fn counts(&self) -> &[SpriteType] {
         match &self.condition {
             Condition::SpriteCounter { stype, .. }
@@ -79,7 +79,7 @@ impl Termination {
         }
     }
 
-    /// Whether the game ends by it now.
+    /// Tests whether it ends the game now.
     pub(crate) fn holds(&self, rules: &Rules, state: &State) -> bool {
         let sum =
             |stypes: &[SpriteType]| stypes.iter().map(|&stype| state.count_live(rules, stype)).sum::<i32>();
@@ -104,7 +104,7 @@ impl Termination {
         counted && state.can_end
     }
 
-    /// Whether the player wins by it, now that it holds.
+    /// Tests whether the player wins by it, given that it holds.
     pub(crate) fn wins(&self, state: &State) -> bool {
         match self.decided_by {
             Decision::Line => self.win,
@@ -114,7 +114,7 @@ impl Termination {
         }
     }
 
-    /// Whether counters may end the game from here on, if this termination is one that says so.
+    /// The new value of the flag that lets counters end the game, if this termination sets it.
     pub(crate) fn permits(&self, rules: &Rules, state: &State) -> Option<bool> {
         let Condition::StopCounter { stypes, limit, min } = &self.condition else { return None };
         let sum: i32 = stypes.iter().map(|&stype| state.count_live(rules, stype)).sum();

@@ -1,12 +1,11 @@
-//! What a sprite type is given: base fields, class defaults, parameters (`spec/02` §1, `spec/01` §3.1).
+//! The traits of a sprite type: base fields, class defaults, parameters (`spec/02` §1, `spec/01` §3.1).
 
 use super::class::SpriteClass;
 use crate::game::SpriteType;
 use crate::geometry::Direction;
 use smallvec::SmallVec;
 
-/// The values of a type's fields after class defaults and parameters: what a new sprite starts with, and what never
-/// changes in it.
+/// The values of a type's fields after class defaults and parameters: the initial values of a sprite and its constants.
 #[derive(Clone, Debug)]
 pub(crate) struct Traits {
     pub(crate) speed: f64,
@@ -29,12 +28,12 @@ pub(crate) struct Traits {
     pub(crate) is_resource: bool,
     pub(crate) is_avatar: bool,
     pub(crate) is_from_avatar: bool,
-    /// Ticks since the last move, whether the first passive movement is still to come, and whether it stands on
-    /// something: how a sprite starts.
+    /// The initial values of a sprite: ticks since the last move, first passive movement still to come, standing on
+    /// something.
     pub(crate) last_move: i32,
     pub(crate) is_first_tick: bool,
     pub(crate) on_ground: bool,
-    /// Has pictures for the four directions, and none for others.
+    /// `true` if it has pictures for the four directions and for no others.
     pub(crate) oriented_image: bool,
     pub(crate) hidden: bool,
     pub(crate) invisible: bool,
@@ -42,7 +41,7 @@ pub(crate) struct Traits {
     /// `limit` of Resource and Flicker.
     pub(crate) limit: i32,
     pub(crate) value: i32,
-    /// What a Resource is collected as.
+    /// The type that a Resource is collected as.
     pub(crate) resource: SpriteType,
     pub(crate) age: i32,
     pub(crate) spread_probability: f64,
@@ -54,14 +53,15 @@ pub(crate) struct Traits {
     pub(crate) spawn_orientation: Direction,
     pub(crate) min_ammo: i32,
     pub(crate) ammo_cost: i32,
-    /// Continuous physics; grid physics otherwise.
+    /// `true` for continuous physics, `false` for grid physics.
     pub(crate) continuous: bool,
-    /// Not declared to have grid physics. A physics that does not exist is the grid's, but avatars glide all the same.
+    /// `true` unless declared to have grid physics. An unknown physics acts as the grid's, but avatars have passive
+    /// movement.
     pub(crate) off_grid: bool,
     pub(crate) mass: f64,
     pub(crate) gravity: f64,
     pub(crate) friction: f64,
-    /// −1 for none.
+    /// The speed limit; −1 for none.
     pub(crate) max_speed: f64,
     pub(crate) jump_strength: f64,
     /// Radians a tick.
@@ -69,32 +69,32 @@ pub(crate) struct Traits {
     pub(crate) rotation: f64,
     /// CarAvatar: 0 forwards, 1 backwards.
     pub(crate) facing: f64,
-    /// WizardAvatar: where it looks, and when it last made a block.
+    /// WizardAvatar: the direction that it faces, and the tick of its last block.
     pub(crate) facing_dir: Direction,
     pub(crate) last_block_time: i32,
     pub(crate) ground_speedup: f64,
     pub(crate) air_slowdown: f64,
     pub(crate) air_steering: bool,
-    /// WalkerJumper: of a jump, each tick on the ground.
+    /// WalkerJumper: the probability of a jump in each tick on the ground.
     pub(crate) probability: f64,
     pub(crate) epsilon: f64,
     pub(crate) random_target: bool,
     pub(crate) spawn_behind: Option<SpriteType>,
-    /// `stype`, `stype1`, `stypes` or `stypeMissile`: what it shoots, spawns, chases or leads to.
+    /// `stype`, `stype1`, `stypes` or `stypeMissile`: the types that it shoots, spawns, chases or leads to.
     pub(crate) stypes: SmallVec<[SpriteType; 2]>,
     /// `ammo`: the resources that shots cost.
     pub(crate) ammo: SmallVec<[SpriteType; 2]>,
 }
 
 impl Traits {
-    /// Columns and rows of the cells that such a sprite overlaps, if it starts at the corner of one: at least one each,
-    /// [`MAX_REACH`](crate::limits::MAX_REACH) at most.
+    /// The columns and rows of the cells that such a sprite overlaps if it starts at the corner of one: at least one
+    /// each, at most [`MAX_REACH`](crate::limits::MAX_REACH).
     pub(crate) fn span(&self) -> (usize, usize) {
         let cells = |factor: f64| (factor.ceil() as usize).max(1);
         (cells(self.width_factor), cells(self.height_factor))
     }
 
-    /// Base defaults, then those of the class, from its root down.
+    /// The base defaults, overridden by those of the class, from its root down.
     pub(crate) fn of_class(class: SpriteClass) -> Traits {
         let mut traits = Traits {
             speed: 0.0,
@@ -264,7 +264,7 @@ impl Traits {
         }
     }
 
-    /// What the reference does after the parameters are set (`spec/01` §3.5).
+    /// Completes the traits as the reference does after the parameters are set (`spec/01` §3.5).
     pub(crate) fn settle(&mut self) {
         self.is_oriented |= self.orientation != Direction::NONE;
         if self.max_health == 0 {

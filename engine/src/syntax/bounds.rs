@@ -1,11 +1,11 @@
-//! What is beyond us: texts that are no games, lines and names that are too long, sprites nested too deep.
+//! Limits of the parser: texts that are not games, lines and names that are too long, sprites nested too deep.
 
 use super::description::Word;
 use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::limits::{MAX_LINE, MAX_NAME, MAX_NESTING, MAX_SOURCE};
 
-/// What keeps a text from being looked at as a game.
+/// The problem of a text that cannot be read as a game at all.
 pub(super) fn unreadable(source: &str) -> Option<Diagnostic> {
     if source.len() > MAX_SOURCE {
         let message = format!("the game is {} bytes long; at most {MAX_SOURCE} are read", source.len());

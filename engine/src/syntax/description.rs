@@ -1,13 +1,13 @@
-//! The syntax tree of a game file: what is written, nothing resolved.
+//! The syntax tree of a game file, as written, with nothing resolved.
 
 use crate::diagnostic::Span;
 
-/// A word and where it stands.
+/// A word and its place.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Word {
-    /// As written.
+    /// The text as written.
     pub text: String,
-    /// Where; nowhere in trees that generators build.
+    /// The place; the default span in trees that generators build.
     pub span: Span,
 }
 
@@ -26,9 +26,9 @@ impl From<String> for Word {
 /// `key=value`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Param {
-    /// Before the equals sign.
+    /// The text before the equals sign.
     pub key: Word,
-    /// After it, as written.
+    /// The text after the equals sign, as written.
     pub value: Word,
 }
 
@@ -38,7 +38,7 @@ impl Param {
         Param { key: key.into(), value: value.to_string().into() }
     }
 
-    /// From the key to the value.
+    /// The span from the key to the value.
     pub fn span(&self) -> Span {
         Span::new(self.key.span.start, self.value.span.end)
     }
@@ -84,7 +84,7 @@ pub struct SpriteLine {
 pub struct MappingLine {
     /// The level character.
     pub symbol: char,
-    /// Where it stands.
+    /// The place of the character.
     pub span: Span,
     /// The sprites placed, in order.
     pub names: Vec<Word>,
@@ -99,9 +99,9 @@ pub struct InteractionLine {
     pub first: Word,
     /// Its partners.
     pub second: Vec<Word>,
-    /// What happens.
+    /// The keyword of the effect.
     pub effect: Word,
-    /// With which parameters.
+    /// Its parameters.
     pub params: Vec<Param>,
     /// Its comments.
     pub trivia: Trivia,
@@ -112,7 +112,7 @@ pub struct InteractionLine {
 pub struct TerminationLine {
     /// The termination class.
     pub class: Word,
-    /// With which parameters.
+    /// Its parameters.
     pub params: Vec<Param>,
     /// Its comments.
     pub trivia: Trivia,
@@ -121,7 +121,7 @@ pub struct TerminationLine {
 /// `NAME > values=min:step:max value=x`, of a `GameSpace`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct ParameterLine {
-    /// The parameter: other lines have it for a value.
+    /// The name of the parameter, which other lines use as a value.
     pub name: Word,
     /// `values`, `value` and `string`.
     pub params: Vec<Param>,
@@ -142,18 +142,18 @@ pub struct Description {
     pub interactions: Vec<InteractionLine>,
     /// TerminationSet.
     pub terminations: Vec<TerminationLine>,
-    /// Which sections the file has, in the order of [`Section::ALL`].
+    /// The sections that the file has, in the order of [`Section::ALL`].
     pub has: [bool; 4],
-    /// The comments of the lines that name the sections, in the same order; those of the ParameterSet are the last ones.
+    /// The comments of the lines with the section names, in the same order, then those of the ParameterSet.
     pub section_trivia: [Trivia; 5],
     /// Comments below the last line.
     pub tail: Vec<String>,
     /// ParameterSet, of a `GameSpace`.
     pub parameters: Vec<ParameterLine>,
-    /// The sections in the order of the file, each with how many lines of it the reference reads; what comes after a fault
+    /// The sections in file order, each with the number of its lines that the reference reads; everything after a fault
     /// is missing for it.
     pub order: Vec<(Section, usize)>,
-    /// Messages that the reference would have logged while reading the lines.
+    /// The number of messages that the reference would have logged while reading the lines.
     pub messages: u32,
 }
 
@@ -175,24 +175,24 @@ impl Description {
 /// The sections of a game file, in canonical order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Section {
-    /// What exists.
+    /// The sprite types.
     SpriteSet,
-    /// Which level character places what.
+    /// The sprites that each level character places.
     LevelMapping,
-    /// What happens when sprites meet.
+    /// The effects of meetings between sprites.
     InteractionSet,
-    /// When the game ends.
+    /// The conditions that end the game.
     TerminationSet,
-    /// What may vary, in a `GameSpace`.
+    /// The parameters of a `GameSpace`.
     ParameterSet,
 }
 
 impl Section {
-    /// Those of every game, in canonical order.
+    /// The sections of every game, in canonical order.
     pub const ALL: [Section; 4] =
         [Section::SpriteSet, Section::LevelMapping, Section::InteractionSet, Section::TerminationSet];
 
-    /// As written in a file.
+    /// The name in a file.
     pub fn name(self) -> &'static str {
         match self {
             Section::SpriteSet => "SpriteSet",

@@ -1,11 +1,10 @@
-//! How lines are indented, and where that is hardly meant. Neighbours that are off in the same way are one slip of the hand,
-//! and one problem.
+//! Checks of the indentation. Neighbouring lines that deviate in the same way are reported as one problem.
 
 use super::description::Section;
 use super::layout::Line;
 use crate::diagnostic::Diagnostic;
 
-/// The most frequent indent; of several, the one that comes first.
+/// The most frequent indent; of several, the first one.
 pub(super) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     let mut counts: Vec<(usize, usize)> = Vec::new();
     for indent in indents {
@@ -18,7 +17,7 @@ pub(super) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     counts.iter().find(|(_, count)| Some(*count) == most).map_or(0, |&(indent, _)| indent)
 }
 
-/// The usual indent of those lines that are no one's children.
+/// The usual indent of the lines without a parent among `lines`.
 pub(super) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     let mut sibling = usize::MAX;
     usual(lines.iter().map(|line| line.indent).filter(|&indent| {
@@ -28,7 +27,7 @@ pub(super) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     }))
 }
 
-/// Lines that are not indented deeper than the name of their section.
+/// Reports lines that are not indented deeper than the name of their section.
 pub(super) fn outside(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     for (first, count) in runs(lines, |_, line| (line.indent <= head).then_some(0)) {
         let message = format!("{} not indented below {}{}", these(count), section.name(), of_tabs(first));
@@ -37,7 +36,7 @@ pub(super) fn outside(section: Section, head: usize, lines: &[&Line<'_>], proble
     }
 }
 
-/// Lines of a section without subtypes that are not indented like most of them.
+/// Reports lines of a section without subtypes that are not indented like most of them.
 pub(super) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let indent = usual(inside);
@@ -50,8 +49,8 @@ pub(super) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     }
 }
 
-/// Lines of a SpriteSet that stand between the columns of the others: children or siblings by accident. In a file without
-/// such columns there is nothing to tell. Returns whether there are columns.
+/// Reports lines of a SpriteSet that are indented between the columns of the others: children or siblings by accident. A
+/// file without such columns has no such problems. Returns `true` if there are columns.
 pub(super) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) -> bool {
     let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));
     let above: Vec<usize> = indents().map(|indent| indent - head).collect();
@@ -60,14 +59,14 @@ pub(super) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     steps.push(usual(lines.iter().map(|line| line.indent)).saturating_sub(head).max(1));
     steps.sort_unstable();
     steps.dedup();
-    // Between columns, or more than one column to the right of the line above; and how far off.
+    // The deviation of a line between columns, or more than one column to the right of the line above.
     let off = |step: usize, at: usize, line: &Line<'_>| {
         let (rest, above) = ((line.indent - head) % step, above[at].next_multiple_of(step));
         (rest > 0 || line.indent - head > above + step).then_some(rest)
     };
     let count =
         |step: usize| lines.iter().enumerate().filter(|(at, line)| off(step, *at, line).is_some()).count();
-    // The widest columns that nearly all lines keep to.
+    // The widest columns that nearly all lines follow.
     let Some(step) = steps.into_iter().rev().find(|&step| count(step) * 4 <= lines.len()) else {
         return false;
     };
@@ -85,8 +84,7 @@ pub(super) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     true
 }
 
-/// The lines for which `off` gives something, as the first of each run of neighbours for which it gives the same, and how
-/// many these are.
+/// The first line of each run of neighbours for which `off` returns the same value, and the length of the run.
 fn runs<'a, 'b>(
     lines: &[&'b Line<'a>],
     off: impl Fn(usize, &Line<'a>) -> Option<usize>,
@@ -105,7 +103,7 @@ fn runs<'a, 'b>(
     runs
 }
 
-/// That an indent is not as wide as it may look, where it has tabs.
+/// A note for indents with tabs, which are not as wide as they may look.
 pub(super) fn of_tabs(line: &Line<'_>) -> &'static str {
     if line.tabbed { ": a tab counts as one column" } else { "" }
 }

@@ -1,8 +1,8 @@
-//! The layout pass: a text becomes logical lines with an indent, comments set aside (`spec/01` §1.1).
+//! The layout pass: splits a text into logical lines with an indent, and separates the comments (`spec/01` §1.1).
 
 use crate::diagnostic::Span;
 
-/// What some editors start a file with.
+/// The character with which some editors start a file.
 pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// One line that is not blank.
@@ -10,11 +10,11 @@ pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 pub(super) struct Line<'a> {
     /// Columns before the first character; a tab counts as one.
     pub(super) indent: usize,
-    /// True if a tab is among them.
+    /// `true` if a tab is among them.
     pub(super) tabbed: bool,
-    /// Without indent, comment and trailing blanks.
+    /// The text without indent, comment and trailing blanks.
     pub(super) text: &'a str,
-    /// Where `text` stands.
+    /// The place of `text`.
     pub(super) span: Span,
     /// Whole-line comments above.
     pub(super) above: Vec<&'a str>,
@@ -56,7 +56,7 @@ pub(super) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     (lines, above)
 }
 
-/// A line of nothing but `#` that starts in the first column: the reference dies of it (`spec/01` §1.1).
+/// Finds a line of nothing but `#` that starts in the first column: the reference crashes on it (`spec/01` §1.1).
 pub(super) fn bare_hashes(source: &str) -> Option<Span> {
     let mut start = 0;
     source.split(['\n', '\r']).find_map(|raw| {

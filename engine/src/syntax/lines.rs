@@ -1,4 +1,4 @@
-//! The lines of the sections, each to its place in the tree, or to the problem that keeps it out.
+//! Reads the lines of the sections into the tree, or reports the problem that prevents it.
 
 use super::bounds::{long_name, too_deep};
 use super::description::{
@@ -17,7 +17,8 @@ use crate::ontology::effects;
 use pest::Parser;
 
 impl Reader {
-    /// Siblings are the lines at one depth; deeper lines are children of the line above (`spec/01` §1.3).
+    /// Reads the SpriteSet. Siblings are the lines at one depth; deeper lines are children of the line above (`spec/01`
+    /// §1.3).
     pub(super) fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
         let indent = indents::of_siblings(lines);
@@ -68,7 +69,7 @@ impl Reader {
             if let Some(name) = fixed.as_deref().and_then(|fixed| fixed.split_whitespace().next()) {
                 sprite.name.text = name.trim_end_matches('>').to_owned();
             }
-            // One of the words was meant as the arrow, or holds it: of the others only a class is sure.
+            // One of the words was meant as the arrow, or contains it: of the others only a class is certain.
             let known = |word: &Word| SpriteClass::from_name(&word.text).is_some();
             sprite.class = sprite.class.into_iter().chain(strays.drain(..)).find(known);
         }
@@ -79,8 +80,8 @@ impl Reader {
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
 
-    /// The problem of a line whose arrow is missing or something else: at that word, if there is one. What to write there.
-    /// `place` says where an arrow belongs.
+    /// Reports a line whose arrow is missing or misspelt, at the faulty word if there is one. Returns the text to write
+    /// there. `place` describes where an arrow belongs.
     fn mend_arrow(&mut self, line: &Line<'_>, has_arrow: bool, shape: &str, place: &str) -> Option<String> {
         let mut words = line.text.split([' ', '\t']).filter(|word| !word.is_empty());
         let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
@@ -245,7 +246,7 @@ impl Reader {
     }
 }
 
-/// Whether a word where a class may stand is a parameter without its `=`.
+/// Tests whether a word in the place of a class is a parameter without its `=`.
 fn glued(word: &Word) -> bool {
     SpriteClass::from_name(&word.text).is_none() && repair::parameter(&word.text).is_some()
 }

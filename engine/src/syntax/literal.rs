@@ -1,9 +1,9 @@
-//! What the value of a parameter reads as.
+//! The lexical type of a parameter value.
 
 use super::grammar::{Grammar, Rule};
 use pest::Parser;
 
-/// What the value of a parameter reads as, before the field's type is looked at (`spec/01` §1.10, steps 2–5).
+/// The lexical type of a parameter value, before the field's type is known (`spec/01` §1.10, steps 2–5).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Literal {
     Int(i32),
@@ -28,7 +28,7 @@ pub(crate) fn literal(text: &str) -> Literal {
     }
 }
 
-/// The value of `0x1.8p3`: digits to the base of 16, times a power of two.
+/// The value of `0x1.8p3`: hexadecimal digits, times a power of two.
 fn hexadecimal(text: &str) -> f64 {
     let negative = text.starts_with('-');
     let text = text.trim_start_matches(['+', '-']).trim_end_matches(['f', 'F', 'd', 'D']);
@@ -38,7 +38,7 @@ fn hexadecimal(text: &str) -> f64 {
     exponent = i32::clamp(exponent, -5000, 5000);
     let (mut mantissa, mut places) = (0u64, 0i64);
     for (at, digit) in digits.chars().filter_map(|digit| digit.to_digit(16)).enumerate() {
-        // Digits beyond those that a double holds only say that there is more.
+        // Digits beyond the precision of a double only tell that there is more.
         if mantissa < 1 << 59 {
             mantissa = mantissa << 4 | u64::from(digit);
             places += i64::from(at >= point);

@@ -1,4 +1,4 @@
-//! Lines to a syntax tree. Never fails: a bad line costs one diagnostic, not the file.
+//! Parses lines into a syntax tree. It never fails: a bad line costs one diagnostic, not the file.
 
 use super::bounds::{long_line, unreadable};
 use super::description::{Description, Header, Section, Word};
@@ -12,8 +12,8 @@ use super::tokens::Token;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 
 /// Reads a game file as the reference does: faulty lines are dropped, with a message each; lines indented deeper than
-/// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostic is what the reference dies of, or what is
-/// beyond us.
+/// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostic is the fault on which the reference crashes,
+/// or an exceeded limit.
 pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
     let read = unreadable(source).map_or_else(|| reference::read(source), Err);
     match read {
@@ -30,7 +30,7 @@ pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
     (description, problems.shortened(source.len()).0)
 }
 
-/// [`parse`] with all problems, however many there are.
+/// [`parse`] with all problems, without a limit on their number.
 pub(crate) fn parse_all(source: &str) -> (Description, Diagnostics) {
     let mut reader = Reader::default();
     match unreadable(source) {
@@ -40,12 +40,12 @@ pub(crate) fn parse_all(source: &str) -> (Description, Diagnostics) {
     (reader.description, Diagnostics::sorted(reader.problems))
 }
 
-/// What has been read so far. The methods that read lines are in `lines.rs`, those that read tokens in `tokens.rs`.
+/// The state of the parser. The methods that read lines are in `lines.rs`, those that read tokens in `tokens.rs`.
 #[derive(Default)]
 pub(super) struct Reader {
     pub(super) description: Description,
     pub(super) problems: Vec<Diagnostic>,
-    /// The lines of the SpriteSet stand in columns; those that do not have been told of.
+    /// `true` if the lines of the SpriteSet are indented in columns; deviating lines have been reported.
     pub(super) columns: bool,
 }
 
@@ -90,7 +90,7 @@ impl Reader {
         }
     }
 
-    /// Cuts off what stands behind `//`, which starts a comment in other languages. Whether anything is left.
+    /// Cuts off the text after `//`, which starts a comment in other languages. Returns `true` if anything is left.
     fn without_foreign_comment(&mut self, line: &mut Line<'_>) -> bool {
         let starts = |at: &(usize, &str)| at.0 == 0 || line.text[..at.0].ends_with([' ', '\t']);
         let Some((at, mark)) = line.text.match_indices("//").find(starts) else { return true };
@@ -129,7 +129,7 @@ impl Reader {
         self.description.header = header;
     }
 
-    /// The sections as they were meant, with a problem for each that is not as it should be.
+    /// The sections as intended, with a problem for each deviation.
     fn mended_parts<'a, 'b>(&mut self, header: &'b Line<'a>, lines: &'b [Line<'a>]) -> Vec<Part<'a, 'b>> {
         let parts = sections::mended(header, lines, &mut self.problems);
         for (at, part) in parts.iter().enumerate() {
@@ -167,7 +167,7 @@ impl Reader {
         if section == Section::SpriteSet {
             let (lines, outside): (Vec<_>, Vec<_>) =
                 part.body.iter().partition(|line| line.indent > part.indent);
-            // Read all the same, so that their names are known.
+            // These are read as well, so that their names are known.
             for line in outside {
                 let sprite = self.sprite(line);
                 self.description.sprites.extend(sprite);
@@ -190,7 +190,7 @@ impl Reader {
         }
     }
 
-    /// A word where none belongs; `rule` says what does.
+    /// Reports a word in the wrong place; `rule` describes what belongs there.
     pub(super) fn stray_word(&mut self, word: &Word, rule: &str) {
         let message = format!("`{}` does not belong here: {rule}", word.text);
         let problem = Diagnostic::error("stray-word", word.span, message);

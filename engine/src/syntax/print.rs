@@ -1,14 +1,14 @@
-//! The canonical print of a syntax tree: `arcade fmt`, and what digests are taken of.
+//! The canonical print of a syntax tree, for `arcade fmt` and for digests.
 
 use super::description::{Description, Param, Section, SpriteLine, Trivia};
 use std::fmt::Write;
 
-/// The canonical text: sections in canonical order, four blanks an indent, single blanks between tokens, comments kept.
+/// The canonical text: sections in canonical order, four blanks per indent, single blanks between tokens, comments kept.
 pub fn print(description: &Description) -> String {
     Printer { out: String::new(), comments: true }.game(description)
 }
 
-/// The canonical text without comments: what a game's digest covers.
+/// The canonical text without comments: the input of a game's digest.
 pub fn print_bare(description: &Description) -> String {
     Printer { out: String::new(), comments: false }.game(description)
 }
@@ -84,7 +84,7 @@ impl Printer {
         }
     }
 
-    /// The reference dies of a line of nothing but `#` in the first column.
+    /// Prints a comment. The reference crashes on a line of nothing but `#` in the first column.
     fn comment(&mut self, indent: &str, comment: &str) {
         let indent = if indent.is_empty() && comment.bytes().all(|byte| byte == b'#') { " " } else { indent };
         let _ = writeln!(self.out, "{}", format!("{indent}# {comment}").trim_end());

@@ -1,5 +1,5 @@
-//! Reading a game file as the reference does (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines
-//! are dropped with a message each, and of each section only the direct children count.
+//! Reads a game file as the reference does (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines are
+//! dropped with a message each, and only the direct children of each section count.
 
 use super::bounds::{long_line, long_name, too_deep};
 use super::description::{
@@ -11,7 +11,7 @@ use super::sections;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::limits::MAX_NESTING;
 
-/// The description that the reference works with, or what it dies of.
+/// The description that the reference works with, or the fault on which it crashes.
 pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     if let Some(span) = layout::bare_hashes(source) {
         let problem =
@@ -32,24 +32,24 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     tree.describe()
 }
 
-/// A line and where it hangs in the tree.
+/// A line and its place in the tree.
 struct Node<'a> {
     line: &'a Line<'a>,
     tokens: Vec<Word>,
-    /// How the line is read: as the last section's name says, be that section where it may.
+    /// The grammar of the line: that of the last section name, wherever that is in the tree.
     grammar: Option<Section>,
-    /// The section that the line names, in whatever case.
+    /// The section that the line names, regardless of letter case.
     heading: Option<Section>,
     parent: usize,
     children: Vec<usize>,
 }
 
 impl Node<'_> {
-    /// Whether the line can be read; the reference drops the others.
+    /// Tests whether the line can be read; the reference drops other lines.
     fn is_sound(&self) -> bool {
         let after = match self.grammar {
             Some(Section::LevelMapping) => return true,
-            // A line of one word is read, and ends the reading when its turn comes.
+            // A line of one word is read, and ends the reading in its turn.
             Some(Section::InteractionSet) if self.tokens.len() == 1 => return true,
             Some(Section::InteractionSet) => match self.arrow() {
                 Some(at) => &self.tokens[at + 1..],
@@ -63,7 +63,7 @@ impl Node<'_> {
             && (has_effect || self.grammar != Some(Section::InteractionSet))
     }
 
-    /// Where the first `>` behind the first word stands.
+    /// The index of the first `>` after the first word.
     fn arrow(&self) -> Option<usize> {
         self.tokens.iter().skip(1).position(|token| token.text == ">").map(|at| at + 1)
     }
@@ -87,7 +87,7 @@ impl<'a> Tree<'a> {
         let Some(mut parent) = self.nodes.len().checked_sub(1) else { return self.nodes.push(node) };
         while self.nodes[parent].line.indent >= node.line.indent {
             if parent == 0 {
-                // Not indented below the first line.
+                // The line is not indented below the first line.
                 return self.message();
             }
             parent = self.nodes[parent].parent;
@@ -125,7 +125,7 @@ impl<'a> Tree<'a> {
                     return Err(Diagnostic::error("stray-line", node.line.span, message));
                 }
                 Some(section) => self.section(section, at)?,
-                // The reference looks for the name of a section in these and finds none at all.
+                // The reference looks for a section name in these lines and finds none.
                 None if node.grammar.is_none()
                     || node.grammar == Some(Section::InteractionSet) && node.heading.is_none() =>
                 {
@@ -238,7 +238,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// The words of a line, parted by blanks only.
+/// The words of a line, separated by blanks only.
 fn tokens(line: &Line<'_>) -> Vec<Word> {
     let words = line.text.split(|c: char| c <= ' ').filter(|word| !word.is_empty());
     words
@@ -249,7 +249,7 @@ fn tokens(line: &Line<'_>) -> Vec<Word> {
         .collect()
 }
 
-/// `key=value` of a word with an equals sign: what stands before the first one, and between it and the next.
+/// The parameter in a word with an equals sign: the text before the first one, and the text between it and the next.
 fn param(token: &Word) -> Option<Param> {
     let parts: Vec<&str> = token.text.trim_end_matches('=').split('=').collect();
     let (&[key, value, ..], true) = (&parts[..], token.text.contains('=')) else { return None };
@@ -298,7 +298,7 @@ mod tests {
     fn faulty_lines_are_dropped_with_a_message() {
         let game = sound(&SMALL.replace("b > Bomber", "b > Bomber speed="));
         assert_eq!((game.messages, game.sprites[0].children.len()), (1, 0));
-        // The children of a dropped line are those of the line before it.
+        // The children of a dropped line belong to the line before it.
         let game = sound("BasicGame\n SpriteSet\n  a >\n  b = >\n   c >\n");
         assert_eq!(
             (game.messages, names(&game.sprites), names(&game.sprites[0].children)),
@@ -314,18 +314,18 @@ mod tests {
 
     #[test]
     fn indentation_makes_a_tree() {
-        // A line without an arrow ends its siblings, not those of its parent.
+        // A line without an arrow ends its siblings, but not those of its parent.
         let game = sound("BasicGame\n SpriteSet\n  a >\n   b\n   c >\n  d >\n");
         assert_eq!((names(&game.sprites), game.sprites[0].children.len()), (vec!["a", "d"], 0));
-        // Siblings of another indent are a message; deeper lines of other sections are lost, and so are their names.
+        // Siblings with another indent cost a message; deeper lines of other sections are lost, including their names.
         let set = "  InteractionSet\n     a b > killSprite\n    a b > killBoth\n     a b > stepBack\n";
         let game = sound(&format!("{SMALL}{set}"));
         assert_eq!((game.messages, game.interactions.len()), (1, 2));
         assert_eq!(game.interactions[1].effect.text, "killBoth");
-        // A tab is one column: a sprite stands beside its section, and the next section below the sprite.
+        // A tab is one column: the sprite is on the level of its section, and the next section below the sprite.
         let game = sound("BasicGame\n    SpriteSet\n\ta >\n    LevelMapping\n");
         assert_eq!((game.messages, game.sprites.len(), game.order.len()), (1, 0, 1));
-        // What is not below the first line is dropped.
+        // Lines that are not below the first line are dropped.
         let game = sound("  BasicGame\n     SpriteSet\n       a >\n  LevelMapping\n     TerminationSet\n");
         assert_eq!((game.messages, game.order.len()), (1, 2));
     }

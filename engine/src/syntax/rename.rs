@@ -1,13 +1,13 @@
-//! Other names for the sprite types of a game, wherever the game names them.
+//! Renaming of the sprite types of a game, wherever the game names them.
 
 use super::description::{Description, Param, SpriteLine, Word};
 use crate::ontology::effects::{ParameterKind, effect_parameters};
 use std::collections::BTreeMap;
 
 impl Description {
-    /// The same game with its sprite types renamed: each name that is a key of `names` becomes its value, in all
-    /// sections. Names that the engine gives a meaning to, `wall` and `avatar`, are better left alone. As lines keep their
-    /// order, the two games play alike, state hashes included.
+    /// The same game with renamed sprite types: each name that is a key of `names` becomes its value, in all sections.
+    /// Names with a meaning in the engine, `wall` and `avatar`, should not be renamed. The lines keep their order, so the
+    /// two games play alike, including their state hashes.
     #[must_use]
     pub fn renamed(&self, names: &BTreeMap<String, String>) -> Description {
         let names = Names(names);
@@ -40,17 +40,17 @@ impl Description {
     }
 }
 
-/// What becomes of what.
+/// The new names, by old name.
 struct Names<'a>(&'a BTreeMap<String, String>);
 
 impl Names<'_> {
-    /// Each name of a comma list.
+    /// Renames each name of a comma-separated list.
     fn rename(&self, word: &mut Word) {
         let parts = word.text.split(',').map(|part| self.0.get(part).map_or(part, String::as_str));
         word.text = parts.collect::<Vec<_>>().join(",");
     }
 
-    /// The parameters of sprites and terminations that name sprite types.
+    /// Renames sprite types in parameters of sprites and terminations.
     fn params(&self, params: &mut [Param]) {
         for param in params {
             let key = param.key.text.as_str();

@@ -1,10 +1,11 @@
-//! What a word was meant to be, where none belongs.
+//! Guesses at the intended meaning of misplaced words.
 
-/// The parameter that a word stands for whose `=` is missing or another character: `limit:5`, `scoreChange-1`, `winTrue`.
+/// The parameter that a word stands for if its `=` is missing or another character: `limit:5`, `scoreChange-1`,
+/// `winTrue`.
 pub(super) fn parameter(word: &str) -> Option<String> {
     let (key, value) = match word.split_once([':', ';', '-', '+', '~', '>', '<', '_']) {
         Some((key, value)) if is_value(value) => {
-            // `scoreChange-1` lacks its `=` only.
+            // `scoreChange-1` only lacks its `=`.
             let number = |text: &str| text.bytes().all(|b| b.is_ascii_digit() || b == b'.');
             let signed = word.as_bytes()[key.len()] == b'-' && number(value) && value != "0";
             (key, if signed { &word[key.len()..] } else { value })
@@ -21,7 +22,7 @@ fn is_value(text: &str) -> bool {
     !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '.')
 }
 
-/// Key and value of a word in which nothing stands between them.
+/// The key and the value of a word without a character between them.
 fn glued(word: &str) -> Option<(&str, &str)> {
     let truth = ["True", "False", "true", "false"].into_iter().find(|truth| word.ends_with(truth));
     let at = match truth {
@@ -33,7 +34,7 @@ fn glued(word: &str) -> Option<(&str, &str)> {
     (!key.is_empty() && fits).then_some((key, value))
 }
 
-/// Where the value of a well-known parameter starts.
+/// The index at which the value of a well-known parameter starts.
 fn named(word: &str) -> Option<usize> {
     const KEYS: [&str; 12] = [
         "scoreChange",
@@ -52,7 +53,7 @@ fn named(word: &str) -> Option<usize> {
     KEYS.into_iter().find(|key| word.starts_with(key) && word.len() > key.len()).map(str::len)
 }
 
-/// The arrow that a word stands for, or holds with too few blanks around it: what to write instead.
+/// The text to write instead of a word that stands for an arrow, or contains it with too few blanks around it.
 pub(super) fn arrow(word: &str) -> Option<String> {
     const LIKE_ARROWS: [&str; 14] =
         ["<", "->", "-->", "=>", ">>", "<-", "-", "~", ":", "|", "=", "→", "»", "›"];

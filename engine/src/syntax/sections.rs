@@ -1,5 +1,5 @@
-//! Where the sections of a game file are, and where they were meant to be: a missing, misspelt or swapped name costs one
-//! problem at its place, not one for every line below it.
+//! The sections of a game file, as written and as intended: a missing, misspelt or swapped name costs one problem at its
+//! place, not one for every line below it.
 
 use super::description::Section;
 use super::indents;
@@ -8,23 +8,23 @@ use crate::diagnostic::{Diagnostic, nearest};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::{effects, terminations};
 
-/// A section: its name's line and the lines below it.
+/// A section: the line of its name and the lines below it.
 pub(super) struct Part<'a, 'b> {
     pub(super) section: Section,
-    /// Of a section whose name is missing: the line that the name should stand at the depth of.
+    /// The line of the section's name; if it is missing, the line at whose depth the name should be.
     pub(super) head: &'b Line<'a>,
-    /// The column that its lines are to be indented deeper than: that of its name, if the name stands where it should.
+    /// The column beyond which its lines are to be indented: that of its name, if the name is in the right place.
     pub(super) indent: usize,
     pub(super) body: Vec<&'b Line<'a>>,
 }
 
-/// The section that a line names, letter case aside.
+/// The section that a line names, regardless of letter case.
 pub(super) fn named(text: &str) -> Option<Section> {
     let mut all = Section::ALL.into_iter().chain([Section::ParameterSet]);
     all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
-/// The sections of a file as they were meant, by what their lines look like where the names are not right.
+/// The sections of a file as intended, judged by their lines where the names are wrong.
 pub(super) fn mended<'a, 'b>(
     header: &'b Line<'a>,
     lines: &'b [Line<'a>],
@@ -39,7 +39,7 @@ pub(super) fn mended<'a, 'b>(
     parts
 }
 
-/// The lines before the first section, and the sections by their names, misspelt ones included.
+/// The lines before the first section, and the sections by name, misspelt names included.
 fn split<'a, 'b>(
     lines: &'b [Line<'a>],
     problems: &mut Vec<Diagnostic>,
@@ -70,7 +70,7 @@ fn split<'a, 'b>(
     (orphans, parts)
 }
 
-/// Sections all of whose telling lines belong in another one, which has none of its own.
+/// Reports swapped sections: all telling lines of a section belong to another one, which has none of its own.
 fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     let sound: Vec<Section> = parts
         .iter()
@@ -89,7 +89,7 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
     }
 }
 
-/// Sections without a name: lines that look like one of them, at the end of another one or before all.
+/// Reports sections without a name: lines that look like one of them, at the end of another section or before all.
 fn missing<'a, 'b>(
     guess: &Guess<'_>,
     header: &'b Line<'a>,
@@ -136,9 +136,10 @@ fn missing<'a, 'b>(
     }
 }
 
-/// Section names that are not indented like the others: deeper ones the reference takes for a line of the section above.
+/// Reports section names that are not indented like the others: the reference takes a deeper one for a line of the
+/// section above.
 fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
-    // A section whose name is missing has the line of another one as its head.
+    // A section without a name has the line of another section as its head.
     let is_own = |&(at, part): &(usize, &Part<'_, '_>)| {
         let same = |other: &Part<'_, '_>| std::ptr::eq(other.head, part.head);
         !std::ptr::eq(part.head, header) && !parts[..at].iter().any(same)
@@ -170,7 +171,7 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
     }
 }
 
-/// Single lines that stand in the wrong section: read where they belong.
+/// Moves single lines that are in the wrong section to the right one.
 fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut Vec<Diagnostic>) {
     let mut moved: Vec<(Section, &'b Line<'a>)> = Vec::new();
     for part in parts.iter_mut() {
@@ -185,7 +186,7 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
         });
     }
     for (section, line) in moved {
-        // Its indent fits the section that it came from; at least its name is to be known, so sprites are kept.
+        // The indent fits the section that the line came from; sprites are kept because their names must be known.
         let part = parts.iter_mut().find(|part| part.section == section && part.indent < line.indent);
         if let Some(part) = part.filter(|part| part.section == Section::SpriteSet) {
             part.body.push(line);
@@ -213,9 +214,9 @@ fn line_of(section: Section) -> &'static str {
     }
 }
 
-/// Tells sections by their lines.
+/// Recognises sections by their lines.
 struct Guess<'a> {
-    /// The names of sprites, as far as lines show them to be.
+    /// The names of sprites, as far as the lines show them.
     sprites: Vec<&'a str>,
 }
 
@@ -229,7 +230,7 @@ impl<'a> Guess<'a> {
         Guess { sprites }
     }
 
-    /// The section that a line can only belong to; None if it could belong to several, or to none.
+    /// The only section that a line can belong to; `None` if there are several, or none.
     fn section(&self, line: &Line<'_>) -> Option<Section> {
         let words: Vec<&str> = line.text.split_whitespace().filter(|word| !word.contains('=')).collect();
         let has_params = line.text.contains('=');

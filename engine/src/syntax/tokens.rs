@@ -1,4 +1,4 @@
-//! A line to its tokens, with those that were meant as a parameter and are none.
+//! Splits a line into tokens, and recognises faulty parameters.
 
 use super::description::{Param, Word};
 use super::grammar::{Grammar, Rule};
@@ -11,7 +11,7 @@ use pest::Parser;
 use pest::iterators::{Pair, Pairs};
 use std::iter::Peekable;
 
-/// What the lines of all sections but the LevelMapping are made of.
+/// A token of a line in any section but the LevelMapping.
 pub(super) enum Token {
     Word(Word),
     Arrow(Span),
@@ -45,8 +45,8 @@ impl Reader {
         tokens
     }
 
-    /// A word with an `=` that is no `key=value`: with blanks around the `=`, half of it missing, or several of them. What
-    /// it was meant to be is read, so that it costs one problem.
+    /// Reports a word with an `=` that is not `key=value`: with blanks around the `=`, half of it missing, or several of
+    /// them. The intended parameter is read, so that it costs one problem.
     fn broken_param<'a>(
         &mut self,
         line: &Line<'_>,
@@ -59,13 +59,13 @@ impl Reader {
             SpriteClass::from_name(&word.text).is_some() || effects::NAMES.contains(&word.text.as_str())
         };
         let has_arrow = line.text.split([' ', '\t']).any(|word| word == ">");
-        // `gold = color=RED`, in a line that needs an arrow.
+        // `gold = color=RED` in a line that needs an arrow.
         let names_sprite =
             |word: &Word| word.text != "BasicGame" && !terminations::NAMES.contains(&word.text.as_str());
         let after_name = || matches!(&tokens[..], [Token::Word(first)] if names_sprite(first));
         let like_arrow = || next.as_ref().map_or_else(after_name, known);
         if whole.text == "=>" || whole.text == "=" && !has_arrow && like_arrow() {
-            // Meant as the arrow; whoever misses that says so.
+            // The `=` was meant as the arrow, and the missing arrow is reported elsewhere.
             return;
         }
         let (key, value) = whole.text.split_once('=').expect("it is broken at its `=`");

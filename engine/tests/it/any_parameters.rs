@@ -1,8 +1,8 @@
-//! Sprite parameters with values beyond all measure.
+//! Sprite parameters with extreme values.
 
 use engine::{Action, Game, Seed, SpriteClass};
 
-/// Any class with any parameters and values beyond all measure, loaded both ways: it ends in a typed outcome or goes on.
+/// Any class with any parameters and extreme values, loaded both ways, ends in a typed outcome or continues.
 #[test]
 fn any_parameters() {
     const VALUES: [&str; 22] = [

@@ -1,4 +1,4 @@
-//! Loading a file with faults as the reference does (`spec/01` §1, §10): what is dropped, ignored, counted.
+//! Loading a file with faults as the reference does (`spec/01` §1, §10): dropped, ignored and counted faults.
 
 use engine::{Action, Game, Level, Outcome, Seed, State};
 
@@ -25,7 +25,8 @@ fn load(source: &str, level: &str) -> (Game, Level, State) {
     (game, level, state)
 }
 
-/// Loads a faulty game, which strictly is an error, walks right into the gold, and returns score, outcome and messages.
+/// Loads a faulty game, which is an error in strict loading, moves right onto the gold, and returns score, outcome and
+/// messages.
 #[track_caller]
 fn play(source: &str) -> (f64, Outcome, u32) {
     assert!(Game::from_source(source).is_err(), "strict loading must refuse this");
@@ -44,10 +45,10 @@ fn a_game_without_faults_is_the_same_game() {
 
 #[test]
 fn an_unknown_effect_ends_the_reading() {
-    // Before the gold's rule: no score, no termination.
+    // The fault is before the gold's rule: no score, no termination.
     let early = GAME.replace("avatar wall > stepBack", "avatar wall > stepBackwards");
     assert_eq!(play(&early), (0.0, Outcome::Ongoing, 1));
-    // After it: the rule counts, the terminations are missing.
+    // The fault is after the gold's rule: the rule counts, the terminations are missing.
     let late = GAME.replace("scoreChange=1\n", "scoreChange=1\n        avatar gold > vanish\n");
     assert_eq!(play(&late), (1.0, Outcome::Ongoing, 1));
 }

@@ -1,21 +1,21 @@
-//! The quirks of effects that the specification lists (`spec/03` §14), each by its number, and vectors for effects that no
-//! public game uses.
+//! The quirks of effects in the specification (`spec/03` §14), by number, and vectors for effects that no public game
+//! uses.
 
 use crate::board::{Board, setup};
 use engine::{Limit, Outcome};
 
 const AVATAR: (&str, i32, i32) = ("avatar", 0, 50);
-/// Where the avatar stands on what it meets.
+/// The place of the avatar and of the sprites that it overlaps.
 const HERE: (i32, i32) = (50, 20);
 
-/// A board on which these sprites lie on the avatar, in this order, from the start.
+/// A board with these sprites on top of the avatar, in this order, from the start.
 #[track_caller]
 fn heap(sprites: &str, rules: &str, names: &[&str]) -> Board {
     let placed: Vec<_> = names.iter().map(|name| (*name, HERE.0, HERE.1)).collect();
     setup(sprites, rules).place(&placed)
 }
 
-/// Q13: what comes after an unknown keyword is not read.
+/// Q13: the file is not read beyond an unknown keyword.
 #[test]
 fn an_unknown_keyword_ends_the_reading() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -24,7 +24,7 @@ fn an_unknown_keyword_ends_the_reading() {
     assert_eq!((board.messages(), board.wait().score(), board.count("a")), (1, 0, 1));
 }
 
-/// Q13: so is an effect without the sprites that it needs; those that may do without go on.
+/// Q13: an effect without a required sprite also ends the reading; effects with optional sprites do not.
 #[test]
 fn names_that_effects_need() {
     let sprites = "a > Immovable\nr > Resource\nsp > SpawnPoint stype=a prob=0\navatar > MovingAvatar";
@@ -89,7 +89,7 @@ fn names_that_effects_need() {
     }
 }
 
-/// `spec/03` §2.2: names that become an invalid type, and what comes of it.
+/// `spec/03` §2.2: names that become an invalid type, and the consequences.
 #[test]
 fn undeclared_names_die_when_they_are_used() {
     let sprites = "a > Immovable\nr > Resource\navatar > MovingAvatar";
@@ -103,7 +103,7 @@ fn undeclared_names_die_when_they_are_used() {
     assert!(!dies("a avatar > transformIfCount stype=r stypeCount=a geq=1 estype=x"));
     assert!(dies("avatar a > changeResource resource=x"));
     assert!(!dies("avatar EOS > changeResource resource=x"));
-    // Nobody has any of it.
+    // No sprite holds any of it.
     let kills = |limit: i32| {
         let rule = format!("a avatar > killIfOtherHasMore resource=x limit={limit} subtract=True");
         let mut board = heap(sprites, &rule, &["a", "avatar"]);
@@ -121,7 +121,7 @@ fn undeclared_names_die_when_they_are_used() {
     assert_eq!(collects(0), [("r".to_owned(), 1)]);
 }
 
-/// Q14: most effects ignore `prob`; those that do not draw always.
+/// Q14: most effects ignore `prob`; the others always draw.
 #[test]
 fn probabilities() {
     let sprites = "a > Immovable\nb > Immovable\navatar > OrientedAvatar";
@@ -154,7 +154,7 @@ fn probabilities() {
     assert_eq!(board.wait().one("avatar").orientation, (0.0, -1.0));
 }
 
-/// Q15: values of a wrong type are no values; strictly they are errors.
+/// Q15: values of a wrong type are ignored; strictly they are errors.
 #[test]
 fn values_of_a_wrong_type() {
     let sprites = "a > Immovable healthPoints=9\navatar > MovingAvatar";
@@ -168,7 +168,7 @@ fn values_of_a_wrong_type() {
     }
 }
 
-/// Q16: of the dead the first sprite is left out, the second is not.
+/// Q16: a killed first sprite is skipped, a killed second sprite is not.
 #[test]
 fn the_dead_still_collide() {
     let sprites = "a > Immovable\navatar > MovingAvatar healthPoints=1";
@@ -178,7 +178,7 @@ fn the_dead_still_collide() {
     assert_eq!((board.one("avatar").health, board.count("a")), (2, 0));
 }
 
-/// Q17, K-22: a killed avatar stays, and goes on to collide and score.
+/// Q17, K-22: a killed avatar stays, and continues to collide and score.
 #[test]
 fn a_killed_avatar_still_collides() {
     let sprites = "a > Immovable\navatar > MovingAvatar healthPoints=1";
@@ -192,7 +192,7 @@ fn a_killed_avatar_still_collides() {
     assert_eq!((board.score(), avatar.health, avatar.flags), (15, -2, 3));
 }
 
-/// Q18, K-48: the limit of 10,000 sprites is of a counter that goes down twice for what is killed twice.
+/// Q18, K-48: the limit of 10,000 sprites applies to a counter that decreases twice for a sprite that is killed twice.
 #[test]
 fn killing_twice_counts_twice() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -287,7 +287,7 @@ fn random_children() {
     assert_eq!((board.wait().draws(1), board.count("avatar")), (0, 1));
 }
 
-/// Q24: health goes over, even 0; the new type's own maximum stays.
+/// Q24: health is passed on, even 0; the new type keeps its own maximum.
 #[test]
 fn transformed_health() {
     let sprites =
@@ -297,12 +297,12 @@ fn transformed_health() {
     assert_eq!(board.wait().one("b").health, 0);
     let mut board = heap(sprites, "c avatar > transformTo stype=b", &["c", "avatar"]);
     assert_eq!(board.wait().one("b").health, 9);
-    // transformToSingleton hands no health over.
+    // transformToSingleton passes on no health.
     let mut board = heap(sprites, "c avatar > transformToSingleton stype=b stype_other=a", &["c", "avatar"]);
     assert_eq!(board.wait().one("b").health, 7);
 }
 
-/// Q25: an avatar that turns into something else is disabled, and the other thing is there.
+/// Q25: an avatar that turns into something else is disabled, and the new sprite appears.
 #[test]
 fn an_avatar_that_turns_into_a_thing() {
     let sprites = "trap > Immovable\ncorpse > Immovable\navatar > MovingAvatar";
@@ -310,7 +310,7 @@ fn an_avatar_that_turns_into_a_thing() {
         heap(sprites, "avatar trap > transformTo stype=corpse scoreChange=1", &["trap", "avatar"]);
     board.wait();
     assert_eq!((board.count("corpse"), board.one("avatar").flags, board.state.avatar_id()), (1, 3, Some(1)));
-    // It is transformed no more, but scores all the same.
+    // It is not transformed again, but still scores.
     board.wait();
     assert_eq!((board.count("corpse"), board.score()), (1, 2));
 }
@@ -329,7 +329,7 @@ fn an_avatar_taken_away() {
     assert!(board.wait().state.outcome() == Outcome::Ongoing);
 }
 
-/// Q27: what changes all of a type changes its dead, too.
+/// Q27: an effect on all sprites of a type also changes killed ones.
 #[test]
 fn the_dead_are_transformed_with_the_rest() {
     let sprites = "pill > Immovable\nghost > Immovable\navatar > MovingAvatar\nhero > MovingAvatar";
@@ -341,18 +341,18 @@ fn the_dead_are_transformed_with_the_rest() {
     assert_eq!((board.count("avatar"), board.one("hero").flags, board.state.avatar_id()), (0, 2, Some(2)));
     board.play("R");
     assert_eq!(board.at("hero").0, HERE.0 + 10, "it is the player's");
-    // Twice in a tick makes two of one.
+    // Two transformations in a tick make two sprites of one.
     let sprites = "a > Immovable\nb > Immovable\nx > Immovable\ny > Immovable\navatar > MovingAvatar";
     let rules = "avatar x > transformToAll stype=a stypeTo=b\navatar y > transformToAll stype=a stypeTo=b";
     assert_eq!(heap(sprites, rules, &["a", "x", "y", "avatar"]).wait().count("b"), 2);
     let rules = "x avatar > transformToSingleton stype=a stype_other=b\ny avatar > transformToSingleton stype=a stype_other=b";
     let mut board = heap(sprites, rules, &["a", "x", "y", "avatar"]);
     board.wait();
-    // x makes the old one a b, and itself an a; y makes both that are listed a b again.
+    // x turns the old one into a b, and itself into an a; y turns both listed ones into a b again.
     assert_eq!((board.count("a"), board.count("b")), (1, 3));
 }
 
-/// Q28: a transformation that a singleton forbids scores, and changes nothing.
+/// Q28: a transformation that a singleton prevents scores, but changes nothing.
 #[test]
 fn a_forbidden_transformation() {
     let sprites = "rock > Immovable\nmine > Immovable singleton=True\navatar > MovingAvatar";
@@ -360,7 +360,7 @@ fn a_forbidden_transformation() {
         heap(sprites, "rock avatar > transformTo stype=mine scoreChange=1", &["rock", "rock", "avatar"]);
     board.wait();
     assert_eq!((board.count("rock"), board.count("mine"), board.score()), (1, 1, 2));
-    // transformToAll asks nobody.
+    // transformToAll ignores singletons.
     let mut board =
         heap(sprites, "avatar rock > transformToAll stype=rock stypeTo=mine", &["rock", "rock", "avatar"]);
     assert_eq!(board.wait().count("mine"), 4, "each of two meetings transforms the two of them");
@@ -387,7 +387,7 @@ fn health_limits() {
     assert_eq!(health("addHealthPointsToMax value=100 applyScore=False"), (10, 1), "it says that it scores");
 }
 
-/// Q30, Q53: changeResource goes down without end, and up to the limit of what is of class Resource.
+/// Q30, Q53: changeResource goes down without a limit, and up to the limit of types of class Resource.
 #[test]
 fn resource_limits() {
     let sprites = "gem > Resource limit=3\nrock > Immovable\npack > ResourcePack resource_name=gem\na > Immovable\navatar > MovingAvatar";
@@ -405,7 +405,7 @@ fn resource_limits() {
     assert_eq!(change("resource=pack value=1"), (vec![], 0));
 }
 
-/// Q31, K-31: on what is no resource collectResource scores as it did the last time.
+/// Q31, K-31: on a sprite that is not a resource, collectResource scores as it did the last time.
 #[test]
 fn collecting_what_is_no_resource() {
     let sprites = "thing >\n  rock > Immovable\n  gold > Resource limit=1\navatar > MovingAvatar";
@@ -426,7 +426,7 @@ fn collecting_what_is_no_resource() {
     assert_eq!((gained, board.count("gold")), (vec![1, 1, 1, 0, 0], 1));
 }
 
-/// Q32: collectResourceIfHeld takes the resource away where there is no room.
+/// Q32: collectResourceIfHeld removes the resource even if there is no room.
 #[test]
 fn collecting_with_another_resource() {
     let sprites = "key > Resource limit=5\ngold > Resource limit=2 value=2\navatar > MovingAvatar";
@@ -450,7 +450,7 @@ fn collecting_with_another_resource() {
     assert_eq!(board.held(), [("gold".to_owned(), 2), ("key".to_owned(), 2)]);
 }
 
-/// Q33: with a type, the first sprite of the last group that has any; without such sprites the first partner.
+/// Q33: with a type, the first sprite of the last non-empty group; without such sprites the first partner.
 #[test]
 fn health_of_a_type() {
     let sprites = "foes >\n  e1 > Immovable healthPoints=5\n  e2 > Immovable healthPoints=5\nhit > Immovable healthPoints=5\navatar > MovingAvatar";
@@ -467,14 +467,14 @@ fn health_of_a_type() {
     assert_eq!([health("e1"), health("e2"), health("hit")], [vec![5], vec![4, 5], vec![5]]);
     let mut board = heap(sprites, rules, &["hit", "avatar"]);
     assert_eq!(board.wait().one("hit").health, 4);
-    // A number of the registry will do for the reference: hit is type 5.
+    // The reference accepts a number of the registry: hit is type 5.
     let mut board =
         heap(sprites, "hit avatar > subtractHealthPoints itype=5 value=2", &["hit", "hit", "avatar"]);
     board.wait();
     assert_eq!(board.all("hit").iter().map(|record| record.health).collect::<Vec<i32>>(), [1, 5]);
 }
 
-/// Q34: what kills scores otherwise.
+/// Q34: a killing execution has another score.
 #[test]
 fn the_score_of_the_last_blow() {
     let sprites = "a > Immovable healthPoints=3\navatar > MovingAvatar";
@@ -487,7 +487,7 @@ fn the_score_of_the_last_blow() {
     assert_eq!(scores, [10, 20, 1020, 1020]);
 }
 
-/// Texts of scores that are no numbers: 0, and a message each time; names of constants are no texts.
+/// Score texts that are not numbers: 0, and a message each time; names of constants do not count as texts.
 #[test]
 fn scores_that_are_no_numbers() {
     let sprites = "a > Immovable healthPoints=2\navatar > MovingAvatar";
@@ -517,7 +517,7 @@ fn scores_that_are_no_numbers() {
     assert_eq!(heap(sprites, rule, &["a", "avatar"]).wait().messages(), 0);
 }
 
-/// Q53, `spec/03` §8.2: a sprite that says it is a resource and is none.
+/// Q53, `spec/03` §8.2: a sprite that is declared to be a resource but is not one.
 #[test]
 fn limits_of_other_effects() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";

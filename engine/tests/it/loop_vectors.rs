@@ -1,5 +1,5 @@
-//! The quirks of loading and of the cycle that the specification lists (`spec/01` §10), each by its number, and the
-//! terminations and counters that no public game uses.
+//! The quirks of loading and of the cycle in the specification (`spec/01` §10), by number, and the terminations and
+//! counters that no public game uses.
 
 use crate::board::{Board, setup};
 use engine::{Action, Chance, Diagnostic, Game, Limit, Outcome, Severity};
@@ -16,7 +16,7 @@ fn inherited_classes() {
     assert_eq!(["a", "b", "c"].map(class), ["Missile", "Missile", "Bomber"]);
 }
 
-/// K-9: the player's avatar is looked for from the second type of the drawing order on, and `avatar` is drawn last.
+/// K-9: the search for the player's avatar starts at the second type of the drawing order, and `avatar` is drawn last.
 #[test]
 fn finding_the_avatar() {
     let sprites = "hero > MovingAvatar\nwall > Immovable\na > Immovable";
@@ -46,7 +46,7 @@ fn finding_the_avatar() {
     );
 }
 
-/// Without an avatar nothing can score, and the limit of ticks finds nobody to lose.
+/// Without an avatar nothing can score, and the tick limit has no loser.
 #[test]
 fn playing_without_an_avatar() {
     let sprites = "a > Immovable\nb > Missile orientation=RIGHT";
@@ -59,7 +59,7 @@ fn playing_without_an_avatar() {
     assert_eq!(board.wait().state.outcome(), Outcome::Stopped(Limit::NoAvatar));
 }
 
-/// K-11, Q3: counters take lists; a single number is no list. A missing entry is the first one.
+/// K-11, Q3: counters take lists; a single number is not a list. A missing entry equals the first one.
 #[test]
 fn counters_take_lists() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -80,14 +80,14 @@ fn counters_take_lists() {
     );
     assert_eq!(counters("", rules), []);
     assert_eq!(setup(sprites, rules).header("no_counters=2").problems(&PAIR), ["wrong-type"]);
-    // A text that is no number is a message at every execution, for each counter that it is for.
+    // A text that is not a number costs a message at every execution, for each counter that it applies to.
     let board = |rule: &str| setup(sprites, rule).header("no_counters=2").place(&PAIR).play("..").messages();
     assert_eq!(board("a avatar > halfSpeed counter=x"), 4);
     assert_eq!(board("a avatar > halfSpeed counter=1,x counterElse=,"), 2 + 4);
     assert_eq!(board("a avatar > halfSpeed counter=x count=False"), 0);
 }
 
-/// transformIfCount and spawnIfCounterSubTypes say which counters count (`spec/03` §7.4, §8.5).
+/// transformIfCount and spawnIfCounterSubTypes decide which counters count (`spec/03` §7.4, §8.5).
 #[test]
 fn effects_that_count() {
     let sprites = "a > Immovable\nb > Immovable\nc > Immovable\navatar > MovingAvatar";
@@ -107,7 +107,7 @@ fn effects_that_count() {
     assert_eq!(outcome(&rule.replace("subTypesNum=0", "subTypesNum=1"), &two), (0, 1, 0, 10));
 }
 
-/// K-12, K-13: values that a field does not take are not there; constants are numbers.
+/// K-12, K-13: values of the wrong type for a field are ignored; constants are numbers.
 #[test]
 fn values_and_fields() {
     let sprites = "m > Missile orientation=RIGHT cooldown=2.0 speed=TYPE_AVATAR\nn > Missile orientation=RIGHT speed=0x1p-1\navatar > MovingAvatar";
@@ -116,7 +116,7 @@ fn values_and_fields() {
     assert_eq!((board.one("m").speed, board.at("n")), (0.0, (30, 30)));
 }
 
-/// K-20: a pair runs where it first appears, also if that line is not enabled.
+/// K-20: a pair runs at the place of its first line, even if that line is disabled.
 #[test]
 fn pairs_run_where_they_first_appear() {
     let sprites = "a > Immovable\nb > Immovable\nc > Immovable\navatar > MovingAvatar";
@@ -143,7 +143,8 @@ fn time_limits() {
     assert_eq!((board.wait().state.outcome(), board.state.tick()), (Outcome::Lost, 2000));
 }
 
-/// K-29: what is made in a tick is updated in it if its type is declared earlier; of its own type it is the end.
+/// K-29: a sprite that is made in a tick is updated in it if its type is declared earlier; spawning into the updated type
+/// stops the game.
 #[test]
 fn updates_of_the_newborn() {
     let flies = |sprites: &str| {
@@ -164,7 +165,7 @@ fn updates_of_the_newborn() {
     assert_eq!(board.wait().state.outcome(), Outcome::Stopped(Limit::SpawnIntoUpdatedType));
 }
 
-/// K-37: a step of no whole pixel falls back to the speed, cut to a whole number.
+/// K-37: a step of less than a pixel falls back to the speed, truncated to a whole number.
 #[test]
 fn steps_of_less_than_a_pixel() {
     let sprites = "m > Missile orientation=RIGHT speed=S\navatar > MovingAvatar";
@@ -191,7 +192,7 @@ fn ends(rules: &str, ends: &str, placed: &[(&str, i32, i32)]) -> Vec<Outcome> {
     (0..3).map(|_| board.wait().state.outcome()).collect()
 }
 
-/// `spec/01` §4.8: what ends a game.
+/// `spec/01` §4.8: the conditions that end a game.
 #[test]
 fn terminations() {
     use Outcome::{Lost, Ongoing, Won};
@@ -227,7 +228,7 @@ fn terminations() {
     ] {
         assert_eq!(now(&format!("{unread}\nTimeout limit=0")), Ongoing, "{unread}");
     }
-    // A killed avatar is counted no more.
+    // A killed avatar no longer counts.
     let here = [("c", 20, 20), ("avatar", 20, 20)];
     assert_eq!(ends("avatar c > killSprite", "SpriteCounter stype=avatar win=False", &here)[0], Lost);
 }
@@ -244,7 +245,7 @@ fn counters_that_may_not_end_the_game() {
         [Ongoing, Won, Won]
     );
     assert_eq!(ends(rules, &format!("{counter}\nStopCounter stype1=c limit=1"), &placed)[0], Won, "too late");
-    // In the first tick it is the sum of 3, then 2.
+    // In the first tick the sum is 3, then 2.
     let stop = "StopCounter stype1=c stype2=a limit=2 min=True";
     assert_eq!(ends(rules, &format!("{stop}\n{counter}"), &placed), [Ongoing, Won, Won]);
     assert_eq!(
@@ -295,7 +296,7 @@ fn counters_decide() {
     assert_eq!(two("avatar c > halfSpeed counter=2,2", "Timeout use_counter=True limits=2,2 win=True"), Lost);
 }
 
-/// The first line: what is not known costs two messages each; more than one player is not played (`spec/01` §1.5).
+/// The first line: an unknown parameter costs two messages; more than one player is not supported (`spec/01` §1.5).
 #[test]
 fn the_first_line() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -330,7 +331,7 @@ fn the_first_line() {
     assert_eq!(setup(sprites, "").header("no_players=x").problems(&PAIR), ["wrong-type"]);
 }
 
-/// `obs=` switches path finding on, even if it names nothing that exists; which ways paths go is settled at the start.
+/// `obs=` enables path finding, even if it names nothing that exists; the directions of paths are fixed at the start.
 #[test]
 fn path_finding_is_switched_on() {
     let sprites = "a > Immovable\nc > PathChaser stype=a\nhero > AimedAvatar stype=a\navatar > MovingAvatar";
@@ -340,14 +341,14 @@ fn path_finding_is_switched_on() {
     assert_eq!(end(""), Outcome::Stopped(Limit::NoPaths));
     assert_eq!(end("obs=5"), Outcome::Stopped(Limit::NoPaths), "a number is no list");
     assert_eq!(end("obs=nothing"), Outcome::Ongoing);
-    // An avatar of three actions at the start: left and right only, whatever it becomes.
+    // An avatar with three actions at the start: left and right only, whatever it becomes.
     let placed = [("a", 20, 20), ("hero", 20, 20), ("c", 40, 40)];
     let mut board = setup(sprites, rules).header("obs=wall").place(&placed);
     board.play("...");
     assert_eq!((board.count("avatar"), board.at("c")), (1, (40, 40)));
 }
 
-/// K-44, K-45: the first row says how wide a level is; characters without meaning cost a message each.
+/// K-44, K-45: the first row sets the width of a level; characters without a mapping cost a message each.
 #[test]
 fn rows_and_characters() {
     let source = "BasicGame\n  SpriteSet\n    a > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    abc > a\n    x b\n    y b ghost\n    z > a\n    z > a a\n";
@@ -400,7 +401,7 @@ fn the_order_of_sections() {
     );
 }
 
-/// The player's avatar is updated whatever its type; sprites of avatar classes that are not the player's are not.
+/// The player's avatar is updated whatever its type; other sprites of avatar classes are not updated.
 #[test]
 fn avatars_that_come_about() {
     let sprites = "hero > MovingAvatar\n  knight > MovingAvatar\na > Immovable\nlog > Missile orientation=RIGHT\navatar > MovingAvatar";

@@ -1,4 +1,4 @@
-//! The quirks of effects on place and direction (`spec/03` §14, Q35–Q58), each by its number.
+//! The quirks of effects on place and direction (`spec/03` §14, Q35–Q58), by number.
 
 use crate::board::{Board, setup};
 use engine::Outcome;
@@ -26,7 +26,7 @@ fn relative_speeds() {
     assert_eq!(survivors("w a > killIfSlow limspeed=0.6", ("w", 40, 20)), 1);
 }
 
-/// Q36: what stands still dies in both ways.
+/// Q36: a sprite that stands still dies under both effects.
 #[test]
 fn head_on() {
     let sprites = "a > Missile orientation=RIGHT\nb > Missile orientation=LEFT\nc > Missile orientation=RIGHT speed=2\nw > Immovable\navatar > MovingAvatar";
@@ -46,7 +46,7 @@ fn head_on() {
     assert!(dies("killIfNotFrontal", ("a", 40, 20), ("c", 30, 20)));
 }
 
-/// `spec/03` §8.1: from above, by where both were, and only while the other one falls.
+/// `spec/03` §8.1: from above, judged by the last positions of both, and only while the partner falls.
 #[test]
 fn from_above() {
     let sprites =
@@ -64,7 +64,7 @@ fn from_above() {
     assert_eq!((board.count("a"), board.score()), (1, 0));
 }
 
-/// Q37: a pusher that stood still takes the direction of what it pushes away.
+/// Q37: a pusher that stood still takes the direction of the sprite that it pushes away.
 #[test]
 fn pushing_chains() {
     let sprites = "box > Passive\navatar > MovingAvatar";
@@ -77,15 +77,15 @@ fn pushing_chains() {
     let (left, right, none) = ((-1.0, 0.0), (1.0, 0.0), (0.0, 0.0));
     let one = "box avatar > bounceForward";
     assert_eq!(push(one, 30, "R"), [(50, right), (50, none), (60, none)]);
-    // Boxes meet in both orders: the first stands still for its partner, and the partner is pushed on in its turn.
+    // Boxes meet in both orders: the first stands still for its partner, and the partner is then pushed on.
     let all = format!("{one}\nbox box > bounceForward");
     assert_eq!(push(&all, 30, "R"), [(50, none), (60, right), (70, right)]);
-    // Against the order of their creation, each pass pushes one.
+    // Against the order of creation, each pass pushes one box.
     assert_eq!(push(&all, 70, "L"), [(40, none), (40, left), (50, left)]);
     assert_eq!(push(&format!("{all} repeat=3"), 70, "L"), [(30, left), (40, left), (50, left)]);
 }
 
-/// Q38: carried once a tick, not after a move of one's own, and by the first carrier only.
+/// Q38: a sprite is carried once per tick, not after a move of its own, and by the first carrier only.
 #[test]
 fn carried() {
     let sprites = "log > Missile orientation=RIGHT speed=0.5\navatar > MovingAvatar";
@@ -103,14 +103,14 @@ fn carried() {
     let mut board = setup(sprites, "avatar log > pullWithIt\navatar log > pullWithIt")
         .place(&[("log", 30, 20), ("avatar", 30, 20)]);
     assert_eq!(board.play("..").at("avatar"), (35, 20), "two lines try, the second after a move");
-    // Flush with the carrier, where asked for.
+    // The sprite is placed flush with the carrier if requested.
     let mut board = setup(sprites, "avatar log > pullWithIt pixelPerfect=True")
         .place(&[("log", 30, 20), ("avatar", 20, 20)]);
     board.play("R.");
     assert_eq!(board.at("avatar"), board.at("log"));
 }
 
-/// Q39: a sprite of continuous physics is carried by its own measure, and lifted.
+/// Q39: a sprite with continuous physics is carried by its own measure, and lifted.
 #[test]
 fn carried_in_continuous_physics() {
     let sprites =
@@ -127,7 +127,7 @@ fn carried_in_continuous_physics() {
     assert_eq!(board.play("..").at("rider"), (35, 20));
 }
 
-/// Q40, Q41: through a portal one takes the exit's size, after a draw even for one exit.
+/// Q40, Q41: a sprite that goes through a portal takes the exit's size, after a draw even for a single exit.
 #[test]
 fn portals() {
     let sprites = "entry > Portal stype=exit\nexit > Immovable wMult=2\nx > Immovable\navatar > MovingAvatar";
@@ -142,7 +142,7 @@ fn portals() {
     let rect = board.one("avatar").rect;
     assert_eq!(((rect.x, rect.w), board.draws(1)), ((70, 20), 1 + 2));
     assert_eq!(board.all("x")[1].rect.x, 20, "where it was at the start of its update");
-    // What leads nowhere is a message; what spawns leads to what it spawns.
+    // A sprite that leads nowhere costs a message; a spawner leads to the type that it spawns.
     let sprites = "door > Door\nsp > SpawnPoint stype=x prob=0\nx > Immovable\ny > Immovable\nkey > Immovable\navatar > MovingAvatar";
     let mut board =
         setup(sprites, "avatar door > teleportToExit").place(&[("door", 30, 20), ("avatar", 30, 20)]);
@@ -152,7 +152,7 @@ fn portals() {
     assert_eq!(setup(sprites, rules).place(&placed).play("R").at("avatar"), (70, 40));
 }
 
-/// Q42: beside the partner, whoever the first sprite is; from where the partner was, if it left its place.
+/// Q42: beside the partner, whatever the first sprite is; relative to the partner's last place, if it has left that.
 #[test]
 fn beside_the_partner() {
     let sprites = "wall > Immovable\nx > Immovable\navatar > MovingAvatar";
@@ -172,7 +172,7 @@ fn beside_the_partner() {
     assert_eq!(spawned("wall avatar > spawnBehind stype=x", "R."), [(30, 20), (30, 20)]);
 }
 
-/// Q43, K-34: the first sprite of a type has been of the size of a cell before its first update.
+/// Q43, K-34: the first sprite of a type had the size of a cell before its first update.
 #[test]
 fn the_first_of_a_scaled_type() {
     let sprites = "seed > Immovable\ntall > Immovable hMult=1.5\navatar > MovingAvatar";
@@ -187,7 +187,7 @@ fn the_first_of_a_scaled_type() {
     assert_eq!(board.all("tall").iter().map(|record| record.rect.h).collect::<Vec<i32>>(), [10, 15]);
 }
 
-/// Q44: a transformed sprite has been of its old size.
+/// Q44: the last rectangle of a transformed sprite has its old size.
 #[test]
 fn transformed_sizes() {
     let sprites = "a > Immovable\nwide > Immovable wMult=3\navatar > MovingAvatar";
@@ -196,7 +196,7 @@ fn transformed_sizes() {
     assert_eq!(board.wait().one("wide").rect.w, 10);
 }
 
-/// Q45, Q46, Q58: batches count two walls that are aligned twice, adjacent or not, and ask for no one's life.
+/// Q45, Q46, Q58: batches count two aligned walls twice, adjacent or not, and do not check whether sprites are alive.
 #[test]
 fn batches() {
     let sprites =
@@ -225,7 +225,7 @@ fn batches() {
         setup(&sprites.replace('@', "1"), &rules).place(&[("brick", 50, 0), ("ball", 40, 0), AVATAR]);
     board.play("..");
     assert_eq!((board.count("ball"), board.score()), (0, 1));
-    // Counters are multiplied as well; a list that is no list is a message.
+    // Counters are multiplied as well; a text that is not a list costs a message.
     let sprites = sprites.replace('@', "3");
     let rule = "ball brick > wallBounce counter=3,x";
     let mut board = setup(&sprites, rule).header("no_counters=2").place(&[
@@ -238,7 +238,7 @@ fn batches() {
     assert_eq!((board.state.counters(), board.messages()), (&[6, 0][..], 1));
 }
 
-/// Q47: all who met are put back, moving walls too.
+/// Q47: all participants are put back, including moving walls.
 #[test]
 fn batches_put_all_back() {
     let sprites = "ball > Missile orientation=RIGHT speed=0.5\npaddle > Missile orientation=LEFT speed=0.5\navatar > MovingAvatar";
@@ -246,11 +246,11 @@ fn batches_put_all_back() {
         setup(sprites, "ball paddle > wallBounce").place(&[("ball", 40, 0), ("paddle", 50, 0), AVATAR]);
     board.play("..");
     assert_eq!((board.at("ball"), board.at("paddle")), ((40, 0), (50, 0)));
-    // They meet squarely, which is from above as well, and that comes first.
+    // They meet squarely, which counts as from above as well, and that comes first.
     assert_eq!(board.one("ball").orientation, (1.0, -0.0));
 }
 
-/// Q48: as a batch, an effect that has none does nothing; strictly it is an error.
+/// Q48: an effect without a batch version does nothing as a batch; strictly it is an error.
 #[test]
 fn batches_of_other_effects() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -262,7 +262,7 @@ fn batches_of_other_effects() {
     assert_eq!((board.count("a"), board.score()), (1, 0));
 }
 
-/// Q50: wrapAround goes by the direction, along one axis, and cuts fractions off.
+/// Q50: wrapAround follows the direction, along one axis, and truncates fractions.
 #[test]
 fn wrapping() {
     let sprites =
@@ -301,7 +301,7 @@ fn removing_the_score() {
     let mut board = setup(sprites, rules).place(&[("a", 20, 20), ("avatar", 20, 20)]);
     board.wait();
     assert_eq!((board.score(), board.count("a")), (3, 0));
-    // Each avatar has its own: that of another one is not the player's.
+    // Each avatar has its own score: another avatar's is not the player's.
     let rules =
         "b avatar > spawn stype=twin scoreChange=9\na avatar > removeScore stype=twin killSecond=True";
     let placed = [("a", 20, 20), ("b", 20, 20), ("avatar", 20, 20)];
@@ -328,7 +328,7 @@ fn negative_zeros() {
     assert_eq!((x, y, y.is_sign_negative()), (-1.0, 0.0, true));
 }
 
-/// Q55: transformIfCount tells an unknown parameter twice, lines with TIME and addTimer not at all.
+/// Q55: transformIfCount reports an unknown parameter twice, lines with TIME and addTimer not at all.
 #[test]
 fn messages_about_parameters() {
     let sprites =
@@ -349,7 +349,7 @@ fn messages_about_parameters() {
     assert_eq!(messages("a b > explode bogus=1"), 1);
 }
 
-/// Q56: what reads as a constant, a number or a truth value is no name for a parameter; in front of the arrow it is.
+/// Q56: a constant, a number or a boolean is not a name in a parameter; in front of the arrow it is.
 #[test]
 fn names_that_read_as_something_else() {
     let sprites = "GOLD > Immovable\n7 > Immovable\na > Immovable\navatar > MovingAvatar";
@@ -360,7 +360,7 @@ fn names_that_read_as_something_else() {
     }
 }
 
-/// Q57, K-21: what a line makes takes part in the next line, not in its own.
+/// Q57, K-21: a sprite that a line makes takes part in the next line, not in its own.
 #[test]
 fn newborn_sprites() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -378,7 +378,7 @@ fn newborn_sprites() {
     assert_eq!(board.wait().count("a"), 1);
 }
 
-/// `spec/03` §16: a sprite without height that is put anywhere is the end.
+/// `spec/03` §16: placing a sprite without height anywhere stops the game.
 #[test]
 fn flat_sprites() {
     let sprites = "flat > Immovable hMult=0.01\nbig > Immovable\navatar > MovingAvatar";
@@ -392,7 +392,8 @@ fn flat_sprites() {
     assert!(!dies("flat EOS > halfSpeed"));
 }
 
-/// `spec/03` §8.3: flush with a wall, and on along it; each wall that is still touched counts (Q49).
+/// `spec/03` §8.3: the sprite stops flush with a wall and continues along it; each wall that it still touches counts
+/// (Q49).
 #[test]
 fn stopping_at_walls() {
     let sprites = "ball > Missile orientation=RIGHT speed=0.7\nbrick > Immovable\navatar > MovingAvatar";
@@ -408,7 +409,7 @@ fn stopping_at_walls() {
     assert_eq!(board.state.outcome(), Outcome::Ongoing);
 }
 
-/// `spec/01` §3.5: at 10,001 sprites the next is refused with a message, singleton or not.
+/// `spec/01` §3.5: with 10,001 sprites the next one is rejected with a message, singleton or not.
 #[test]
 fn the_limit_of_sprites() {
     let sprites = "a > Immovable\none > Immovable singleton=True\navatar > MovingAvatar";

@@ -1,5 +1,5 @@
-//! What two states must differ in to have different search keys, and what they may differ in and share one. (That equal
-//! keys have equal futures in any game is checked in `tests/tests/robustness.rs`.)
+//! The differences between two states that change the search key, and those that do not. (`tests/tests/robustness.rs`
+//! checks that equal keys have equal futures in any game.)
 
 use engine::{Action, Game, Level, Seed, State};
 
@@ -61,7 +61,7 @@ fn a_cooldown_that_is_not_over() {
     agree(&slow, "A   a\n", "NRNNNN", "NRNNN");
 }
 
-/// A spawner that will be made fires at ticks that are multiples of its cooldown.
+/// A spawner that is made later fires at ticks that are multiples of its cooldown.
 #[test]
 fn spawners_still_to_be_made() {
     let later = game(

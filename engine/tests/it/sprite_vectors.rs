@@ -1,12 +1,12 @@
-//! Each sprite class and each rare parameter once, with places worked out by hand from `spec/02`, on boards of blocks of 10
-//! pixels.
+//! Each sprite class and each rare parameter once, with positions computed by hand from `spec/02`, on boards with blocks
+//! of 10 pixels.
 
 use crate::vector::Vector;
 use engine::{Action, Chance, Game, Limit, Outcome};
 
 const HERE: [(&str, i32, i32); 1] = [("avatar", 50, 20)];
 
-/// Columns of a sprite after each of so many ticks without a key.
+/// The columns of a sprite after each tick without a key.
 #[track_caller]
 fn columns(sprite: &str, expected: &[i32]) {
     let sprites = format!("avatar > MovingAvatar\ns > {sprite}");
@@ -64,7 +64,7 @@ fn lives() {
     gone("Walker orientation=RIGHT speed=1 timeToLive=0", 9);
 }
 
-/// What stands still can be given speed, or a push, and moves from then on.
+/// A sprite that stands still can be given speed, or pushed, and moves from then on.
 #[test]
 fn speed_from_effects() {
     let placed = [("avatar", 0, 70), ("s", 100, 20)];
@@ -74,7 +74,7 @@ fn speed_from_effects() {
 
     let sprites = "avatar > MovingAvatar\ns > Passive physicstype=CONT";
     let placed = [("avatar", 80, 20), ("s", 100, 20)];
-    // The second push has no direction, and takes the orientation.
+    // The second push has no direction, and uses the orientation.
     let mut vector = Vector::new(sprites, "s avatar > bounceForward", &placed, 1);
     assert_eq!(vector.places("s", "RR.."), [(100, 20), (100, 20), (101, 20), (101, 20)]);
 }
@@ -134,7 +134,7 @@ fn a_bomber_that_turns_in_place() {
     }
 }
 
-/// updateSpawnType gives spawners another type; of a list, the entry that was the partner's type.
+/// updateSpawnType gives spawners another type; in a list it replaces the partner's type.
 #[test]
 fn other_spawn_types() {
     let sprites = "avatar > MovingAvatar\nx > Immovable\ny > Immovable\nz > Immovable\ns > BomberRandomMissile stypeMissile=x,y\nq > SpawnPoint stype=x";
@@ -170,7 +170,7 @@ fn chasers_within_a_distance() {
     assert_eq!(any.places("c", ".."), [(110, 20), (120, 20)]);
 }
 
-/// A killed avatar stays a target; so does a type that only relatives have sprites of.
+/// A killed avatar remains a target; so does a type of which only relatives have sprites.
 #[test]
 fn targets() {
     let sprites = "k > Immovable\navatar > MovingAvatar\nf > Fleeing stype=avatar fleeing=False\ng > Chaser stype=child\npet > Immovable\n  child >\n  other >";
@@ -178,7 +178,7 @@ fn targets() {
     let placed = [("avatar", 0, 70), ("k", 10, 70), ("f", 80, 70), ("g", 100, 20), ("other", 200, 20)];
     let mut vector = Vector::new(sprites, rules, &placed, 1);
     assert_eq!(vector.places("f", "R...."), [(70, 70), (60, 70), (50, 70), (40, 70), (30, 70)]);
-    // `other` is no relative of `child`: no target, random steps, one draw each.
+    // `other` is not a relative of `child`: no target, random steps, one draw each.
     let mut chance = Chance::from_java(1);
     let ways = [(0, -10), (-10, 0), (0, 10), (10, 0)];
     let (mut x, mut y) = (100, 20);
@@ -194,13 +194,13 @@ fn targets() {
 fn walkers_on_the_grid() {
     columns("WalkerJumper orientation=RIGHT speed=1", &[110, 120, 130, 140, 150]);
     columns("WalkerJumper", &[100; 5]);
-    // Without a passive move it turns ahead and walks at `max_speed`; after that the passive move is enough.
+    // Without a passive move it turns ahead and walks at `max_speed`; after that the passive move suffices.
     columns("Walker orientation=LEFT speed=1 max_speed=2", &[80, 60, 40, 20, 0]);
-    // The steering comes after the passive move, and finds the cooldown.
+    // The steering comes after the passive move, and is blocked by the cooldown.
     columns("Walker orientation=LEFT speed=1 max_speed=1 airsteering=True", &[90, 80, 70, 60, 50]);
 }
 
-/// Only the keys of the class count, and only they are on offer.
+/// Only the keys of the class have an effect, and only these are offered.
 #[test]
 fn avatars_of_few_keys() {
     let check = |class: &str, keys: &str, expected: &[(i32, i32)]| {
@@ -217,7 +217,7 @@ fn avatars_of_few_keys() {
     check("OngoingAvatar orientation=DOWN", "..L.U", &[(50, 20), (50, 30), (40, 30), (30, 30), (30, 20)]);
 }
 
-/// One kind of shot for each key, all the same way; ammunition where the list has one.
+/// One kind of shot for each key, all in the same direction; ammunition where the list has an entry.
 #[test]
 fn shoots_by_key() {
     let sprites = "r > Resource\na > Missile\nb > Immovable\navatar > ShootOnlyAvatar stype=a,b ammo=r";
@@ -255,7 +255,8 @@ fn lander() {
     assert_eq!(vector.one("avatar").rotation, -0.3 - 0.3 + 0.3);
 }
 
-/// Continuous avatars: no key takes the speed of what has no orientation; the mass is rounded; the speed has a limit.
+/// Continuous avatars: without a key, an avatar without an orientation has speed 0; the mass is rounded; the speed has a
+/// limit.
 #[test]
 fn continuous_avatars() {
     let first = |params: &str, keys: &str| {
@@ -269,7 +270,7 @@ fn continuous_avatars() {
     assert_eq!(first("mass=0.2", "R").2, 4.999_999_925_494_195);
     assert_eq!(first("max_speed=2", "RRRRR"), (57, (1.0, 0.0), 2.0));
     assert_eq!(first("friction=0.5", "RRRR").2, 1.875);
-    // A mass of 0 divides by 0: no number, and no limit to it.
+    // A mass of 0 divides by 0: the result is NaN, and the limit does not apply to it.
     let (x, (ox, oy), speed) = first("mass=0 max_speed=2", "RRR");
     assert!(x == 50 && ox.is_nan() && oy.is_nan() && speed.is_nan());
 }
@@ -284,7 +285,7 @@ fn the_first_sprite_of_a_size() {
     assert_eq!(vector.all("p").iter().map(|record| record.rect.w).collect::<Vec<_>>(), [10, 20]);
 }
 
-/// A second OngoingTurningAvatar has forgotten what it leaves behind: it leaves walls.
+/// A second OngoingTurningAvatar has lost the type that it leaves behind: it leaves walls.
 #[test]
 fn the_second_avatar_that_leaves_a_trail() {
     let sprites = "trail > Immovable\nb > Immovable\nc > Immovable\nme >\n  avatar > OngoingTurningAvatar spawnBehind=trail\n  other > OngoingAvatar";
@@ -312,7 +313,7 @@ fn resources_by_name() {
     assert_eq!(vector.all("own").len(), 1, "packs have no limit of their own");
 }
 
-/// Paths: asked for only where there is a target; sideways for good if the first avatar has three actions.
+/// Paths: requested only if there is a target; permanently sideways if the first avatar has three actions.
 #[test]
 fn paths() {
     let sprites = "rock > Immovable\nt > Immovable\np > PathChaser stype=t\nq > PathAltChaser stype1=t\navatar > MovingAvatar";
@@ -329,7 +330,7 @@ fn paths() {
     let mut around = Vector::headed(header, sprites, "", &walled, 1);
     let way = [(100, 10), (110, 10), (120, 10), (120, 20), (120, 20)];
     assert_eq!(around.places("p", "....."), way);
-    // Names that do not exist are no obstacles, but paths there are.
+    // Unknown names are not obstacles, but they enable path finding.
     let mut through = Vector::headed("square_size=10 obs=rocks", sprites, "", &walled, 1);
     assert_eq!(through.places("p", "..."), [(110, 20), (120, 20), (120, 20)]);
 
@@ -342,7 +343,7 @@ fn paths() {
     assert_eq!(sideways.all("free").len(), 1);
 }
 
-/// PathAltChaser keeps to one target, to where it was last if it is gone; only there it looks for another one.
+/// PathAltChaser keeps one target, and its last place if it is gone; only there it looks for another one.
 #[test]
 fn one_target_at_a_time() {
     let header = "square_size=10 obs=rock";
@@ -361,7 +362,7 @@ fn one_target_at_a_time() {
     let placed = [("avatar", 0, 70), ("t", 100, 0), ("t", 100, 70), ("q", 100, 30)];
     let mut vector = Vector::headed(header, &sprites, "", &placed, 1);
     let mut chance = Chance::from_java(1);
-    // Each target is listed twice, one after the other and both again.
+    // Each target is listed twice: all in order, then all again.
     let down = chance.below(4) % 2 == 1;
     vector.play("..");
     assert_eq!(vector.place("q"), (100, if down { 50 } else { 10 }));
@@ -371,7 +372,7 @@ fn one_target_at_a_time() {
     assert_eq!(none.state.outcome(), Outcome::Stopped(Limit::NoSprite));
 }
 
-/// RandomPathAltChaser: a draw in any case; below epsilon a random step, otherwise along the path.
+/// RandomPathAltChaser: a draw in any case; a random step below epsilon, otherwise along the path.
 #[test]
 fn now_and_then_at_random() {
     for epsilon in ["0.0", "1"] {
@@ -394,7 +395,7 @@ fn now_and_then_at_random() {
     }
 }
 
-/// A bomber makes sprites where it is, then moves on.
+/// A bomber makes sprites at its place, then moves on.
 #[test]
 fn bombers() {
     let sprites = "avatar > MovingAvatar\ny > Immovable\nb > Bomber stype=y speed=1 spawnorientation=UP";
@@ -404,7 +405,7 @@ fn bombers() {
     assert_eq!(vector.all("y")[4].orientation, (0.0, -1.0));
 }
 
-/// The player's avatar is updated whatever its type; a parent type is in no order of updates.
+/// The player's avatar is updated whatever its type; a parent type is not in the update order.
 #[test]
 fn an_avatar_of_a_parent_type() {
     let sprites = "b > Immovable\nme > MovingAvatar\n  avatar >\n  other >";
@@ -415,14 +416,15 @@ fn an_avatar_of_a_parent_type() {
     assert_eq!(vector.places("me", "RRR"), [(70, 20); 3]);
 }
 
-/// Physics that does not exist is the grid's, but avatars glide, and do not face where they go.
+/// An unknown physics acts as the grid's, but avatars have passive movement, and do not face the direction of their
+/// moves.
 #[test]
 fn physics_of_another_kind() {
     let mut vector = Vector::as_reference("avatar > OrientedAvatar physicstype=2", "", &HERE, 1);
     assert_eq!(vector.places("avatar", "..U.."), [(50, 20), (60, 20), (70, 20), (70, 10), (70, 0)]);
 }
 
-/// Names that read as something else are lost; undeclared ones, and missing ones, are the end when they are needed.
+/// Names that read as something else are lost; undeclared and missing names stop the game when they are needed.
 #[test]
 fn names_of_other_sprites() {
     let start = |sprites: &str, keys: &str| {
@@ -450,7 +452,7 @@ fn names_of_other_sprites() {
     }
 }
 
-/// Pictures for the four directions and none for others are the end of a sprite of another orientation.
+/// A sprite with pictures for the four directions only stops the game if it has another orientation.
 #[test]
 fn oriented_pictures() {
     let outcome = |sprite: &str| {
@@ -476,7 +478,7 @@ fn ammunition_that_does_not_exist() {
     assert_eq!(vector.all("a").len(), 0);
 }
 
-/// Sizes that come out as 0: they can be, but not move, nor be made again.
+/// Sizes that are rounded to 0: such sprites can exist, but they cannot move or be made again.
 #[test]
 fn flat_sprites() {
     let outcome = |sprite: &str, many: usize| {
@@ -510,8 +512,8 @@ fn what_a_sprite_passes_for() {
     assert_eq!(vector.state.outcome(), Outcome::Stopped(Limit::UnfitSprite));
 }
 
-/// The reference complains of each parameter that a class does not have when it makes the first sprite, of those of a
-/// resource once more before; never of its own fields.
+/// The reference logs a message for each unknown parameter when it makes the first sprite, for those of a resource once
+/// more before; never for its own fields.
 #[test]
 fn messages_about_parameters() {
     let messages = |sprite: &str| {
@@ -527,7 +529,7 @@ fn messages_about_parameters() {
     assert_eq!(messages("Fleeing stype=s cons=2 maxDistance=3 stype1=s"), 1);
 }
 
-/// Of a parameter that is there twice the last one counts.
+/// Of two parameters with the same name the last one counts.
 #[test]
 fn the_last_of_two_parameters() {
     let sprites = "avatar > MovingAvatar\np > Immovable singleton=True singleton=False";
@@ -535,7 +537,7 @@ fn the_last_of_two_parameters() {
     assert_eq!(vector.all("p").len(), 2);
 }
 
-/// Where a spawner stands in its period is live behaviour, also before its first update.
+/// The phase of a spawner is live behaviour, also before its first update.
 #[test]
 fn search_keys_tell_phases_apart() {
     for spawner in ["SpawnPointMultiSprite stypes=y cooldown=50", "SpawnPoint stype=y cooldown=50"] {
@@ -550,7 +552,7 @@ fn search_keys_tell_phases_apart() {
     }
 }
 
-/// Strictly, each of these is an error at its place, with help.
+/// In strict loading, each of these is an error at its place, with help.
 #[test]
 fn strict_loading_says_what_is_wrong() {
     let check = |line: &str, code: &str, marked: &str| {

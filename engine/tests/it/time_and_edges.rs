@@ -1,11 +1,11 @@
-//! Effects by the clock, effects at the edge, and the messages that they cost (`spec/03` §4.4, §4.6, §6, §14).
+//! Timed effects, effects at the edge, and the messages that they cost (`spec/03` §4.4, §4.6, §6, §14).
 
 use crate::board::setup;
 use engine::{Limit, Outcome};
 
 const AVATAR: (&str, i32, i32) = ("avatar", 0, 50);
 
-/// Q1, K-17: at tick 0, whatever the timer says; then never, or every so many ticks.
+/// Q1, K-17: at tick 0, whatever the timer says; after that never, or periodically.
 #[test]
 fn lines_with_time_run_at_tick_0() {
     let sprites = "box > Immovable\nball > Immovable\navatar > MovingAvatar";
@@ -24,7 +24,7 @@ fn lines_with_time_run_at_tick_0() {
     assert_eq!(board.play("....").score(), 1, "a number with a point is no number of ticks");
 }
 
-/// Q2: `nextExecution` says only that the first run is after the timer.
+/// Q2: `nextExecution` only means that the first run is after the timer.
 #[test]
 fn a_first_run_later() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -36,7 +36,7 @@ fn a_first_run_later() {
     }
 }
 
-/// Q4: of those due together the last one planned runs first, so the order turns each time.
+/// Q4: of the effects due together the one planned last runs first, so the order reverses each time.
 #[test]
 fn equal_times_alternate() {
     let sprites = "a > Immovable\nx > Immovable\ny > Immovable\nz > Immovable\navatar > MovingAvatar";
@@ -59,7 +59,7 @@ fn timers_without_end() {
     }
 }
 
-/// Q6: addTimer scores when it plans and when what it planned runs; it counts once.
+/// Q6: addTimer scores when it plans and when the planned effect runs; it counts once.
 #[test]
 fn add_timer_scores_twice() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -75,7 +75,7 @@ fn add_timer_scores_twice() {
     assert_eq!((board.score(), board.state.counters(), board.count("b")), (10, &[1][..], 0));
 }
 
-/// `spec/03` §6.4: each meeting plans anew; with a timer below 1, for the next tick.
+/// `spec/03` §6.4: each meeting plans again; with a timer below 1, for the next tick.
 #[test]
 fn add_timer_plans_at_every_meeting() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -85,7 +85,7 @@ fn add_timer_plans_at_every_meeting() {
     assert_eq!((scores, board.one("a").speed), (vec![1, 3, 5], 3.0));
 }
 
-/// `spec/03` §6.4: what needs sprites only logs, or is what the reference dies of.
+/// `spec/03` §6.4: an effect that needs sprites only logs a message, or crashes the reference.
 #[test]
 fn planned_effects_that_need_sprites() {
     let sprites = "a > Immovable\nb > Immovable healthPoints=5\nspawner > SpawnPoint stype=b\nnone > Immovable\navatar > MovingAvatar";
@@ -132,7 +132,7 @@ fn the_clock_ignores_what_effects_say_of_scores() {
     assert_eq!((board.wait().score(), board.count("a")), (3, 0));
 }
 
-/// `spec/03` §6.3: once a sprite, killed and disabled ones left out; counters too.
+/// `spec/03` §6.3: once per sprite, without killed and disabled ones; counters too.
 #[test]
 fn the_clock_visits_every_sprite_of_the_tree() {
     let sprites = "all >\n  a > Immovable\n  b > Immovable\navatar > MovingAvatar";
@@ -140,12 +140,12 @@ fn the_clock_visits_every_sprite_of_the_tree() {
         "all TIME > flipDirection scoreChange=1 counter=1,0 counterElse=10,0\nall TIME > killAll stype=a";
     let placed = [("a", 20, 20), ("a", 30, 20), ("b", 40, 20), AVATAR];
     let mut board = setup(sprites, rules).header("no_counters=2").place(&placed);
-    // The kill comes first, and once a sprite of the tree that is not dead.
+    // The kill comes first, then once for each sprite of the tree that is not dead.
     board.wait();
     assert_eq!((board.score(), board.state.counters()), (1, &[11, 0][..]));
 }
 
-/// Q8, K-16: n lines on a type run n times each.
+/// Q8, K-16: n lines for a type run n times each.
 #[test]
 fn edge_lines_multiply() {
     let sprites = "a > Missile orientation=LEFT\navatar > MovingAvatar";
@@ -155,7 +155,7 @@ fn edge_lines_multiply() {
     let three = "a EOS > halfSpeed scoreChange=1\nEOS a > halfSpeed scoreChange=10\na EOS > halfSpeed scoreChange=100";
     let mut board = setup(sprites, three).place(&[("a", 0, 20), AVATAR]);
     assert_eq!(board.play("..").score(), 333);
-    // One that is not enabled counts as a line.
+    // A disabled line counts as a line.
     let mut board =
         setup(sprites, &two.replace("halfSpeed", "halfSpeed enabled=False")).place(&[("a", 0, 20), AVATAR]);
     assert_eq!(board.play("..").score(), 20);
@@ -164,7 +164,7 @@ fn edge_lines_multiply() {
     assert_eq!(board.play("..").score(), 1);
 }
 
-/// Q9: spawning into the group that is visited ends the visit, with a message.
+/// Q9: spawning into the group being visited ends the visit, with a message.
 #[test]
 fn spawning_at_the_edge() {
     let sprites = "a > Missile orientation=LEFT\nb > Immovable\navatar > MovingAvatar";
@@ -177,7 +177,7 @@ fn spawning_at_the_edge() {
     assert_eq!((board.count("b"), board.score(), board.messages()), (2, 2, 0));
 }
 
-/// Q10: in the time phase the reference dies of it.
+/// Q10: in the time phase the reference crashes on it.
 #[test]
 fn spawning_by_the_clock() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -186,7 +186,7 @@ fn spawning_by_the_clock() {
     assert_eq!((board.wait().died(), board.count("b")), (false, 1));
 }
 
-/// Q11: at the edge an undeclared sprite is the end of the first tick; by the clock it is nobody.
+/// Q11: at the edge an undeclared sprite stops the game in the first tick; by the clock it stands for no sprite.
 #[test]
 fn undeclared_partners_of_edge_and_clock() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -220,7 +220,8 @@ fn too_many_messages() {
     assert_eq!((board.messages(), board.state.outcome(), board.score()), (0, Outcome::Ended, 26));
 }
 
-/// K-19: TIME on the left takes the first partner only, once; first on the right, the others are pairs of their own.
+/// K-19: TIME on the left applies to the first partner only, once; if it is first on the right, the others are separate
+/// pairs.
 #[test]
 fn time_and_several_partners() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -239,7 +240,7 @@ fn time_and_several_partners() {
     assert_eq!((board.messages(), board.wait().score()), (1, 1));
 }
 
-/// A sprite that has the name is a sprite (K-46), and letter case does not matter.
+/// A sprite with that name is a sprite (K-46), and letter case does not matter.
 #[test]
 fn edge_and_time_in_any_case() {
     let sprites = "a > Missile orientation=LEFT\nEOS > Immovable\navatar > MovingAvatar";

@@ -1,24 +1,26 @@
-//! A board of blocks of 10 pixels with a few sprites, played tick by tick.
+//! A board with blocks of 10 pixels and a few sprites, played tick by tick.
+
 use engine::{Action, Chance, Game, Rect, SpriteRecord, State};
 
 /// Columns and rows of the board.
 const BOARD: (usize, usize) = (30, 8);
 
-/// A game under test, and how it stands.
+/// A game under test and its state.
 pub(crate) struct Vector {
     pub(crate) game: Game,
     pub(crate) state: State,
 }
 
 impl Vector {
-    /// `sprites` are lines of the SpriteSet, the avatar's among them; `placed` gives a sprite type and its pixel place.
+    /// `sprites` are lines of the SpriteSet, including the avatar's; `placed` gives a sprite type and its place in
+    /// pixels.
     pub(crate) fn new(sprites: &str, rules: &str, placed: &[(&str, i32, i32)], seed: i64) -> Vector {
         let source = source("square_size=10", sprites, rules, placed);
         let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"));
         Vector::of_game(game, placed, seed)
     }
 
-    /// The same, of a game that only the reference's way of loading accepts.
+    /// The same, for a game that only loads as the reference does.
     pub(crate) fn as_reference(sprites: &str, rules: &str, placed: &[(&str, i32, i32)], seed: i64) -> Vector {
         let source = source("square_size=10", sprites, rules, placed);
         assert!(Game::from_source(&source).is_err(), "strict loading must refuse this:\n{source}");
@@ -26,7 +28,7 @@ impl Vector {
         Vector::of_game(game, placed, seed)
     }
 
-    /// The same, with a header of the caller's, by either way of loading; places are still in tens.
+    /// The same with a given header and either way of loading; places are still in tens.
     pub(crate) fn headed(
         header: &str,
         sprites: &str,
@@ -55,7 +57,7 @@ impl Vector {
         assert_eq!(self.state.state_hash(), self.state.state_hash_from_scratch(&self.game));
     }
 
-    /// One tick for each key: `U`, `L`, `D`, `R`, `X` to use, `.` for nothing.
+    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` to use, `.` for nothing.
     pub(crate) fn play(&mut self, keys: &str) {
         actions(keys).for_each(|action| self.step(action));
     }
@@ -69,13 +71,13 @@ impl Vector {
         actions(keys).map(place).collect()
     }
 
-    /// What there is of a type, by creation.
+    /// The sprites of a type, in order of creation.
     pub(crate) fn all(&self, name: &str) -> Vec<SpriteRecord> {
         let stype = self.game.sprite_type(name).unwrap().0;
         self.game.records(&self.state).into_iter().filter(|record| record.stype == stype).collect()
     }
 
-    /// Where they are.
+    /// The places of the sprites of a type.
     pub(crate) fn spots(&self, name: &str) -> Vec<(i32, i32)> {
         self.all(name).iter().map(|record| corner(record.rect)).collect()
     }

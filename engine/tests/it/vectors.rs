@@ -1,9 +1,9 @@
-//! The test vectors of the specification (`spec/02` §17): positions tick by tick, on boards of blocks of 10 pixels.
+//! The test vectors of the specification (`spec/02` §17): positions tick by tick, on boards with blocks of 10 pixels.
 
 use crate::vector::{Vector, actions};
 use engine::{Action, Chance};
 
-/// T1: the last tick after which each still exists.
+/// T1: the last tick after which each sprite still exists.
 #[test]
 fn flickers_and_times_to_live() {
     let sprites = "avatar > MovingAvatar\nf0 > Flicker limit=0\nf2 > Flicker limit=2\nfd > Flicker\ntt > Passive timeToLive=2\nt0 > Passive timeToLive=0\nm > Missile orientation=RIGHT timeToLive=3";
@@ -29,7 +29,7 @@ fn flickers_and_times_to_live() {
     }
 }
 
-/// T2: spreaders spread in their second update, eight draws in all; what they spread is updated from the next tick.
+/// T2: spreaders spread in their second update, eight draws in all; the new sprites are updated from the next tick on.
 #[test]
 fn spreaders() {
     let sprites = "avatar > MovingAvatar\nx > Immovable\ns > Spreader limit=4 spreadprob=0.5 stype=x\nq > Spreader limit=4 spreadprob=0.5 stype=z\nz > RandomNPC";
@@ -53,7 +53,7 @@ fn spreaders() {
     assert_eq!((vector.all("s").len(), vector.all("q").len()), (0, 0));
 }
 
-/// T3: random walkers, seed 1: positions, draws, and where the one that turns in place looks.
+/// T3: random walkers, seed 1: positions, draws, and the direction of the one that turns in place.
 #[test]
 fn random_walkers() {
     let sprites = "avatar > MovingAvatar\na > RandomNPC cons=2\nb > RandomNPC speed=0\nc > RandomNPC orientation=LEFT\nd > RandomNPC cooldown=3 cons=1\ne > RandomNPC orientation=LEFT rotateInPlace=True";
@@ -81,7 +81,7 @@ fn random_walkers() {
     }
 }
 
-/// T4: a chaser draws among one option, its alternate cousin among two of the same; the third never sees a target.
+/// T4: a chaser draws from one option, an AlternateChaser from two equal ones; the third never sees a target.
 #[test]
 fn chasers() {
     let sprites = "t > Immovable\nnone1 > Immovable\nc > Chaser stype=t\nd > AlternateChaser stype1=t stype2=t\ne > AlternateChaser stype1=none1 stype2=t fleeing=True\navatar > MovingAvatar";
@@ -122,7 +122,7 @@ fn spaceship() {
     assert_eq!(shots[3].orientation, (0.955_336_489_125_606, 0.295_520_206_661_339_55));
 }
 
-/// T6: an avatar that leaves something behind: walls, if nobody says what.
+/// T6: an avatar that leaves sprites behind: walls by default.
 #[test]
 fn leaves_a_trail() {
     let placed = [("avatar", 90, 20)];
@@ -135,7 +135,7 @@ fn leaves_a_trail() {
     }
 }
 
-/// T7: falling, landing, jumping, and a walker beside.
+/// T7: falling, landing, jumping, and a walker.
 #[test]
 fn platformer_and_walker() {
     let sprites = "ground > Immovable solid=True\nk > Walker physicstype=CONT gravity=0.5 orientation=LEFT\navatar > PlatformerAvatar physicstype=CONT gravity=1.0 mass=1 friction=0.1 jump_strength=8";
@@ -169,7 +169,7 @@ fn platformer_and_walker() {
     assert_eq!((vector.place("avatar").1, vector.one("avatar").speed), (27, 6.3));
 }
 
-/// T7, on the grid: five cells a tick, to a side that it draws once.
+/// T7, on the grid: five cells per tick, to a side that it draws once.
 #[test]
 fn a_walker_on_the_grid() {
     let mut vector =
@@ -180,7 +180,7 @@ fn a_walker_on_the_grid() {
     assert_eq!(vector.state.chance(), chance);
 }
 
-/// T8: what producers draw, and when they fire.
+/// T8: the draws of producers, and the ticks in which they fire.
 #[test]
 fn producers() {
     let sprites = "avatar > MovingAvatar\na > SpawnPoint stype=z cooldown=3 prob=0.5 total=2\nb > RandomBomber stype=y cooldown=2\nc > BomberRandomMissile stypeMissile=y,z cooldown=2 speed=0.5\nd > SpawnPointMultiSprite stypes=y,z cooldown=3 total=3\ny > Immovable\nz > RandomMissile timeToLive=2";
@@ -208,7 +208,7 @@ fn producers() {
             0 => {
                 assert_eq!((missile, way), (0, 1));
                 assert!((roll - 0.036).abs() < 1e-3, "{roll}");
-                // One each of d, c and b, which its cooldown keeps where it is; and the other ones of d and a.
+                // One each from d, c and b, which its cooldown keeps in place; and the others from d and a.
                 assert_eq!(vector.spots("y"), [(200, 20), (140, 20), (100, 40)]);
                 assert_eq!(vector.spots("z"), [(200, 20), (20, 20)]);
             }
@@ -237,7 +237,7 @@ fn the_phase_of_spawners() {
     }
 }
 
-/// T10: shots that cost more than there is.
+/// T10: shots that cost more ammunition than there is.
 #[test]
 fn ammunition() {
     let sprites =
@@ -273,7 +273,7 @@ fn oriented_avatars() {
     check("rotateInPlace=False speed=0.5 cooldown=2", std::array::from_fn(|tick| (slow[tick], facing[tick])));
 }
 
-/// T12: always ahead; a shot goes where it looks after the move, and moves itself from the tick after.
+/// T12: always ahead; a shot flies in the direction faced after the move, and starts to move in the next tick.
 #[test]
 fn shoots_as_it_goes() {
     let sprites = "b > Missile\navatar > OngoingShootAvatar stype=b";
@@ -288,7 +288,7 @@ fn shoots_as_it_goes() {
     assert_eq!((vector.place("avatar"), vector.spots("b")[1]), ((80, -20), (90, -20)));
 }
 
-/// T13: characters of continuous physics, chance and distance.
+/// T13: characters with continuous physics, random draws and distance.
 #[test]
 fn drifting_characters() {
     let sprites = "n > RandomInertial friction=0.1\na > RandomAltChaser stype1=avatar stype2=avatar epsilon=0.5\nf > Fleeing stype=avatar maxDistance=70\navatar > MovingAvatar";
@@ -361,7 +361,7 @@ fn artillery() {
     }
 }
 
-/// T15: a wizard's blocks, five ticks apart at least, where it looks.
+/// T15: a wizard's blocks, at least five ticks apart, in the direction that it faces.
 #[test]
 fn wizard() {
     let sprites = "ground > Immovable solid=True\nblk > Immovable\navatar > WizardAvatar physicstype=CONT gravity=1 mass=1 stype=blk";

@@ -1,4 +1,4 @@
-//! Answers that were paid for once, in a folder, a file each.
+//! A cache of paid answers in a folder, one file each.
 
 use super::chat::{ChatReply, ChatRequest};
 use super::provider::Provider;
@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A folder of answers. Several programs may use it at once.
+/// A folder of cached answers. Several programs may use it at once.
 #[derive(Debug)]
 pub(super) struct Cache {
     folder: PathBuf,
@@ -21,18 +21,18 @@ pub(super) struct Cache {
 #[serde(deny_unknown_fields)]
 struct Entry {
     key: Digest,
-    /// Of the reply's JSON.
+    /// The digest of the reply's JSON.
     check: Digest,
     reply: ChatReply,
 }
 
-/// What tells answers apart.
+/// Returns the cache key of a request.
 ///
-/// All that reaches the server does: provider, URL, and the body byte by byte, in which are the model, the conversation
-/// and the decoding as they are sent; so a client that asks in another way asks something else. And the draw
-/// ([`ChatRequest::sample`]): whoever asks the same thing twice at a temperature wants two answers, and gets the same two
-/// when everything is run again. At temperature 0 there is only one answer to be had, and all draws share it. The key of
-/// the account is not in it, nor are time limits and caps, which change no answer.
+/// The key covers everything that reaches the server: the provider, the URL, and every byte of the body, with the model, the
+/// conversation and the decoding as they are sent; a client that formats a request differently gets another key. It also
+/// covers the draw ([`ChatRequest::sample`]): equal requests at a temperature want different answers, and the same ones when
+/// everything is run again. At temperature 0 there is only one answer, which all draws share. The key does not cover the API
+/// key, time limits and caps, which do not affect answers.
 pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequest) -> Digest {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 cached reply");
     let mut add = |part: &[u8]| {
@@ -48,10 +48,10 @@ pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequ
 }
 
 impl Cache {
-    /// The cache in this folder, which is made if there is none.
+    /// Opens the cache in a folder, which is created if it does not exist.
     ///
     /// # Errors
-    /// Nothing can be written there.
+    /// The folder cannot be written.
     pub(super) fn open(folder: &Path) -> Result<Cache, EvaluationError> {
         fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
         let cache = Cache { folder: folder.to_owned(), written: AtomicU64::new(0) };
@@ -62,13 +62,13 @@ impl Cache {
         Ok(cache)
     }
 
-    /// The answer, if it is there and sound.
+    /// Returns the answer, if it is present and intact.
     pub(super) fn get(&self, key: Digest) -> Option<ChatReply> {
         let entry: Entry = serde_json::from_slice(&fs::read(self.path(key)).ok()?).ok()?;
         (entry.key == key && entry.check == check(&entry.reply)).then_some(entry.reply)
     }
 
-    /// Keeps an answer. One that cannot be written is not kept: the disk may be full, but the answer is there.
+    /// Stores an answer. A write error is ignored: the disk may be full, but the answer is still usable.
     pub(super) fn put(&self, key: Digest, reply: &ChatReply) {
         let reply = ChatReply { failures: Vec::new(), ..reply.clone() };
         let entry = Entry { key, check: check(&reply), reply };
@@ -81,13 +81,14 @@ impl Cache {
         }
     }
 
-    /// Entries are spread over folders by the first two digits of their keys: there may be a million.
+    /// Returns the path of an entry. Entries are spread over folders by the first two digits of their keys, because there
+    /// may be a million.
     fn path(&self, key: Digest) -> PathBuf {
         let name = key.to_string();
         self.folder.join(&name[..2]).join(format!("{name}.json"))
     }
 
-    /// A file that no other thread or program writes.
+    /// Returns a file name that no other thread or program uses.
     fn scratch(&self) -> PathBuf {
         let number = self.written.fetch_add(1, Ordering::Relaxed);
         self.folder.join(format!("{}-{number}.partial", std::process::id()))

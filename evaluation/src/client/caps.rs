@@ -1,4 +1,4 @@
-//! Caps on what an evaluation may spend, shared by all its threads.
+//! Caps on the spending of an evaluation, shared by all its threads.
 
 use super::chat::Usage;
 use super::estimate::Estimate;
@@ -7,34 +7,34 @@ use crate::log::Event;
 use crate::tokens;
 use std::sync::{Mutex, MutexGuard};
 
-/// What may be spent; what is `None` is not limited.
+/// The spending limits; `None` means no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// Money, by the table of prices.
+    /// Money, according to the table of prices.
     pub cost: Option<Usd>,
-    /// Tokens, of prompts and answers.
+    /// Tokens of prompts and answers.
     pub tokens: Option<u64>,
-    /// Requests that are answered. The tries of one request count once.
+    /// Answered requests. The tries of one request count once.
     pub requests: Option<u64>,
 }
 
-/// What has been spent.
+/// The amounts spent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spent {
-    /// Requests that were answered.
+    /// The number of answered requests.
     pub requests: u64,
-    /// Tokens of prompts and answers.
+    /// The tokens of prompts and answers.
     pub tokens: u64,
-    /// Money, as far as prices are known.
+    /// The money, as far as prices are known.
     pub cost: Usd,
 }
 
-/// Keeps an evaluation within its limits.
+/// Enforces the limits of an evaluation.
 ///
-/// A request is let through if its prompt, the prompts under way and what has been spent stay within all limits
-/// together. It is charged once, by what its reply says; where a reply does not say, by our own count of its words. What
-/// answers will cost is not known before: a limit can be exceeded by the answers under way when it is met. Tries that
-/// failed are not charged, because nobody tells what they cost.
+/// A request is allowed if its prompt, the prompts in flight and the amounts spent stay within all limits together. It is
+/// charged once, by the usage in its reply, or by our own count of its text if the reply reports none. The cost of an answer
+/// is not known in advance: a limit can be exceeded by the answers that are in flight when it is reached. Failed tries are
+/// not charged, because their cost is not reported.
 #[derive(Debug)]
 pub struct Caps {
     limits: Limits,
@@ -45,12 +45,12 @@ pub struct Caps {
 #[derive(Debug, Default)]
 struct Ledger {
     spent: Spent,
-    /// Requests under way, with their prompts.
+    /// The requests in flight, with their prompts.
     reserved: Spent,
 }
 
 impl Caps {
-    /// Caps at these limits, for a model of this price, if it is known.
+    /// Creates caps with these limits, for a model of this price, if it is known.
     pub fn new(limits: Limits, price: Option<Price>) -> Caps {
         Caps { limits, price, ledger: Mutex::default() }
     }
@@ -60,13 +60,13 @@ impl Caps {
         self.limits
     }
 
-    /// What has been spent so far; requests under way are not in it.
+    /// Returns the amounts spent so far, without requests in flight.
     pub fn spent(&self) -> Spent {
         self.ledger().spent
     }
 
-    /// Charges what the log of an episode says was paid before the program was started again. Answers from the cache
-    /// cost nothing.
+    /// Charges the amounts that the log of an episode records from earlier runs of the program. Answers from the cache cost
+    /// nothing.
     pub fn charge_past(&self, events: &[Event]) {
         let mut prompt = 0;
         for event in events {
@@ -82,10 +82,10 @@ impl Caps {
         }
     }
 
-    /// Lets a request with a prompt of about so many tokens through.
+    /// Admits a request with a prompt of about `prompt` tokens.
     ///
     /// # Errors
-    /// A limit forbids it: which.
+    /// The limit that forbids it.
     pub(super) fn reserve(&self, prompt: u64) -> Result<Reservation<'_>, String> {
         let usage = Usage { input_tokens: Some(prompt), output_tokens: Some(0), ..Usage::default() };
         let cost = self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default();
@@ -93,7 +93,8 @@ impl Caps {
         let mut ledger = self.ledger();
         let reserved = ledger.reserved.plus(share);
         if let Some(problem) = self.limits.forbid(&ledger.spent.plus(reserved)) {
-            // Not how much was spent: what is under way is paid too, and who reports says it when all is done.
+            // The message does not tell the amount spent, because requests in flight are still to be paid; the final report
+            // tells it.
             return Err(format!("the next request would exceed {problem}"));
         }
         ledger.reserved = reserved;
@@ -122,7 +123,7 @@ impl Caps {
 }
 
 impl Limits {
-    /// Which limit this much would exceed, in words.
+    /// Returns the limit that these amounts would exceed, in words.
     fn forbid(&self, spent: &Spent) -> Option<String> {
         if let Some(limit) = self.cost.filter(|limit| spent.cost > *limit) {
             return Some(format!("--max-cost {limit}"));
@@ -134,7 +135,7 @@ impl Limits {
         Some(format!("--max-requests {limit}"))
     }
 
-    /// Which limit a whole evaluation would exceed by its estimate, in words; the answer of a dry run.
+    /// Returns the limit that a whole evaluation would exceed by its estimate, in words, for a dry run.
     pub fn forbid_estimate(&self, estimate: &Estimate) -> Option<String> {
         let tokens = estimate.input_tokens.saturating_add(estimate.output_tokens);
         self.forbid(&Spent { requests: estimate.requests, tokens, cost: estimate.cost.unwrap_or_default() })
@@ -159,7 +160,7 @@ impl Spent {
     }
 }
 
-/// A request under way. Dropped without a charge, it cost nothing.
+/// A request in flight. It costs nothing if it is dropped without a charge.
 #[derive(Debug)]
 #[must_use]
 pub(super) struct Reservation<'a> {
@@ -169,10 +170,10 @@ pub(super) struct Reservation<'a> {
 }
 
 impl Reservation<'_> {
-    /// Charges what the reply says.
+    /// Charges the usage of the reply.
     pub(super) fn settle(mut self, usage: &Usage, text: &str, reasoning: Option<&str>) {
         let charge = self.caps.charge(usage, self.prompt, text, reasoning);
-        // At once, so that nobody sees the request both under way and paid.
+        // In one step, so that the request is never counted both as in flight and as paid.
         let share = std::mem::take(&mut self.share);
         let mut ledger = self.caps.ledger();
         ledger.reserved = ledger.reserved.minus(share);

@@ -1,55 +1,55 @@
-//! What is asked of a model, and what it answers.
+//! Requests to a model, and its answers.
 
 use engine::Seed;
 use serde::{Deserialize, Serialize};
 
 /// A language model that answers chats.
 pub trait Model: Sync + Send {
-    /// One answer. Waits, tries again after passing failures, and returns what each try met.
+    /// Requests one answer. Retries after transient failures, and returns the failure of each try.
     ///
     /// # Errors
-    /// No answer was to be had: see [`ChatErrorKind`].
+    /// No answer could be obtained: see [`ChatErrorKind`].
     fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError>;
 }
 
-/// What is asked of a model.
+/// A request to a model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChatRequest {
-    /// The conversation, the oldest first: an optional system message, then user and assistant in turn.
+    /// The conversation, the oldest message first: an optional system message, then user and assistant in turn.
     pub messages: Vec<ChatMessage>,
-    /// How the answer is to be sampled.
+    /// The sampling of the answer.
     pub decoding: Decoding,
-    /// Which draw this is: two requests whose answers are to be independent, though they say the same, have different
-    /// ones (of the episode's seed, run, step and attempt, say). It decides the jitter of waits and, unless the
-    /// temperature is 0, which answer of the cache is meant; it is not sent.
+    /// The seed of this draw. Equal requests that need independent answers have different seeds, for example derived from
+    /// the episode's seed, run, step and attempt. It determines the jitter of waits and, unless the temperature is 0, the
+    /// answer taken from the cache; it is not sent.
     pub sample: Seed,
 }
 
 /// A message of a conversation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ChatMessage {
-    /// Who says it.
+    /// The author.
     pub role: Role,
-    /// The words.
+    /// The text.
     pub text: String,
-    /// A picture beside the words, PNG.
+    /// A picture beside the text, PNG.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<Vec<u8>>,
 }
 
-/// Who says a message.
+/// The author of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
-    /// The frame of the conversation.
+    /// The instructions of the conversation.
     System,
-    /// We.
+    /// The client.
     User,
     /// The model.
     Assistant,
 }
 
-/// How an answer is sampled. What is `None` is not sent, and the provider's default holds.
+/// The sampling of an answer. `None` is not sent, so that the provider's default applies.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Decoding {
@@ -57,70 +57,70 @@ pub struct Decoding {
     pub temperature: Option<f64>,
     /// Nucleus sampling.
     pub top_p: Option<f64>,
-    /// Tokens of the answer at most, reasoning included.
+    /// The maximum number of tokens of the answer, reasoning included.
     pub max_output_tokens: Option<u32>,
     /// The provider's sampling seed.
     pub seed: Option<u64>,
-    /// `low`, `medium`, `high`, or what the provider knows.
+    /// `low`, `medium`, `high`, or another value of the provider.
     pub reasoning_effort: Option<String>,
 }
 
 /// A model's answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChatReply {
-    /// The words.
+    /// The text.
     pub text: String,
-    /// The reasoning, where the provider shows it.
+    /// The reasoning, if the provider returns it.
     pub reasoning: Option<String>,
-    /// Why the answer ends.
+    /// The reason why the answer ends.
     pub finish: Finish,
-    /// What it cost.
+    /// The tokens used.
     pub usage: Usage,
     /// The model that answered, as the provider calls it.
     pub served_by: Option<String>,
-    /// The tries that failed before this one.
+    /// The failed tries before this one.
     pub failures: Vec<Failure>,
-    /// From the request to the whole answer, without the tries before and the waits between, ms.
+    /// The time from the request to the complete answer, without earlier tries and waits, ms.
     pub latency_ms: f64,
-    /// Whether the answer comes from the cache and cost nothing.
+    /// `true` if the answer comes from the cache and cost nothing.
     pub cached: bool,
 }
 
-/// Why an answer ends.
+/// The reason why an answer ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Finish {
     /// It is complete.
     Stop,
-    /// The limit of tokens was met.
+    /// The token limit was reached.
     Length,
     /// The model or its provider declined (content filter, refusal).
     Refusal,
-    /// The provider gives another reason, or none.
+    /// Another reason of the provider, or none.
     Other,
 }
 
-/// Tokens as the provider counts them; what it does not tell is `None`, never 0.
+/// Tokens as the provider counts them. Unreported counts are `None`, never 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Usage {
-    /// Tokens of the prompt, cached ones included.
+    /// The tokens of the prompt, cached ones included.
     pub input_tokens: Option<u64>,
-    /// Of these, read from the provider's prefix cache.
+    /// The part read from the provider's prefix cache.
     pub cached_input_tokens: Option<u64>,
-    /// Of these, written to the provider's prefix cache, where that costs more than reading them.
+    /// The part written to the provider's prefix cache, if that costs more than reading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cache_write_tokens: Option<u64>,
-    /// Tokens of the answer, reasoning included.
+    /// The tokens of the answer, reasoning included.
     pub output_tokens: Option<u64>,
-    /// Of these, reasoning.
+    /// The part used for reasoning.
     pub reasoning_tokens: Option<u64>,
 }
 
-/// Tokens of one request above which a server's count is no count: no context window comes near.
+/// The largest plausible token count of one request; no context window comes near it.
 const MOST_TOKENS: u64 = 1 << 40;
 
 impl Usage {
-    /// The counts without those that no request can have; what is left out is counted by ourselves.
+    /// Removes implausible counts, which are then replaced by our own.
     pub(super) fn plausible(self) -> Usage {
         let plausible = |count: Option<u64>| count.filter(|&tokens| tokens <= MOST_TOKENS);
         Usage {
@@ -133,36 +133,36 @@ impl Usage {
     }
 }
 
-/// A try that failed.
+/// A failed try.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
-    /// The HTTP status, if there was an answer at all.
+    /// The HTTP status, if there was a reply at all.
     pub status: Option<u16>,
-    /// What went wrong; never a key, never more than a few hundred characters.
+    /// The error message: never with a key, and never longer than a few hundred characters.
     pub message: String,
-    /// How long was waited after it, ms.
+    /// The wait after it, ms.
     pub waited_ms: u64,
 }
 
-/// Why there is no answer.
+/// The error if there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct ChatError {
-    /// Whose fault it is.
+    /// The kind of error.
     pub kind: ChatErrorKind,
-    /// What went wrong, naming the server and the next move.
+    /// The error message, with the server and the next step.
     pub message: String,
     /// All tries.
     pub failures: Vec<Failure>,
 }
 
-/// Whose fault it is that there is no answer.
+/// The cause of a missing answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChatErrorKind {
-    /// Network or server failed, however often it was tried.
+    /// The network or the server failed in every try.
     Infrastructure,
     /// A cap on cost, tokens or requests forbids the request.
     Budget,
-    /// The server understands and will not (400, 401, 403, 404, 422): trying again is of no use.
+    /// The server rejects the request (400, 401, 403, 404, 422): a retry would not help.
     Rejected,
 }

@@ -1,16 +1,16 @@
-//! Time as the client needs it, and the only place of the client that reads a clock.
+//! The time source of the client, and the only place where it reads a clock.
 
 use std::time::{Duration, Instant, SystemTime};
 
-/// Time that passes. Tests bring their own, which passes when it is told to.
+/// A clock. Tests provide their own, which advances on command.
 pub trait Clock: Send + Sync {
-    /// Time since a fixed moment; it never goes back.
+    /// Returns the time since a fixed moment; it never decreases.
     fn elapsed(&self) -> Duration;
 
-    /// The date, which a server's dates are compared with.
+    /// Returns the date, for comparison with a server's dates.
     fn date(&self) -> SystemTime;
 
-    /// Returns when this time has passed.
+    /// Returns after this time.
     fn sleep(&self, time: Duration);
 }
 
@@ -21,7 +21,7 @@ pub struct SystemClock {
 }
 
 impl SystemClock {
-    /// A clock that counts from now.
+    /// Creates a clock that starts now.
     #[expect(clippy::disallowed_methods, reason = "waits and latencies are told, and decide no action")]
     pub fn start() -> SystemClock {
         SystemClock { start: Instant::now() }

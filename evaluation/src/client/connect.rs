@@ -1,4 +1,4 @@
-//! From what a user asks for to a model that answers.
+//! Connecting to a model from the user's options.
 
 use super::cache::Cache;
 use super::caps::{Caps, Limits};
@@ -19,42 +19,42 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What a user asks for. No key is in it: keys are read from the environment.
+/// The user's options for a model. They contain no key: keys are read from the environment.
 #[derive(Clone, Debug)]
 pub struct ModelOptions {
-    /// The model: `openai:…`, `anthropic:…`, `gemini:…`; with a base URL any name.
+    /// The model: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
     pub model: String,
-    /// Where it is served, if not by the provider itself.
+    /// The base URL of the server, if it is not the provider's own.
     pub base_url: Option<String>,
-    /// The variable of the environment that holds the key, if not the provider's.
+    /// The environment variable that holds the key, if not the provider's default.
     pub key_variable: Option<String>,
-    /// How answers are sampled.
+    /// The sampling of answers.
     pub decoding: Decoding,
-    /// What may be spent.
+    /// The caps on spending.
     pub limits: Limits,
-    /// A table of prices that comes before the embedded one.
+    /// A table of prices that takes precedence over the embedded one.
     pub prices: Option<PathBuf>,
-    /// The folder of the response cache, if one is wanted.
+    /// The folder of the response cache, if enabled.
     pub cache: Option<PathBuf>,
-    /// Requests at once.
+    /// The maximum number of concurrent requests.
     pub concurrency: NonZeroUsize,
-    /// Requests that begin in a minute.
+    /// The maximum number of requests started per minute.
     pub requests_per_minute: Option<NonZeroU64>,
-    /// Tokens of a minute's requests and replies.
+    /// The maximum number of tokens per minute, in requests and replies.
     pub tokens_per_minute: Option<NonZeroU64>,
-    /// Tries of a request in all.
+    /// The maximum number of tries of a request.
     pub tries: NonZeroU32,
-    /// How long a try may take, from the first byte to the last.
+    /// The time limit of a try, from the first byte to the last.
     pub timeout: Duration,
-    /// How long a connection may take to come about.
+    /// The time limit for opening a connection.
     pub connect_timeout: Duration,
-    /// Bytes of a reply at most.
+    /// The maximum number of bytes of a reply.
     pub reply_limit: u64,
 }
 
 impl ModelOptions {
-    /// This model, everything else as it usually is: four requests at once and eight tries, ten minutes for a try and
-    /// ten seconds for its connection, replies of 4 MiB, no caps, no cache.
+    /// Creates the options of a model with defaults for everything else: four concurrent requests, eight tries, ten minutes
+    /// for a try and ten seconds for its connection, replies of 4 MiB, no caps, no cache.
     pub fn new(model: &str) -> ModelOptions {
         ModelOptions {
             model: model.to_owned(),
@@ -77,42 +77,42 @@ impl ModelOptions {
 
 /// A model that is ready to answer.
 pub struct Connection {
-    /// The model. All threads may share it.
+    /// The model. It may be shared by all threads.
     pub model: Box<dyn Model>,
-    /// What it has spent and may spend.
+    /// Its spending so far and the limits.
     pub caps: Arc<Caps>,
-    /// What was configured, for the results.
+    /// The configuration, for the results.
     pub settings: ModelSettings,
-    /// What its tokens cost, if it is known.
+    /// The price of its tokens, if it is known.
     pub price: Option<Price>,
 }
 
-/// What was configured, as far as it has a part in the answers: to be kept with the results. Caps, rates, tries and the
-/// cache have none.
+/// The part of the configuration that affects the answers and is stored with the results. Caps, rates, tries and the cache
+/// do not affect them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelSettings {
-    /// The protocol.
+    /// The API.
     pub provider: Provider,
-    /// Host of the server, and port if one is given.
+    /// The host of the server, with the port if one is given.
     pub server: String,
     /// The model as the server calls it.
     pub model: String,
-    /// How answers are sampled, with what the provider cannot do without: what requests are to be made with.
+    /// The sampling of answers, including the settings that the provider requires: requests have to use it.
     pub decoding: Decoding,
 }
 
 impl ModelSettings {
-    /// Tells settings apart.
+    /// Returns a digest that distinguishes settings.
     pub fn digest(&self) -> Digest {
         Digest::of(&serde_json::to_vec(self).expect("settings are plain data"))
     }
 }
 
-/// What is configured by these options. Nothing is connected and no key is needed: dry runs ask for it too.
+/// Returns the settings of these options. It opens no connection and needs no key, so that dry runs can use it too.
 ///
 /// # Errors
-/// The options are malformed, or ask for what the provider does not have.
+/// The options are malformed, or use a feature that the provider does not have.
 pub fn settings(options: &ModelOptions) -> Result<ModelSettings, EvaluationError> {
     let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
     let decoding = spec.provider.decoding(&options.decoding)?;
@@ -120,10 +120,10 @@ pub fn settings(options: &ModelOptions) -> Result<ModelSettings, EvaluationError
     Ok(ModelSettings { provider: spec.provider, server: spec.server.host, model: spec.model, decoding })
 }
 
-/// What the model's tokens cost, if a table tells.
+/// Returns the price of the model's tokens, if a table has it.
 ///
 /// # Errors
-/// The options are malformed, the table cannot be used, or a cap on the cost could not be kept, for lack of a price.
+/// The options are malformed, the table cannot be used, or a cap on the cost cannot be enforced without a price.
 pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
     let prices = options.prices.as_deref().map_or_else(|| Ok(Prices::embedded()), Prices::with_file)?;
@@ -139,18 +139,18 @@ pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     Ok(price)
 }
 
-/// The model that these options ask for. Nothing is sent yet: whether the server answers, the first request tells.
+/// Creates the model of these options. Nothing is sent yet: only the first request shows if the server answers.
 ///
 /// # Errors
-/// The options are malformed, a key is missing, or a file or folder cannot be used.
+/// The options are malformed, a key is missing, or a file or folder cannot be accessed.
 pub fn connect(options: &ModelOptions) -> Result<Connection, EvaluationError> {
     connect_with(options, &environment, Arc::new(SystemClock::start()))
 }
 
-/// [`connect`] with another environment and clock; for tests, which have neither keys nor time.
+/// The same as [`connect`] with another environment and clock, for tests without keys and real time.
 ///
 /// # Errors
-/// As [`connect`].
+/// The same as for [`connect`].
 pub fn connect_with(
     options: &ModelOptions,
     environment: &dyn Fn(&str) -> Option<String>,
@@ -178,7 +178,7 @@ pub fn connect_with(
     Ok(Connection { model: Box::new(remote), caps, settings, price })
 }
 
-/// Refuses what is no name of a variable, without repeating it: it may be the key itself.
+/// Rejects anything that is not a variable name, without repeating it: it may be the key itself.
 fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     let is_name = |name: &str| {
         let plain = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
@@ -192,7 +192,8 @@ fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     Err(EvaluationError::Malformed(problem.to_owned()))
 }
 
-/// The key to send. This machine gets none, and no other gets one unencrypted, unless the user names the variable.
+/// Returns the key to send. A server on this machine gets none, and no other gets one unencrypted, unless the user names the
+/// variable.
 fn key(
     options: &ModelOptions,
     spec: &ModelSpec,

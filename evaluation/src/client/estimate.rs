@@ -1,13 +1,13 @@
-//! What requests will take, before any is sent.
+//! Estimates of the tokens and costs of requests before they are sent.
 
 use super::chat::{ChatMessage, ChatRequest, Usage};
 use super::prices::{Price, Usd};
 use crate::tokens;
 
-/// Tokens of a picture whose size cannot be read.
+/// The tokens of a picture whose size cannot be read.
 const PICTURE: u64 = 1000;
 
-/// Tokens of a request's prompt, by our own count: models have vocabularies of their own.
+/// Returns the tokens of a request's prompt by our own count; the vocabularies of models differ.
 pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
     let picture =
         |png: &Vec<u8>| size(png).map_or(PICTURE, |(width, height)| tokens::of_picture(width, height));
@@ -17,44 +17,44 @@ pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
     request.messages.iter().map(message).sum()
 }
 
-/// Width and height of a PNG, which are the first words of its first chunk.
+/// Returns the width and height of a PNG, the first words of its first chunk.
 fn size(png: &[u8]) -> Option<(u32, u32)> {
     let word = |at: usize| Some(u32::from_be_bytes(png.get(at..at + 4)?.try_into().ok()?));
     Some((word(16)?, word(20)?))
 }
 
-/// Requests whose prompts begin alike, those of an episode say, as the caller expects them.
+/// Requests with a common prefix of their prompts, such as those of an episode, as the caller expects them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch {
-    /// How many.
+    /// The number of requests.
     pub requests: u64,
-    /// Tokens with which every prompt begins, the same in all.
+    /// The tokens of the common prefix of all prompts.
     pub stable_tokens: u64,
-    /// Tokens of a prompt after these, on average.
+    /// The average number of further tokens of a prompt.
     pub changing_tokens: u64,
-    /// Tokens of an answer, reasoning included, on average.
+    /// The average number of tokens of an answer, reasoning included.
     pub output_tokens: u64,
 }
 
-/// What a whole evaluation will take.
+/// The estimate for a whole evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Estimate {
-    /// Requests, if none is asked again.
+    /// The number of requests, if no request is repeated.
     pub requests: u64,
-    /// Tokens of all prompts.
+    /// The tokens of all prompts.
     pub input_tokens: u64,
-    /// Of these, tokens that the provider may have in its cache: all but the first of what is stable.
+    /// The tokens among them that the provider may have in its cache: the prefixes of all requests of a batch but the first.
     pub cacheable_tokens: u64,
-    /// Tokens of all answers.
+    /// The tokens of all answers.
     pub output_tokens: u64,
-    /// What it costs if the provider's cache is of no use; none if the price is unknown.
+    /// The cost without any use of the provider's cache, or `None` if the price is unknown.
     pub cost: Option<Usd>,
-    /// What it costs if the cache holds all that it may.
+    /// The cost if the cache is used as much as possible.
     pub cost_if_cached: Option<Usd>,
 }
 
 impl Estimate {
-    /// What these requests will take.
+    /// Estimates these requests.
     pub fn of(batches: &[Batch], price: Option<&Price>) -> Estimate {
         let mut all = Estimate::default();
         let mut written = 0u64;

@@ -1,4 +1,4 @@
-//! What an HTTP reply amounts to: an answer, a passing failure, or a server that will not.
+//! Classification of HTTP replies: an answer, a transient failure, or a final refusal.
 
 use super::chat::{Finish, Usage};
 use super::provider::{Answer, Provider};
@@ -6,31 +6,31 @@ use super::wire::HttpReply;
 use serde_json::Value;
 use std::time::{Duration, SystemTime};
 
-/// Why there is no answer from a try.
+/// The reason why a try has no answer.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fault {
-    /// Another try may get one.
+    /// Another try may succeed.
     Passing {
-        /// The status, if there was one.
+        /// The HTTP status, if there was a reply.
         status: Option<u16>,
-        /// What happened.
+        /// The error message.
         message: String,
-        /// How long the server asks to wait.
+        /// The wait requested by the server.
         wait: Option<Duration>,
     },
-    /// The server will not answer this request, however often it is asked.
+    /// The server will never answer this request.
     Final {
         /// The status.
         status: u16,
-        /// Why, in the server's words.
+        /// The reason in the server's words.
         message: String,
     },
 }
 
-/// Characters of a server's words that are kept.
+/// The number of characters kept of a server's message.
 const WORDS: usize = 300;
 
-/// What a reply that came at `date` amounts to.
+/// Classifies a reply received at `date`.
 pub(super) fn judge(provider: Provider, reply: &HttpReply, date: SystemTime) -> Result<Answer, Fault> {
     let status = reply.status;
     let passing = |message: String, wait| Fault::Passing { status: Some(status), message, wait };
@@ -63,7 +63,7 @@ pub(super) fn judge(provider: Provider, reply: &HttpReply, date: SystemTime) -> 
     Err(Fault::Final { status, message: words })
 }
 
-/// What a body is that no server of models would send.
+/// Returns the kind of a body that no model server would send.
 fn body_kind(body: &str) -> Option<&'static str> {
     let body = body.trim_start();
     if body.is_empty() {
@@ -72,10 +72,10 @@ fn body_kind(body: &str) -> Option<&'static str> {
     body.starts_with('<').then_some("a page of HTML")
 }
 
-/// The longest wait that is told apart, a year: nobody waits as long.
+/// The maximum wait that is parsed, a year.
 const LONGEST: Duration = Duration::from_secs(365 * 24 * 60 * 60);
 
-/// How long a `Retry-After` asks to wait: seconds, however many digits they have, or until a date; at most [`LONGEST`].
+/// Reads the wait in a `Retry-After` header: seconds, with any number of digits, or a date; at most [`LONGEST`].
 fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     let value = value.trim();
     if !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit()) {
@@ -85,7 +85,7 @@ fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     Some(until.duration_since(date).unwrap_or_default().min(LONGEST))
 }
 
-/// What the body of an error says, in any of the shapes that servers give it.
+/// The content of an error body, in any of the shapes that servers use.
 struct Complaint {
     message: String,
     code: String,
@@ -95,7 +95,7 @@ struct Complaint {
 impl Complaint {
     fn read(body: &str) -> Complaint {
         let parsed: Value = serde_json::from_str(body).unwrap_or_default();
-        // Some put a list around it.
+        // Some servers wrap it in a list.
         let parsed = parsed.get(0).unwrap_or(&parsed);
         let error = parsed.get("error").unwrap_or(parsed);
         let text = |value: Option<&Value>| value.and_then(Value::as_str).map(str::to_owned);
@@ -111,7 +111,7 @@ impl Complaint {
         }
     }
 
-    /// Whether it is the provider's filter that will not have these words.
+    /// Returns `true` if the provider's content filter rejected the request.
     fn declines(&self) -> bool {
         match self.code.as_str() {
             "content_filter" | "content_policy_violation" => true,
@@ -121,13 +121,13 @@ impl Complaint {
     }
 }
 
-/// A time as Gemini writes it: `34.07s`; at most [`LONGEST`].
+/// Reads a duration in Gemini's format: `34.07s`; at most [`LONGEST`].
 fn seconds(text: &str) -> Option<Duration> {
     let seconds: f64 = text.strip_suffix('s')?.parse().ok().filter(|seconds: &f64| !seconds.is_nan())?;
     Duration::try_from_secs_f64(seconds.min(LONGEST.as_secs_f64())).ok()
 }
 
-/// On one line, without what a terminal would obey, and not too long.
+/// Shortens a text and puts it on one line, without control characters.
 pub(super) fn shorten(text: &str) -> String {
     let plain = text.replace(char::is_control, " ");
     let line = plain.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -211,7 +211,7 @@ mod tests {
         check("Tue, 01 Dec 2026 07:00:00 GMT", Some(0));
         check("soon", None);
         check("", None);
-        // More than a number of 64 bits holds is long all the same.
+        // Numbers of more than 64 bits are also capped.
         for much in ["99999999999", "18446744073709551616", "99999999999999999999999999"] {
             check(much, Some(LONGEST.as_secs()));
         }
@@ -237,7 +237,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever a server says: a fault has few words, on one line, and nothing for a terminal to obey.
+        /// For any body, the error message is short, on one line, and free of control characters.
         #[test]
         fn any_words(status in 200u16..600, body in "\\PC*|[^a]*|\\{\"error\":\"[^\"]*\"\\}|\\{\"message\":.*") {
             for provider in [Provider::OpenAi, Provider::Anthropic, Provider::Gemini] {
@@ -250,7 +250,7 @@ mod tests {
         }
     }
 
-    /// Whatever place a reply is cut off at, half of it is no answer.
+    /// A reply that is cut off at any byte is not an answer.
     #[test]
     fn half_a_reply_is_none() {
         for (provider, body) in [

@@ -1,30 +1,30 @@
-//! Keys of providers: read from the environment, shown to nobody but the provider.
+//! API keys: read from the environment, and shown only to the provider.
 
 use crate::error::EvaluationError;
 use std::fmt;
 use ureq::http::HeaderValue;
 
-/// A key. It has no `Display`, and its `Debug` does not show it.
+/// An API key. It has no `Display`, and its `Debug` does not show it.
 #[derive(Clone)]
 pub(super) struct Key {
     variable: String,
     secret: String,
 }
 
-/// Replies are searched for the key only from this length on: what is shorter may well be a word of an answer.
+/// The minimum length of a key to search answers for. A shorter one could be a word of an answer.
 const TELLING: usize = 16;
 
-/// What stands where a server has repeated the key.
+/// The replacement for a key repeated by a server.
 const HIDDEN: &str = "[key]";
 
-/// The environment, as the client looks at it: for keys, and for nothing else.
+/// Reads an environment variable. The client reads only those that hold keys.
 #[expect(clippy::disallowed_methods, reason = "keys come from the environment only, and decide no action")]
 pub(super) fn environment(variable: &str) -> Option<String> {
     std::env::var(variable).ok()
 }
 
 impl Key {
-    /// The key in this variable of `environment`; none if it is not set, or empty.
+    /// Reads the key from a variable of `environment`; `None` if it is not set or empty.
     pub(super) fn read(
         variable: &str,
         environment: &dyn Fn(&str) -> Option<String>,
@@ -41,12 +41,12 @@ impl Key {
         Ok(Some(Key { variable: variable.to_owned(), secret: secret.to_owned() }))
     }
 
-    /// The variable that it is from.
+    /// The variable that the key comes from.
     pub(super) fn variable(&self) -> &str {
         &self.variable
     }
 
-    /// The value of a header: the key after `prefix`.
+    /// Returns the value of a header: `prefix` and the key.
     pub(super) fn header(&self, prefix: &str) -> HeaderValue {
         let value = HeaderValue::from_str(&format!("{prefix}{}", self.secret));
         let mut value = value.expect("keys are visible ASCII");
@@ -54,12 +54,12 @@ impl Key {
         value
     }
 
-    /// A server's complaint without the key.
+    /// Removes the key from an error message of a server.
     pub(super) fn hide_in_words(&self, words: &str) -> String {
         words.replace(&self.secret, HIDDEN)
     }
 
-    /// An answer without the key.
+    /// Removes the key from an answer.
     pub(super) fn hide_in_answer(&self, text: String) -> String {
         if self.secret.len() >= TELLING && text.contains(&self.secret) {
             return self.hide_in_words(&text);

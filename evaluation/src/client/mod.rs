@@ -1,8 +1,8 @@
 //! Language models behind chat completions.
 //!
-//! [`connect()`] makes a [`Model`] of what a user asks for: a server that speaks the protocol of OpenAI, Anthropic or
-//! Gemini. It waits and tries again where that may help, keeps within caps, rates and a number of requests at once, and
-//! remembers answers if it is asked to. `docs/models.md` tells how each kind of failure is counted.
+//! [`connect()`] creates a [`Model`] from the user's options: a client for a server with the API of OpenAI, Anthropic or
+//! Gemini. It waits and retries where that may help, respects caps, rates and a limit on concurrent requests, and caches
+//! answers on request. `docs/models.md` describes how each kind of failure is counted.
 
 mod cache;
 mod caps;

@@ -1,12 +1,12 @@
-//! How many requests are under way at once, and how many begin in a minute.
+//! Limits on concurrent requests and on requests per minute.
 
 use super::clock::Clock;
 use std::num::{NonZeroU64, NonZeroUsize};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::Duration;
 
-/// Holds requests back until it is their turn. Requests and tokens of a minute are spread evenly over it: a server that
-/// counts in seconds is content too.
+/// A rate limiter. It spreads the requests and tokens of a minute evenly, which also satisfies servers that count per
+/// second.
 pub(super) struct Pace {
     clock: Arc<dyn Clock>,
     requests_per_minute: Option<NonZeroU64>,
@@ -16,7 +16,7 @@ pub(super) struct Pace {
     schedule: Mutex<Schedule>,
 }
 
-/// From when on the next request may begin, for each reason to wait.
+/// The earliest start of the next request, for each reason to wait.
 #[derive(Default)]
 struct Schedule {
     requests: Duration,
@@ -27,14 +27,14 @@ struct Schedule {
 /// A minute in nanoseconds.
 const MINUTE: u128 = 60_000_000_000;
 
-/// How long a number of things takes at so many a minute.
+/// Returns the time that a number of things takes at a rate per minute.
 fn span(things: u64, per_minute: NonZeroU64) -> Duration {
     let nanoseconds = u128::from(things) * MINUTE / u128::from(per_minute.get());
     Duration::from_nanos(nanoseconds.try_into().unwrap_or(u64::MAX))
 }
 
 impl Pace {
-    /// So many at once, and so many requests and tokens a minute.
+    /// Creates a limiter of concurrent requests, and of requests and tokens per minute.
     pub(super) fn new(
         concurrency: NonZeroUsize,
         requests_per_minute: Option<NonZeroU64>,
@@ -51,8 +51,8 @@ impl Pace {
         }
     }
 
-    /// Waits until fewer than the limit are under way. The slot is kept between the tries of a request, so that a server
-    /// with troubles gets fewer requests, not others.
+    /// Waits until the number of requests in flight is below the limit. The slot is kept between the tries of a request, so
+    /// that a server in trouble gets fewer requests rather than other ones.
     pub(super) fn enter(&self) -> Slot<'_> {
         let free = self.free.lock().expect(NO_PANIC);
         let mut free = self.freed.wait_while(free, |free| *free == 0).expect(NO_PANIC);
@@ -60,7 +60,7 @@ impl Pace {
         Slot { pace: self }
     }
 
-    /// Waits until a request of about so many tokens may begin.
+    /// Waits until a request of about `tokens` tokens may start.
     pub(super) fn wait(&self, tokens: u64) {
         let now = self.clock.elapsed();
         let mut schedule = self.schedule();
@@ -77,7 +77,7 @@ impl Pace {
         }
     }
 
-    /// A request that was let through with `expected` tokens has taken so many.
+    /// Corrects the schedule after a request that was admitted with `expected` tokens used `taken`.
     pub(super) fn correct(&self, expected: u64, taken: u64) {
         if let Some(limit) = self.tokens_per_minute {
             let mut schedule = self.schedule();
@@ -86,7 +86,7 @@ impl Pace {
         }
     }
 
-    /// The server wants no request for so long, from anybody.
+    /// Delays all requests by `time`, as the server asked.
     pub(super) fn hold(&self, time: Duration) {
         let until = self.clock.elapsed().saturating_add(time);
         let mut schedule = self.schedule();
@@ -100,7 +100,7 @@ impl Pace {
 
 const NO_PANIC: &str = "nothing panics while it holds this lock";
 
-/// A place among the requests under way, free again when dropped.
+/// A slot for a request in flight, freed when it is dropped.
 #[must_use]
 pub(super) struct Slot<'a> {
     pace: &'a Pace,
@@ -119,7 +119,7 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::SystemTime;
 
-    /// Passes only in sleep.
+    /// A clock that advances only in sleep.
     #[derive(Default)]
     struct Dial(Mutex<Duration>);
 

@@ -1,4 +1,4 @@
-//! What tokens cost. A model whose price nobody has told costs nothing known, which is not the same as nothing.
+//! The prices of tokens. A model without a known price has an unknown cost, which differs from no cost.
 
 use super::chat::Usage;
 use super::provider::Provider;
@@ -8,41 +8,41 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// An amount of money. It is kept as a whole number of millionths of a millionth of a US dollar, so that a sum does not
-/// depend on the order in which replies come in.
+/// An amount of money, stored as an integer number of 10⁻¹² US dollars, so that a sum does not depend on the order of the
+/// replies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Usd(u64);
 
-/// Parts of [`Usd`] in a dollar.
+/// The number of units of [`Usd`] in a dollar.
 const PARTS: f64 = 1e12;
 
-/// More than this, in dollars, is a slip of the pen.
+/// The largest amount accepted, in dollars; anything above must be a typing error.
 const MOST: f64 = 1e6;
 
 impl Usd {
-    /// This many dollars; none if it is no amount between 0 and a million.
+    /// Converts an amount in dollars; `None` if it is not between 0 and a million.
     pub fn from_dollars(dollars: f64) -> Option<Usd> {
         (0.0..=MOST).contains(&dollars).then(|| Usd((dollars * PARTS).round() as u64))
     }
 
-    /// In dollars.
+    /// Returns the amount in dollars.
     pub fn dollars(self) -> f64 {
         self.0 as f64 / PARTS
     }
 
-    /// The sum, or the largest amount.
+    /// Adds an amount, saturating.
     pub fn plus(self, other: Usd) -> Usd {
         Usd(self.0.saturating_add(other.0))
     }
 
-    /// The difference, or nothing.
+    /// Subtracts an amount, saturating at 0.
     pub(super) fn minus(self, other: Usd) -> Usd {
         Usd(self.0.saturating_sub(other.0))
     }
 }
 
 impl fmt::Display for Usd {
-    /// In cents, and small amounts in hundredths of cents.
+    /// Formats the amount to the cent, or below a dollar to a hundredth of a cent.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let digits = if self.dollars() < 1.0 { 4 } else { 2 };
         write!(f, "${:.digits$}", self.dollars())
@@ -61,24 +61,24 @@ impl FromStr for Usd {
     }
 }
 
-/// What a model's tokens cost, in US dollars per million.
+/// The prices of a model's tokens, in US dollars per million.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Price {
     /// Input.
     pub input: f64,
-    /// Input that the provider reads from its cache.
+    /// Input read from the provider's cache.
     pub cached_input: f64,
-    /// Input that the provider writes to its cache.
+    /// Input written to the provider's cache.
     pub cache_write: f64,
     /// Output, reasoning included.
     pub output: f64,
-    /// When the price was looked up, as the table says it.
+    /// The date of the price, as the table gives it.
     pub as_of: String,
 }
 
 impl Price {
-    /// What a reply cost; none if the provider does not tell how many tokens it took.
+    /// Returns the cost of a reply, or `None` if the provider does not report its tokens.
     pub fn cost(&self, usage: &Usage) -> Option<Usd> {
         let (input, output) = (usage.input_tokens?, usage.output_tokens?);
         let read = usage.cached_input_tokens.unwrap_or(0).min(input);
@@ -93,12 +93,12 @@ impl Price {
     }
 }
 
-/// What so many tokens cost at a price per million.
+/// Returns the cost of tokens at a price per million.
 fn of(tokens: u64, price: f64) -> Usd {
     Usd(tokens.saturating_mul((price * (PARTS / 1e6)).round() as u64))
 }
 
-/// Tables of prices, the most trusted first.
+/// Price tables in order of precedence.
 #[derive(Clone, Debug)]
 pub struct Prices {
     tables: Vec<Table>,
@@ -123,16 +123,16 @@ struct Row {
 }
 
 impl Prices {
-    /// The table that comes with the program.
+    /// Returns the table embedded in the program.
     pub fn embedded() -> Prices {
         let table = read(include_str!("prices.toml")).expect("a test reads the embedded table");
         Prices { tables: vec![table] }
     }
 
-    /// The table in this file, and after it the one that comes with the program.
+    /// Returns the table in a file, followed by the embedded one.
     ///
     /// # Errors
-    /// The file cannot be read, or it is no table of prices.
+    /// The file cannot be read, or is not a price table.
     pub fn with_file(path: &Path) -> Result<Prices, EvaluationError> {
         let text = std::fs::read_to_string(path).map_err(EvaluationError::io("read", path))?;
         let table = read(&text).map_err(|problem| {
@@ -143,7 +143,7 @@ impl Prices {
         Ok(prices)
     }
 
-    /// The price of a model, if it is known.
+    /// Returns the price of a model, if it is known.
     pub fn find(&self, provider: Provider, model: &str) -> Option<Price> {
         self.tables.iter().find_map(|table| {
             let fitting = table.model.iter().filter(|row| row.provider == provider && fits(&row.name, model));
@@ -170,7 +170,7 @@ fn read(text: &str) -> Result<Table, String> {
     Ok(table)
 }
 
-/// Whether a name of a table stands for a model. `gpt-5` does not stand for `gpt-5-pro`, which costs ten times as much.
+/// Returns `true` if a name in a table matches a model. `gpt-5` does not match `gpt-5-pro`, which costs ten times as much.
 fn fits(name: &str, model: &str) -> bool {
     if let Some(start) = name.strip_suffix('*') {
         return model.starts_with(start);

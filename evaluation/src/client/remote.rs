@@ -1,4 +1,4 @@
-//! A model on a server: tries again what may pass, keeps within caps and pace, and answers from the cache what it can.
+//! A model on a server: retries transient failures, respects caps and rates, and uses the cache.
 
 use super::cache::{self, Cache};
 use super::caps::Caps;
@@ -28,13 +28,13 @@ pub(super) struct Remote {
     pub(super) clock: Arc<dyn Clock>,
 }
 
-/// The wait after the first try; it doubles with every further one.
+/// The wait after the first try; it doubles with every further try.
 const FIRST_WAIT: Duration = Duration::from_secs(1);
 
-/// The longest wait of our own choice.
+/// The maximum wait that we choose ourselves.
 const LONGEST_WAIT: Duration = Duration::from_secs(60);
 
-/// The longest wait that a server may ask for.
+/// The maximum wait that a server may ask for.
 const LONGEST_ASKED: Duration = Duration::from_secs(300);
 
 impl Model for Remote {
@@ -52,7 +52,7 @@ impl Model for Remote {
 }
 
 impl Remote {
-    /// An answer that is not in the cache.
+    /// Requests an answer that is not in the cache.
     fn pay(
         &self,
         request: &ChatRequest,
@@ -76,7 +76,7 @@ impl Remote {
             let (status, message, asked) = match outcome {
                 Ok(answer) => {
                     let reply = reply(answer, failures, latency);
-                    // First of all: a run that is killed from here on finds the answer there.
+                    // This comes first: if the run is killed after it, the next one finds the answer in the cache.
                     if let Some((cache, key)) = entry {
                         cache.put(key, &reply);
                     }
@@ -133,7 +133,7 @@ impl Remote {
         }
     }
 
-    /// Once more after reading: in JSON there are many ways to write the same.
+    /// Hides the key again after parsing, because JSON can write the same text in many ways.
     fn without_key(&self, answer: Answer) -> Answer {
         let Some(key) = &self.key else { return answer };
         let hide = |text| key.hide_in_answer(text);
@@ -189,8 +189,9 @@ fn reply(answer: Answer, failures: Vec<Failure>, latency: Duration) -> ChatReply
     }
 }
 
-/// How long to wait after a failed try: exponentially longer with every try, between half of it and all, so that threads
-/// that failed together do not try together again; and what the server asks for and a little more, if that is longer.
+/// Returns the wait after a failed try. It grows exponentially with every try, with a random factor between a half and one,
+/// so that threads that failed together do not retry together. If the server asks for more, the wait is that and a little
+/// more.
 fn wait(number: u32, asked: Option<Duration>, jitter: &mut Sampler) -> Duration {
     let doubled = FIRST_WAIT.saturating_mul(1u32.checked_shl(number - 1).unwrap_or(u32::MAX));
     let own = doubled.min(LONGEST_WAIT).mul_f64(0.5 + 0.5 * jitter.unit());

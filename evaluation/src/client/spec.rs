@@ -1,14 +1,14 @@
-//! Which model is meant by an id such as `openai:gpt-4o-mini`, and where it is served.
+//! Model ids such as `openai:gpt-4o-mini`, and their servers.
 
 use super::provider::Provider;
 use crate::error::EvaluationError;
 use std::net::IpAddr;
 use ureq::http::Uri;
 
-/// A model and where it is served.
+/// A model and its server.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelSpec {
-    /// Whose protocol the server speaks.
+    /// The API of the server.
     pub provider: Provider,
     /// The model as the server calls it.
     pub model: String,
@@ -19,30 +19,30 @@ pub struct ModelSpec {
 /// A server of models.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Server {
-    /// What the paths of the protocol are appended to, without a slash at its end.
+    /// The base URL to which the paths of the API are appended, without a slash at its end.
     pub base_url: String,
-    /// Host, and port if one is given.
+    /// The host, with the port if one is given.
     pub host: String,
-    /// Whether it is this machine.
+    /// `true` if it is this machine.
     pub loopback: bool,
-    /// Whether what is sent is encrypted.
+    /// `true` if the connection is encrypted.
     pub encrypted: bool,
-    /// Whether it is the provider's own.
+    /// `true` if it is the provider's own server.
     pub own: bool,
 }
 
 impl ModelSpec {
-    /// The model of an id as users type it: `openai:…`, `anthropic:…` or `gemini:…`, and with a base URL any name, for
-    /// servers with OpenAI-compatible chat completions. With a prefix and a base URL, that protocol is spoken there.
+    /// Parses an id as users type it: `openai:…`, `anthropic:…` or `gemini:…`; with a base URL any name, for servers with
+    /// OpenAI-compatible chat completions. With a prefix and a base URL, the server at that URL uses the API of the prefix.
     ///
     /// # Errors
-    /// The id or the URL is malformed: what it should look like.
+    /// The id or the URL is malformed. The message shows the expected form.
     pub fn parse(id: &str, base_url: Option<&str>) -> Result<ModelSpec, EvaluationError> {
         let prefixed =
             id.split_once(':').and_then(|(prefix, model)| Some((Provider::from_prefix(prefix)?, model)));
         let (provider, model) = match (prefixed, base_url) {
             (Some(found), _) => found,
-            // Names of local models have colons too: `qwen3:32b`.
+            // Names of local models can contain colons: `qwen3:32b`.
             (None, Some(_)) => (Provider::Compatible, id),
             (None, None) => return Err(EvaluationError::Malformed(unknown(id))),
         };
@@ -61,7 +61,7 @@ impl ModelSpec {
     }
 }
 
-/// What to say of an id without a known prefix.
+/// Returns the message for an id without a known prefix.
 fn unknown(id: &str) -> String {
     let starts = [
         ("gpt", "openai"),
@@ -88,7 +88,7 @@ fn unknown(id: &str) -> String {
 impl Server {
     fn parse(url: &str) -> Result<Server, EvaluationError> {
         let malformed = |problem: &str| {
-            // The URL itself is not repeated where it may hold a password.
+            // The URL is not repeated, because it may hold a password.
             EvaluationError::Malformed(format!(
                 "the base URL {problem}; give one like `http://localhost:8000/v1` or `https://example.org/v1`"
             ))

@@ -1,4 +1,4 @@
-//! One HTTP exchange: within a time, and never more of a reply than a limit.
+//! One HTTP exchange, with a time limit and a size limit for the reply.
 
 use super::spec::Server;
 use std::io::Read;
@@ -7,7 +7,7 @@ use ureq::http::HeaderValue;
 use ureq::http::header::{LOCATION, RETRY_AFTER};
 use ureq::{Agent, Error};
 
-/// Sends requests to a server.
+/// A client that sends requests to a server.
 pub(super) struct Wire {
     agent: Agent,
     reply_limit: u64,
@@ -15,7 +15,7 @@ pub(super) struct Wire {
     connect_timeout: Duration,
 }
 
-/// What came back, whatever its status.
+/// A reply of any status.
 #[derive(Clone, Debug)]
 pub(super) struct HttpReply {
     pub(super) status: u16,
@@ -25,7 +25,7 @@ pub(super) struct HttpReply {
 }
 
 impl Wire {
-    /// For requests to `server` that take at most `timeout` with all that they are, and replies of at most `reply_limit`
+    /// Creates a client for `server`. A request takes at most `timeout` in total, and a reply has at most `reply_limit`
     /// bytes. Proxies of the environment are used, except for this machine.
     pub(super) fn new(
         server: &Server,
@@ -47,10 +47,10 @@ impl Wire {
         Wire { agent: config.build().new_agent(), reply_limit, timeout, connect_timeout }
     }
 
-    /// Posts JSON, and reads what comes back.
+    /// Posts JSON and reads the reply.
     ///
     /// # Errors
-    /// Nothing comes back, or not all of it, or too much, or what is no text: what happened.
+    /// There is no reply, or it is incomplete, too large, or not text. The message says which.
     pub(super) fn post(
         &self,
         url: &str,
@@ -67,7 +67,7 @@ impl Wire {
             |name| response.headers().get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
         let (retry_after, location) = (header(RETRY_AFTER), header(LOCATION));
         let mut bytes = Vec::new();
-        // A byte more than allowed tells that there is too much.
+        // One byte more than allowed reveals a reply that is too large.
         let reader = response.body_mut().as_reader().take(self.reply_limit.saturating_add(1));
         let read = { reader }.read_to_end(&mut bytes);
         read.map_err(|error| (Some(status), self.in_words(Error::from(error))))?;

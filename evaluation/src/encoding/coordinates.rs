@@ -4,8 +4,8 @@ use super::scene::{Scene, places};
 use crate::legend::Legend;
 use engine::Observation;
 
-/// A line for each type that is on the board, walls included and floors not: `lantern: (3,2) (8,2)`. It tells what the grid
-/// tells, without the order of what is in one cell. Cost: O(cells × types).
+/// Lists each type on the board in a line, including walls but not floors: `lantern: (3,2) (8,2)`. It contains the same
+/// information as the grid, except for the order of sprites within a cell. Cost: O(cells × types).
 pub fn coordinates(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let line = |name: &String| {

@@ -1,12 +1,12 @@
-//! A character a cell.
+//! The board with one character per cell.
 
 use super::scene::{Scene, places};
 use crate::legend::Legend;
 use engine::Observation;
 use render::EMPTY;
 
-/// The board in rows of characters, each row a line: the uppermost sprite of each cell that is no floor, and the avatar over
-/// all. What is between cells is in all that it overlaps, the avatar apart. Cost: O(cells).
+/// Draws the board in rows of characters, each row a line: the uppermost sprite of each cell that is not a floor, and the
+/// avatar on top. A sprite between cells is drawn in all cells that it overlaps, except for the avatar. Cost: O(cells).
 pub fn grid(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let lines = (0..scene.rows).map(|row| {
@@ -16,13 +16,13 @@ pub fn grid(observation: &Observation, legend: &Legend) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The character of a cell that holds these.
+/// Returns the character of a cell that holds these names.
 pub(super) fn symbol(legend: &Legend, names: &[&str]) -> char {
     names.last().and_then(|name| legend.entry(name)).map_or(EMPTY, |entry| entry.symbol)
 }
 
-/// What one character a cell cannot show: `frost over snow: (3,4) (5,4)`, a line for each pile of several sprites, in the
-/// order in which they come on the board. Cost: O(cells × piles).
+/// Lists the piles that one character per cell cannot show: `frost over snow: (3,4) (5,4)`, a line for each pile of several
+/// sprites, in the order of the board. Cost: O(cells × piles).
 pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let mut piles: Vec<Pile<'_, '_>> = Vec::new();
@@ -40,9 +40,9 @@ pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     piles.iter().map(line).collect()
 }
 
-/// The same sprites one over the other, in some cells.
+/// The same stack of sprites in some cells.
 struct Pile<'a, 'b> {
-    /// From the lowest to the uppermost.
+    /// The names from the lowest to the uppermost.
     names: &'b [&'a str],
     cells: Vec<(usize, usize)>,
 }

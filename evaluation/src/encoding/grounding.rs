@@ -1,14 +1,14 @@
-//! What lies around the avatar, in words: names and places of things, and what each way leads to.
+//! The neighbourhood of the avatar in words: names and places of things, and the first thing in each direction.
 
 use super::scene::{Scene, places};
 use crate::legend::{Legend, Standing};
 use engine::Observation;
 
-/// Things of one type that are told by place: the nearest ones.
+/// The maximum number of things of one type listed by place, the nearest first.
 const NEAREST: usize = 8;
 
-/// What lies in each of the four directions of the avatar, then the things on the board: `lantern: (3,2) (8,2)`, the
-/// nearest first and at most [`NEAREST`] a type, walls left out. Without an avatar, the things alone, row by row.
+/// Describes each of the four directions from the avatar, then the things on the board: `lantern: (3,2) (8,2)`, the nearest
+/// first and at most [`NEAREST`] per type, without walls. Without an avatar, only the things, row by row.
 /// Cost: O(cells × types).
 pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
@@ -28,7 +28,7 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     lines
 }
 
-/// What comes first in a direction: `wall`, `3 free, then lantern`.
+/// Returns the first thing in a direction: `wall`, `3 free, then lantern`.
 fn way(scene: &Scene<'_>, from: (usize, usize), (dx, dy): (isize, isize)) -> String {
     let (mut column, mut row, mut free) = (from.0, from.1, 0);
     let met = loop {
@@ -45,7 +45,7 @@ fn way(scene: &Scene<'_>, from: (usize, usize), (dx, dy): (isize, isize)) -> Str
     if free == 0 { met } else { format!("{free} free, then {met}") }
 }
 
-/// What is in one cell, from the uppermost to the lowest.
+/// Returns the contents of one cell, from the uppermost to the lowest.
 fn pile(names: &[&str]) -> String {
     names.iter().rev().copied().collect::<Vec<_>>().join(" over ")
 }
@@ -53,7 +53,7 @@ fn pile(names: &[&str]) -> String {
 fn thing(scene: &Scene<'_>, name: &str) -> Option<String> {
     let mut cells: Vec<(usize, usize)> = scene.places(name).collect();
     if let Some((x, y)) = scene.avatar {
-        // The sort keeps rows in order among equals.
+        // The sort is stable: equal distances stay in row order.
         cells.sort_by_key(|cell| cell.0.abs_diff(x) + cell.1.abs_diff(y));
     }
     let more = match cells.len().saturating_sub(NEAREST) {

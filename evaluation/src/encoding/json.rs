@@ -1,4 +1,4 @@
-//! What is seen, as data.
+//! Observations as JSON.
 
 use super::scene::{Scene, direction_name};
 use crate::legend::Legend;
@@ -14,7 +14,7 @@ struct Document<'a> {
     score: f64,
     avatar: Option<Avatar<'a>>,
     holds: BTreeMap<&'a str, i32>,
-    /// By name: columns and rows.
+    /// The columns and rows of the things, by name.
     objects: BTreeMap<&'a str, Vec<(usize, usize)>>,
 }
 
@@ -26,8 +26,8 @@ struct Avatar<'a> {
     health: i32,
 }
 
-/// One line of JSON: the size of the board, tick, score, the avatar, what it holds, and by name where everything is, floors
-/// left out. Cost: O(cells × types).
+/// Encodes an observation as one line of JSON: the size of the board, tick, score, the avatar, its resources, and the places
+/// of everything by name, without floors. Cost: O(cells × types).
 pub fn json(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let objects = legend.entries().iter().map(|entry| {

@@ -1,6 +1,6 @@
-//! What is seen, in the forms that a player may read it in: each a pure function of an observation and the legend.
+//! Encodings of observations for players: each a pure function of an observation and the legend.
 //!
-//! Cells are told as `(x,y)`: the column from 0 at the left, the row from 0 at the top.
+//! Cells are written as `(x,y)`: the column from 0 at the left, the row from 0 at the top.
 
 mod coordinates;
 mod grid;

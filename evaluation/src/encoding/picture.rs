@@ -1,4 +1,4 @@
-//! What is seen, as a picture.
+//! Observations as pictures.
 
 use crate::error::EvaluationError;
 use crate::legend::Legend;
@@ -10,15 +10,15 @@ use render::Style;
 pub struct Picture {
     /// The bytes of the file.
     pub png: Vec<u8>,
-    /// Pixels.
+    /// The width in pixels.
     pub width: u32,
-    /// Pixels.
+    /// The height in pixels.
     pub height: u32,
 }
 
-/// The observation in cells of so many pixels, and below it the types of the game with their tiles and names. It is drawn
-/// from the observation and not from the state, so that it tells no more than the other encodings do. The same arguments give
-/// the same bytes on every machine. Cost: O(pixels).
+/// Draws the observation with `cell` pixels per cell, and below it the types of the game with their tiles and names. The
+/// picture is drawn from the observation rather than the state, so that it shows no more than the other encodings do. The
+/// same arguments give the same bytes on every machine. Cost: O(pixels).
 ///
 /// # Errors
 /// The cells, or the whole picture, would be too small or too large.

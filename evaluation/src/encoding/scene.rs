@@ -1,4 +1,4 @@
-//! What of an observation is told at all: floors left out, and the avatar in one cell.
+//! The visible part of an observation: without floors, and with the avatar in one cell.
 
 use crate::legend::Legend;
 use engine::{Direction, Observation};
@@ -10,10 +10,10 @@ pub(crate) struct Scene<'a> {
     pub(crate) columns: usize,
     /// Rows of the board.
     pub(crate) rows: usize,
-    /// Row-major: the names in each cell from the lowest to the uppermost, floors left out. The avatar is in the cell of
-    /// its middle alone, over everything else.
+    /// The names in each cell, row-major, from the lowest to the uppermost, without floors. The avatar is only in the cell
+    /// of its centre, on top of everything else.
     pub(crate) cells: Vec<Vec<&'a str>>,
-    /// Column and row of the avatar, where it is on the board.
+    /// Column and row of the avatar, if it is on the board.
     pub(crate) avatar: Option<(usize, usize)>,
 }
 
@@ -41,24 +41,24 @@ impl<'a> Scene<'a> {
         &self.cells[row * self.columns + column]
     }
 
-    /// The cells that hold a name, row by row.
+    /// Returns the cells that hold a name, row by row.
     pub(crate) fn places<'b>(&'b self, name: &'b str) -> impl Iterator<Item = (usize, usize)> + 'b {
         let holding = self.cells.iter().enumerate().filter(move |(_, names)| names.contains(&name));
         holding.map(|(cell, _)| (cell % self.columns, cell / self.columns))
     }
 }
 
-/// `(3,4)`.
+/// Formats a cell: `(3,4)`.
 pub(crate) fn place((column, row): (usize, usize)) -> String {
     format!("({column},{row})")
 }
 
-/// `(3,4) (5,4)`.
+/// Formats cells: `(3,4) (5,4)`.
 pub(crate) fn places(all: &[(usize, usize)]) -> String {
     all.iter().map(|&cell| place(cell)).collect::<Vec<_>>().join(" ")
 }
 
-/// `up`, `left`, `down`, `right`; none for any other.
+/// Returns `up`, `left`, `down` or `right`; `None` for any other direction.
 pub(crate) fn direction_name(direction: Direction) -> Option<&'static str> {
     let names = [
         (Direction::UP, "up"),

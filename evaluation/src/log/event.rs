@@ -1,15 +1,15 @@
-//! What is recorded, a line of JSON each.
+//! The events of a log, one line of JSON each.
 
 use crate::client::{Failure, Finish, Role, Usage};
 use crate::player::Validity;
 use engine::{Action, Digest, Outcome, Seed, StateHash};
 use serde::{Deserialize, Serialize};
 
-/// The version of the events below: bumped when a reader of older logs could misread newer ones.
+/// The version of the events below, raised when a reader of older logs could misread newer ones.
 pub const SCHEMA: u32 = 1;
 
-/// A line of an episode's log. Times (`latency_ms`, `waited_ms`, `took_ms`) are the only fields in which two runs of the same
-/// evaluation with the same answers may differ.
+/// A line of an episode's log. Times (`latency_ms`, `waited_ms`, `took_ms`) are the only fields in which two runs of the
+/// same evaluation with the same answers may differ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Event {
@@ -17,7 +17,7 @@ pub enum Event {
     Start {
         /// [`SCHEMA`].
         schema: u32,
-        /// [`engine::SEMANTICS`]: under another number, the actions may lead elsewhere.
+        /// [`engine::SEMANTICS`]. Under another version, the actions may lead elsewhere.
         semantics: u32,
         /// The game, by the name of its folder in the results.
         game: String,
@@ -27,80 +27,80 @@ pub enum Event {
         level: usize,
         /// The level's digest.
         level_digest: Digest,
-        /// Which of the episodes of this player on this level it is.
+        /// The index of the episode among those of this player on this level.
         run: u64,
-        /// Decides the game's chance: the same for every player, so that runs are paired.
+        /// The seed of the game's chance: the same for every player, so that runs are paired.
         seed: Seed,
-        /// Decisions at most.
+        /// The maximum number of decisions.
         max_steps: u64,
         /// The state hash before the first tick.
         hash: StateHash,
         /// Column and row of the avatar, if there is one.
         avatar: Option<(i32, i32)>,
     },
-    /// A text that is said to a model or by it: recorded once, later named by its number.
+    /// A text sent to a model or received from it. It is recorded once and referred to by its number afterwards.
     Message {
-        /// Counted from 0 within the episode.
+        /// The number of the text within the episode, from 0.
         id: u32,
-        /// Who says it.
+        /// The author.
         role: Role,
         /// The words.
         text: String,
-        /// The digest of the picture beside the words, a PNG that the state and the settings decide.
+        /// The digest of the picture beside the words, a PNG determined by the state and the settings.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         image: Option<Digest>,
     },
-    /// What is about to be asked. Without a reply after it, it may have been paid for and lost.
+    /// A request about to be sent. Without a reply after it, it may have been paid for and lost.
     Request {
-        /// Decisions before this one.
+        /// The number of decisions before this one.
         step: u64,
-        /// Counted from 0 within the step: a re-ask after an invalid answer is another attempt.
+        /// The number of the attempt within the step, from 0; asking again after an invalid answer is another attempt.
         attempt: u32,
         /// The conversation, by numbers of messages.
         messages: Vec<u32>,
-        /// Tokens of the conversation by our own count, by which history is cut.
+        /// The tokens of the conversation by our own count, which decides when the history is cut.
         tokens: u64,
     },
-    /// What was answered.
+    /// The answer to a request.
     Reply(Reply),
     /// An action was played.
     Step {
-        /// Counted from 0.
+        /// The number of the step, from 0.
         step: u64,
-        /// What was played.
+        /// The action played.
         action: Action,
-        /// How it came about.
+        /// The origin of the choice.
         validity: Validity,
         /// The score after it.
         score: f64,
         /// The state hash after it.
         hash: StateHash,
-        /// How the episode stands after it.
+        /// The outcome after it.
         outcome: Outcome,
         /// Column and row of the avatar after it, if there is one.
         avatar: Option<(i32, i32)>,
-        /// Forward-model calls that a planner spent.
+        /// The forward-model calls spent by a planner.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         calls: Option<u64>,
-        /// How long the decision took, ms.
+        /// The duration of the decision, ms.
         took_ms: f64,
     },
-    /// The episode was broken off; a later `--resume` goes on after this line.
+    /// The episode was aborted; a later `--resume` continues after this line.
     Halt {
         /// `infrastructure`, `budget`, `rejected`.
         reason: String,
-        /// In words.
+        /// The reason in words.
         message: String,
     },
     /// The last line.
     End {
-        /// Why there is no more.
+        /// The reason for the end.
         status: Status,
-        /// How the game stands.
+        /// The outcome of the game.
         outcome: Outcome,
         /// The score.
         score: f64,
-        /// Actions played.
+        /// The number of actions played.
         steps: u64,
     },
 }
@@ -109,67 +109,67 @@ pub enum Event {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reply {
-    /// Of the request.
+    /// The step of the request.
     pub step: u64,
-    /// Of the request.
+    /// The attempt of the request.
     pub attempt: u32,
-    /// What it is worth.
+    /// The classification of the answer.
     pub class: ReplyClass,
-    /// The words, raw.
+    /// The raw text.
     pub text: String,
-    /// The reasoning, where the provider shows it.
+    /// The reasoning, if the provider returns it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reasoning: Option<String>,
-    /// The action that was read from it.
+    /// The action read from the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub action: Option<Action>,
     /// The rule of the parser that read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stage: Option<String>,
-    /// Why the answer ends.
+    /// The reason why the answer ends.
     pub finish: Finish,
-    /// What it cost.
+    /// The tokens used.
     pub usage: Usage,
     /// The model that answered, as the provider calls it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub served_by: Option<String>,
-    /// The tries that failed before.
+    /// The failed tries before this answer.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<Failure>,
-    /// Whether it comes from the cache.
+    /// `true` if the answer comes from the cache.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub cached: bool,
-    /// From request to answer, ms.
+    /// The time from request to answer, ms.
     pub latency_ms: f64,
 }
 
-/// What an answer is worth.
+/// The classification of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ReplyClass {
-    /// An action in the format that was asked for.
+    /// An action in the requested format.
     Strict,
     /// An action, read with tolerance.
     Tolerant,
-    /// No action can be read, or one that does not exist.
+    /// No action can be read, or the action does not exist.
     Invalid,
-    /// The model would not answer.
+    /// The model refused to answer.
     Refused,
-    /// Cut off before it came to an action.
+    /// The answer was cut off before it named an action.
     Truncated,
 }
 
-/// Why an episode has no further step.
+/// The reason why an episode has no further step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// The game is over.
     Over,
-    /// The limit of steps was met.
+    /// The step limit was reached.
     StepLimit,
 }
 
-/// The event with its times set to 0, for comparing runs.
+/// Returns the event with its times set to 0, for comparing runs.
 pub fn without_times(event: &Event) -> Event {
     let mut event = event.clone();
     match &mut event {

@@ -1,4 +1,4 @@
-//! Appending to the log of an episode, and reading it back.
+//! Appending to the log of an episode and reading it back.
 
 use crate::error::EvaluationError;
 use crate::log::event::Event;
@@ -7,24 +7,24 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Bytes of a log at most: a long episode of a model that reasons at length has some hundred million.
+/// The maximum number of bytes of a log. A long episode of a model that reasons at length takes some hundred million.
 const MAX_LOG: u64 = 1 << 30;
 
-/// The next move for a log that is damaged or was changed.
+/// The suggested next step for a log that is damaged or was changed.
 pub(crate) const NEXT_MOVE: &str = "the log is damaged or was changed: get it again, or remove it and have the episode played again by `arcade evaluate` with --resume";
 
-/// The open log of an episode. Every event is on its way to the disk when [`Journal::push`] returns.
+/// The open log of an episode. Every event has been written to the file when [`Journal::push`] returns.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
     file: Option<File>,
     events: Vec<Event>,
-    /// The events of the step that is being decided: from here, to there if it has been decided before.
+    /// The range of events of the step that is being decided; the end is set only if the step was decided before.
     step: (usize, Option<usize>),
 }
 
 impl Journal {
-    /// Opens the log at `path`; what an interrupted run has left there is kept, but for a last line that was cut off.
+    /// Opens the log at `path`. Events from an interrupted run are kept, except for a last line that was cut off.
     ///
     /// # Errors
     /// The file cannot be read or written, or it is not a log.
@@ -36,7 +36,7 @@ impl Journal {
         Ok(Journal { path: path.to_owned(), file: Some(file), events, step: (0, None) })
     }
 
-    /// A log that is kept in memory only.
+    /// Creates a log that is kept in memory only.
     pub fn in_memory() -> Journal {
         Journal { path: PathBuf::new(), file: None, events: Vec::new(), step: (0, None) }
     }
@@ -44,7 +44,7 @@ impl Journal {
     /// Appends an event.
     ///
     /// # Errors
-    /// The file cannot be written: the disk is full, say.
+    /// The file cannot be written, for example because the disk is full.
     pub fn push(&mut self, event: Event) -> Result<(), EvaluationError> {
         if let Some(file) = &mut self.file {
             let mut line = serde_json::to_string(&event).expect("events are plain data");
@@ -60,19 +60,19 @@ impl Journal {
         &self.events
     }
 
-    /// Events of the step that is being decided, its [`Event::Step`] not among them. After an interruption there may be
-    /// requests and replies already.
+    /// The events of the step that is being decided, without its [`Event::Step`]. After an interruption they may already
+    /// include requests and replies.
     pub fn pending(&self) -> &[Event] {
         let (from, to) = self.step;
         &self.events[from..to.unwrap_or(self.events.len())]
     }
 
-    /// Which events [`pending`](Journal::pending) gives: from this number, to that one or to the last.
+    /// Sets the range of events that [`pending`](Journal::pending) returns: from `from` up to `to`, or up to the last one.
     pub(crate) fn set_step(&mut self, from: usize, to: Option<usize>) {
         self.step = (from, to);
     }
 
-    /// Starts the log anew.
+    /// Restarts the log from empty.
     pub(crate) fn clear(&mut self) -> Result<(), EvaluationError> {
         if let Some(file) = &self.file {
             file.set_len(0).map_err(EvaluationError::io("empty", &self.path))?;
@@ -82,13 +82,13 @@ impl Journal {
         Ok(())
     }
 
-    /// That something is wrong with this log.
+    /// Returns an error about this log.
     pub(crate) fn complaint(&self, what: &str) -> EvaluationError {
         EvaluationError::Malformed(format!("{}: {what}", self.path.display()))
     }
 }
 
-/// The events of the log at `path`, a cut-off last line left out.
+/// Reads the events of the log at `path`, without a last line that was cut off.
 ///
 /// # Errors
 /// It cannot be read, or it is not a log.
@@ -96,7 +96,7 @@ pub fn read(path: &Path) -> Result<Vec<Event>, EvaluationError> {
     read_prefix(path).map(|(events, _)| events)
 }
 
-/// The events, and the bytes that they take.
+/// Returns the events and the number of bytes they take.
 fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
     let mut file = BufReader::new(open_file(path, MAX_LOG)?.take(MAX_LOG));
     let (mut events, mut sound, mut line) = (Vec::new(), 0, Vec::new());
@@ -106,7 +106,7 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
         let Some(whole) = line.strip_suffix(b"\n") else { return Ok((events, sound)) };
         let event = serde_json::from_slice(whole).map_err(|error| {
             let (path, number) = (path.display(), events.len() + 1);
-            // The parser sees one line only.
+            // The parser sees only one line.
             let why = error.to_string().replace(" at line 1 column", " at column");
             EvaluationError::Malformed(format!(
                 "{path}: line {number} is not an event of an episode ({why}); {NEXT_MOVE}"

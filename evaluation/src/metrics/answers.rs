@@ -1,4 +1,4 @@
-//! The answers before a step, and how the step says that it came about: the two have to agree.
+//! Consistency checks between the answers before a step and the validity recorded with the step.
 
 use crate::log::{Event, Reply, ReplyClass};
 use crate::player::Validity;
@@ -8,12 +8,12 @@ use engine::Action;
 #[derive(Debug, Default)]
 pub(super) struct Answers<'a> {
     replies: Vec<&'a Reply>,
-    /// True if a model was asked. Programs are asked without a word in the log, which has their wrong answers only.
+    /// `true` if a model was asked. For programs, the log has no requests, only their wrong answers.
     is_model: bool,
 }
 
 impl<'a> Answers<'a> {
-    /// Takes up an answer, before the step of this number.
+    /// Adds an answer that stands before the step of this number.
     pub(super) fn reply(&mut self, reply: &'a Reply, step: usize) -> Result<(), String> {
         if reply.step != step as u64 {
             return Err(format!("an answer to step {} stands before step {step}", reply.step));
@@ -22,12 +22,12 @@ impl<'a> Answers<'a> {
         Ok(())
     }
 
-    /// Takes up any other event between two steps.
+    /// Adds any other event between two steps.
     pub(super) fn other(&mut self, event: &Event) {
         self.is_model |= matches!(event, Event::Request { .. });
     }
 
-    /// Compares a step with the answers before it, and forgets them.
+    /// Compares a step with the answers before it, and clears them.
     pub(super) fn step(&mut self, event: &Event) -> Result<(), String> {
         let Event::Step { step, action, validity, calls, .. } = event else { return Ok(()) };
         let Answers { replies, is_model } = std::mem::take(self);
@@ -43,7 +43,7 @@ impl<'a> Answers<'a> {
             return if is_model { wrong("the answer is missing") } else { Ok(()) };
         };
         if !is_model {
-            // The answer that could be read is not in the log; a second one that could not is the last.
+            // The log does not have the answer that could be read. If there was a second unreadable one, it is the last.
             let has_failed = replies.len() > 1;
             return match (is_valid, has_failed) {
                 (true, true) => wrong("no answer could be read"),
@@ -66,7 +66,7 @@ impl<'a> Answers<'a> {
     }
 }
 
-/// As in logs.
+/// The name of a validity in logs.
 fn name(validity: Validity) -> &'static str {
     match validity {
         Validity::Valid => "valid",

@@ -1,13 +1,13 @@
-//! The meaningful steps as the reference's code counts them (`spec/06` §2.1 and §1.2), for comparison with numbers that were made
-//! with it. Its faults are kept: the window is two steps, a reversal counts for nothing even if it earned a reward, what appears
-//! does not count unless it covers a character, the avatar is the first `a` or `A` of the text, and the last step of an episode is
-//! lost. Not kept is that its boards lag by a tick, which only one of its versions has.
+//! The meaningful steps as the reference's code counts them (`spec/06` §2.1 and §1.2), for comparison with numbers computed
+//! by it. Its faults are kept: the window is two steps, a reversal does not count even if it earned a reward, a new sprite
+//! does not count unless it covers a character, the avatar is the first `a` or `A` of the text, and the last step of an
+//! episode is lost. The lag of its boards by a tick, which only one of its versions has, is not kept.
 
 use engine::{Action, Game, Observation};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The flags of all steps but those for which no state is left: `texts` are the boards before each action, so that the last
-/// action has none after it. Rows of a text are joined by line feeds.
+/// Returns the flags of all steps but the last: `texts` are the boards before each action, so that there is none after the
+/// last action. Rows of a text are joined by line feeds.
 ///
 /// ```
 /// use engine::Action::{Left, Right, Up};
@@ -28,7 +28,7 @@ pub fn flags_as_code(texts: &[String], actions: &[Action], rewards: &[f64]) -> V
         .collect()
 }
 
-/// Row and column of what the code takes for the avatar.
+/// Returns the row and column of the character that the code takes for the avatar.
 fn place(text: &str) -> Option<(usize, usize)> {
     text.lines().enumerate().find_map(|(row, line)| {
         let column = line.chars().position(|character| character.eq_ignore_ascii_case(&'a'))?;
@@ -36,7 +36,7 @@ fn place(text: &str) -> Option<(usize, usize)> {
     })
 }
 
-/// Whether a character other than the avatar's occurs less often than before.
+/// Returns `true` if a character other than the avatar's occurs less often than before.
 fn vanished(before: &str, after: &str) -> bool {
     let count = |text: &str| {
         let mut counts = BTreeMap::new();
@@ -49,8 +49,8 @@ fn vanished(before: &str, after: &str) -> bool {
     count(before).into_iter().any(|(character, count)| after.get(&character).copied().unwrap_or(0) < count)
 }
 
-/// Draws boards with the characters that the reference's code gives to what it sees: they hang on the order of appearance, and
-/// stay for an episode.
+/// Draws boards with the characters that the reference's code assigns to cell contents. They depend on the order of
+/// appearance, and are kept for an episode.
 #[derive(Clone, Debug)]
 pub struct AsCode {
     /// Entries of the level mapping: character and the names as written.
@@ -59,7 +59,7 @@ pub struct AsCode {
 }
 
 impl AsCode {
-    /// For one episode of a game.
+    /// Creates the characters for one episode of a game.
     pub fn new(game: &Game) -> AsCode {
         let lines = game.description().mapping.iter();
         let mapping =
@@ -68,7 +68,7 @@ impl AsCode {
         AsCode { mapping: mapping.collect(), symbols }
     }
 
-    /// The text of a board, rows joined by line feeds.
+    /// Returns the text of a board, with rows joined by line feeds.
     pub fn text(&mut self, seen: &Observation) -> String {
         let cells: Vec<String> = seen.cells.iter().map(|cell| entity(cell)).collect();
         self.learn(&cells);
@@ -80,7 +80,7 @@ impl AsCode {
         rows.collect::<Vec<String>>().join("\n")
     }
 
-    /// Gives characters to what is seen for the first time.
+    /// Assigns characters to cell contents seen for the first time.
     fn learn(&mut self, cells: &[String]) {
         let entities: BTreeSet<&str> =
             cells.iter().map(String::as_str).filter(|entity| !entity.is_empty()).collect();
@@ -104,14 +104,14 @@ impl AsCode {
             if entity.contains("avatar") || self.symbols.contains_key(entity) {
                 continue;
             }
-            // The code fails when it has no character left; the rest is drawn as floor here.
+            // The code fails when it runs out of characters; here the rest is drawn as floor.
             let Some(symbol) = free.next() else { break };
             self.symbols.insert(entity.to_owned(), symbol);
         }
     }
 }
 
-/// The names in a cell, each once, sorted.
+/// Returns the distinct names in a cell, sorted.
 fn entity(cell: &[String]) -> String {
     let names: BTreeSet<&str> = cell.iter().map(String::as_str).collect();
     names.into_iter().collect::<Vec<&str>>().join(" ")
@@ -144,11 +144,11 @@ mod tests {
     fn its_faults_are_kept() {
         // One step leaves no flag.
         check(&["a."], &[Right], &[1.0], &[]);
-        // Doing nothing never counts, whatever came of it.
+        // Doing nothing never counts, whatever its effect.
         check(&["a#", "a."], &[Nil], &[1.0], &[false]);
         check(&["a#", "a."], &[Up], &[0.0], &[true]);
         check(&["a.", "a#"], &[Up], &[0.0], &[true]);
-        // Without an avatar, places are equal.
+        // Without an avatar, all places are equal.
         check(&["..", ".."], &[Up], &[0.0], &[false]);
     }
 
@@ -165,8 +165,8 @@ mod tests {
         }
     }
 
-    /// Characters of the level mapping first, where the names are as written there; then the pool in order; what is seen later
-    /// gets what is left.
+    /// The characters of the level mapping are used first, if the names are as written there; then the pool in
+    /// order. Later contents get the characters that are left.
     #[test]
     fn characters_hang_on_the_order_of_appearance() {
         let game = Game::from_source(

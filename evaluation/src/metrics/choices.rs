@@ -1,21 +1,21 @@
-//! How the choices of an episode came about, and what they cost.
+//! The origins of an episode's choices, and their cost.
 
 use crate::log::{Event, ReplyClass};
 use crate::player::Validity;
 use serde::Serialize;
 
-/// How many steps came about in which way. Their sum is the number of steps.
+/// The number of steps by the origin of their choice. The sum is the number of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Choices {
-    /// By an answer in the format that was asked for, or by a player that gives no answers.
+    /// Chosen by an answer in the requested format, or by a player that gives no answers.
     pub valid: u64,
-    /// By an answer that was read with tolerance.
+    /// Chosen by an answer that was read with tolerance.
     pub tolerant: u64,
-    /// Nothing was done, because no answer could be read.
+    /// Nothing done, because no answer could be read.
     pub invalid: u64,
-    /// Nothing was done, because the player would not answer.
+    /// Nothing done, because the player refused to answer.
     pub refused: u64,
-    /// Nothing was done, because the answer was cut off.
+    /// Nothing done, because the answer was cut off.
     pub truncated: u64,
 }
 
@@ -43,12 +43,12 @@ impl Choices {
         choices
     }
 
-    /// Steps.
+    /// Returns the number of steps.
     pub fn total(&self) -> u64 {
         self.valid + self.tolerant + self.invalid + self.refused + self.truncated
     }
 
-    /// Adds those of another episode.
+    /// Adds the counts of another episode.
     pub fn add(&mut self, other: &Choices) {
         self.valid += other.valid;
         self.tolerant += other.tolerant;
@@ -58,30 +58,30 @@ impl Choices {
     }
 }
 
-/// What the answers of an episode cost. Tokens are as the provider counts them; a sum is missing if one of its answers does not
-/// tell, or there are none.
+/// The cost of an episode's answers. Tokens are as the provider counts them; a sum is missing if one of the answers has no
+/// count, or there are no answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Spending {
-    /// Requests sent, answered or not. One that a cap forbade was not sent.
+    /// The number of requests sent, answered or not. A request forbidden by a cap was not sent.
     pub requests: u64,
-    /// Answers.
+    /// The number of answers.
     pub replies: u64,
-    /// Answers that came from the cache: their tokens are counted, though nobody was paid.
+    /// The number of answers from the cache. Their tokens are counted, although nothing was paid.
     pub cached_replies: u64,
-    /// Tries that failed before an answer came.
+    /// The number of failed tries before an answer.
     pub failures: u64,
     /// Tokens of the prompts.
     pub input_tokens: Option<u64>,
-    /// Of these, read from the provider's cache.
+    /// The part of them read from the provider's cache.
     pub cached_input_tokens: Option<u64>,
     /// Tokens of the answers, reasoning included.
     pub output_tokens: Option<u64>,
-    /// Of these, reasoning.
+    /// The part of them used for reasoning.
     pub reasoning_tokens: Option<u64>,
 }
 
 impl Spending {
-    /// What the answers of a log cost.
+    /// Sums up the answers of a log.
     pub fn of(log: &[Event]) -> Spending {
         let replies: Vec<_> = log
             .iter()
@@ -107,7 +107,7 @@ impl Spending {
         }
     }
 
-    /// Adds what another episode cost. An episode without answers adds nothing.
+    /// Adds the cost of another episode. An episode without answers adds nothing.
     pub fn add(&mut self, other: &Spending) {
         if other.replies > 0 {
             let first = self.replies == 0;
@@ -124,8 +124,8 @@ impl Spending {
     }
 }
 
-/// How many requests of a log were sent. They are recorded before it is known whether a cap allows them; one that it did not is sent
-/// later, if the evaluation is taken up again, without being recorded anew.
+/// Returns the number of requests of a log that were sent. Requests are recorded before it is known whether a cap allows
+/// them. A forbidden one is sent later, if the evaluation is resumed, without being recorded again.
 fn requests(log: &[Event]) -> u64 {
     let (mut sent, mut is_open) = (0, false);
     for event in log {

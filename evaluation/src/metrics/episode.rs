@@ -1,4 +1,4 @@
-//! All that is measured of an episode.
+//! All metrics of an episode.
 
 use crate::error::EvaluationError;
 use crate::log::Event;
@@ -9,64 +9,64 @@ use crate::subject::Subject;
 use engine::Outcome;
 use serde::Serialize;
 
-/// The metrics of an episode. Shares are within 0..=1.
+/// The metrics of an episode. Ratios are within 0..=1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EpisodeMetrics {
     /// The game, by the name of its folder.
     pub game: String,
     /// The level's number.
     pub level: usize,
-    /// Which of the episodes on this level.
+    /// The index of the episode among those on this level.
     pub run: u64,
-    /// Why it has no further step.
+    /// The reason why it has no further step.
     pub status: EpisodeStatus,
-    /// How the game stands after the last step.
+    /// The outcome after the last step.
     pub outcome: Outcome,
-    /// The score then.
+    /// The score after the last step.
     pub score: f64,
-    /// Actions played.
+    /// The number of actions played.
     pub steps: u64,
-    /// Actions at most.
+    /// The maximum number of actions.
     pub max_steps: u64,
-    /// Ticks of the level's shortest win, where it is proved.
+    /// The ticks of the level's shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
-    /// The meaningful step ratio: meaningful steps by steps.
+    /// The meaningful step ratio: meaningful steps divided by steps.
     pub meaningful: Option<f64>,
-    /// The same by the reference's code: it loses the last step, so that an episode of one step has none.
+    /// The same by the reference's code, which loses the last step: an episode of one step has no ratio.
     pub meaningful_as_code: Option<f64>,
-    /// How the level was walked.
+    /// The movement in the level.
     pub movement: Movement,
-    /// How the choices came about.
+    /// The origins of the choices.
     pub choices: Choices,
-    /// What they cost.
+    /// The cost of the choices.
     pub spending: Spending,
-    /// How long each decision took, ms.
+    /// The duration of each decision, ms.
     #[serde(skip)]
     pub decision_ms: Vec<f64>,
-    /// Forward-model calls of each decision, of players that make any.
+    /// The forward-model calls of each decision, for players that make any.
     #[serde(skip)]
     pub calls: Vec<u64>,
 }
 
-/// Why an episode has no further step.
+/// The reason why an episode has no further step.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EpisodeStatus {
     /// The game is over.
     Over,
-    /// The limit of steps was met: no win.
+    /// The step limit was reached, which is not a win.
     StepLimit,
-    /// It was broken off, for this reason; not the player's fault, so that it counts in no metric.
+    /// The episode was aborted for this reason. The player is not at fault, so that the episode counts in no metric.
     Halted(String),
-    /// Its log just ends: the evaluation was interrupted. Counts in no metric.
+    /// The log just ends, because the evaluation was interrupted. The episode counts in no metric.
     Interrupted,
 }
 
 impl EpisodeMetrics {
-    /// The metrics of the episode of a log, which is played again on its game.
+    /// Computes the metrics of an episode from its log, which is replayed on its game.
     ///
     /// # Errors
-    /// As [`replay`].
+    /// The same as those of [`replay`].
     pub fn of(subject: &Subject, log: &[Event]) -> Result<EpisodeMetrics, EvaluationError> {
         let replayed = replay(subject, log)?;
         let Some(Event::Start { level, run, max_steps, .. }) = log.first() else {
@@ -100,31 +100,31 @@ impl EpisodeMetrics {
         })
     }
 
-    /// Whether the game was won. All else is no win: lost, over without a winner, or not over.
+    /// Returns `true` if the game was won. All other outcomes are no win: lost, over without a winner, or not over.
     pub fn won(&self) -> bool {
         self.outcome == Outcome::Won
     }
 
-    /// Whether the episode counts: it ended, by the game or by the limit of steps.
+    /// Returns `true` if the episode counts: it ended with the game or at the step limit.
     pub fn counts(&self) -> bool {
         self.status.broken_off().is_none()
     }
 
-    /// Steps that the proved shortest win takes, by the steps of this one: 1 for a win that no other is shorter than. Only of wins
-    /// on levels where the shortest is known.
+    /// Returns the steps of the proved shortest win divided by the steps of this one: 1 for an optimal win. `None` unless
+    /// this episode is a win on a level with a known shortest one.
     pub fn optimality(&self) -> Option<f64> {
         let optimal = self.optimal_ticks.filter(|_| self.won() && self.steps > 0)?;
         Some(optimal as f64 / self.steps as f64)
     }
 
-    /// The steps that were left, as a share: `1 − steps / limit`.
+    /// Returns the fraction of steps left unused: `1 − steps / limit`.
     pub fn spared(&self) -> Option<f64> {
         (self.max_steps > 0).then(|| 1.0 - self.steps as f64 / self.max_steps as f64)
     }
 }
 
 impl EpisodeStatus {
-    /// The status that follows from the steps. A last line that is missing, or says something else, changes nothing.
+    /// Derives the status from the steps. A last line that is missing, or contradicts them, has no effect.
     fn of(replayed: &Replayed, max_steps: u64, log: &[Event]) -> EpisodeStatus {
         if replayed.outcome != Outcome::Ongoing {
             return EpisodeStatus::Over;
@@ -138,7 +138,7 @@ impl EpisodeStatus {
         }
     }
 
-    /// Why the episode counts nowhere, if so.
+    /// Returns the reason why the episode does not count, if it does not.
     pub fn broken_off(&self) -> Option<&str> {
         match self {
             EpisodeStatus::Over | EpisodeStatus::StepLimit => None,
@@ -148,7 +148,7 @@ impl EpisodeStatus {
     }
 }
 
-/// The share of true flags.
+/// Returns the fraction of flags that are `true`.
 fn share(flags: &[bool]) -> Option<f64> {
     (!flags.is_empty()).then(|| flags.iter().filter(|flag| **flag).count() as f64 / flags.len() as f64)
 }

@@ -1,33 +1,35 @@
-//! Which steps of an episode were meaningful (`spec/06` §2.1).
+//! The meaningful steps of an episode (`spec/06` §2.1).
 //!
-//! The paper calls a step meaningful if it earned a reward or the grid changed by the action, moves that cancel each other within
-//! four steps apart. "By the action" is decided by a counterfactual: what would be seen had nothing been done, from the same state
-//! under the same chance. What moves by itself then looks the same in both, and only the player's doing differs.
+//! The paper calls a step meaningful if it earned a reward or the action changed the grid, except for moves that cancel each
+//! other within four steps. The effect of an action is decided by a counterfactual: the observation if nothing had been
+//! done, from the same state with the same chance. Sprites that move by themselves look the same in both, so that only the
+//! player's effect differs.
 
-/// Moves that cancel each other lie within this many steps.
+/// The maximum number of steps within which moves cancel each other.
 pub const WINDOW: usize = 4;
 
-/// What an action did.
+/// The effect of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// All is as if nothing had been done, and there was no reward.
+    /// Everything is as if nothing had been done, and there was no reward.
     Nothing,
-    /// Only the avatar is elsewhere than if nothing had been done, and there was no reward.
+    /// Only the position of the avatar differs from doing nothing, and there was no reward.
     Moved,
-    /// There was a reward, or anything else is otherwise: a sprite appeared, vanished, changed or moved, the avatar became
-    /// something else, or the game is over.
+    /// There was a reward, or there is another difference: a sprite appeared, vanished, changed or moved, the avatar became
+    /// another type, or the game is over.
     Acted,
 }
 
-/// Whether each step is meaningful. `places` are where the avatar is before the first step and after each: one more than effects;
-/// `None` while there is none.
+/// Decides for each step if it is meaningful. `places` holds the position of the avatar before the first step and after each
+/// step, so that it has one element more than `effects`; it is `None` while there is no avatar.
 ///
-/// A step that acted is. A step that moved is, unless it is part of a loop: if the avatar returns to where it was before a step no
-/// more than [`WINDOW`] steps back, and all steps since did nothing but move it, these moves cancel each other. A closed loop is
-/// forgotten: of the walk A B A B C the first two moves cancel each other, the last two lead from A to C. Cost: O(steps).
+/// A step that acted is meaningful. A step that moved is meaningful unless it is part of a loop: if the avatar returns to
+/// its position before a step at most [`WINDOW`] steps back, and all steps since then did nothing but move it, these moves
+/// cancel each other. A closed loop is forgotten: in the walk A B A B C the first two moves cancel each other, and the last
+/// two lead from A to C. Cost: O(steps).
 ///
 /// # Panics
-/// If there is not one place more than effects.
+/// If `places` does not have one element more than `effects`.
 ///
 /// ```
 /// use evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
@@ -39,7 +41,7 @@ pub enum Effect {
 pub fn meaningful<P: Copy + PartialEq>(effects: &[Effect], places: &[Option<P>]) -> Vec<bool> {
     assert_eq!(places.len(), effects.len() + 1, "a place before the first step and one after each");
     let mut flags: Vec<bool> = effects.iter().map(|effect| *effect != Effect::Nothing).collect();
-    // The walk without its loops, since the last step that acted: each move with the place that it left.
+    // The walk without its loops since the last step that acted: each move with the place it left.
     let mut walk: Vec<(usize, P)> = Vec::new();
     for (step, effect) in effects.iter().enumerate() {
         let (Some(from), Some(to), true) = (places[step], places[step + 1], *effect != Effect::Acted) else {
@@ -62,7 +64,7 @@ mod tests {
     use super::Effect::{Acted, Moved, Nothing};
     use super::*;
 
-    /// Places as letters, `-` for none; effects as `m`, `a` and `.`; flags as `1` and `0`.
+    /// Writes places as letters, with `-` for none, effects as `m`, `a` and `.`, and flags as `1` and `0`.
     #[track_caller]
     fn check(places: &str, effects: &str, expect: &str) {
         let places: Vec<Option<char>> =
@@ -101,11 +103,11 @@ mod tests {
         check("abba", "m.m", "000");
         check("abbba", "m..m", "0000");
         check("abbbba", "m...m", "10001");
-        // A loop of six is a way.
+        // A loop of six is not cancelled.
         check("abcdefa", "mmmmmm", "111111");
     }
 
-    /// Going for something and coming back has changed something.
+    /// Fetching something and coming back has changed the state.
     #[test]
     fn what_acts_is_never_cancelled() {
         check("aba", "am", "11");
@@ -114,7 +116,7 @@ mod tests {
         check("ababa", "ammm", "1001");
     }
 
-    /// Sliding is not the player's doing, but it is part of the way.
+    /// Sliding is not an action of the player, but it is part of the walk.
     #[test]
     fn moved_by_something_else() {
         check("aba", "m.", "00");

@@ -1,8 +1,8 @@
-//! What is measured of an episode: a function of its log and of the game, which is played again from the log's seed and actions
-//! with every state hash compared. Nothing is measured while the episode is played, so that a metric can be added or mended
-//! later without asking a model again (`docs/metrics.md`).
+//! The metrics of an episode: a function of its log and its game, which is replayed from the log's seed and actions with
+//! every state hash compared. Nothing is measured during play, so that a metric can be added or fixed later without asking a
+//! model again (`docs/metrics.md`).
 //!
-//! What cannot be known is `None`, never 0.
+//! Unknown values are `None`, never 0.
 
 mod answers;
 mod as_code;

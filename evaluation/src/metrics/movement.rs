@@ -1,37 +1,37 @@
-//! How an episode was walked: the failure-mode measures of the paper (`spec/06` §2.7), from the meaningful steps and the cells of
-//! the avatar.
+//! The movement in an episode: the failure-mode metrics of the paper (`spec/06` §2.7), computed from the meaningful steps
+//! and the cells of the avatar.
 
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// The failure-mode measures of an episode. Those of steps are missing if there was no step, those of cells if there was never an
-/// avatar.
+/// The failure-mode metrics of an episode. Those of steps are missing if there was no step; those of cells are missing if
+/// there was never an avatar.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Movement {
-    /// The share of steps that were not meaningful, within 0..=1: the rest of the meaningful step ratio.
+    /// The fraction of steps that were not meaningful, within 0..=1: the complement of the meaningful step ratio.
     pub bump_rate: Option<f64>,
     /// The longest run of steps that were not meaningful.
     pub max_bumps: Option<u64>,
     /// The bump rate of the last quarter of the steps, rounded up.
     pub late_bump_rate: Option<f64>,
-    /// The share of steps that went back to the cell of two steps ago: A B A.
+    /// The fraction of steps that went back to the cell of two steps ago: A B A.
     pub oscillation_rate: Option<f64>,
-    /// The share of steps after which the avatar was in the same cell: the paper's other description of a bump.
+    /// The fraction of steps after which the avatar was in the same cell: the paper's other description of a bump.
     pub still_rate: Option<f64>,
-    /// Different cells that the avatar was in, the first one included.
+    /// The number of distinct cells visited by the avatar, including the first one.
     pub unique_cells: Option<u64>,
-    /// Unique cells by the area of the smallest rectangle around them, within 0..=1.
+    /// The unique cells divided by the area of their bounding rectangle, within 0..=1.
     pub coverage: Option<f64>,
-    /// Cells walked, by columns and rows: the sum of the Manhattan distances of all steps.
+    /// The distance in cells: the sum of the Manhattan distances of all steps.
     pub displacement: Option<u64>,
 }
 
 impl Movement {
-    /// The measures of an episode's meaningful steps and of the cells of its avatar, column and row, before the first step and
-    /// after each. Cost: O(steps log steps).
+    /// Computes the metrics from the meaningful steps of an episode and the cells of its avatar, column and row, before the
+    /// first step and after each step. Cost: O(steps log steps).
     ///
     /// # Panics
-    /// If there is not one cell more than flags.
+    /// If `cells` does not have one element more than `flags`.
     ///
     /// ```
     /// use evaluation::metrics::Movement;
@@ -47,7 +47,7 @@ impl Movement {
 
         let known: Vec<(i32, i32)> = cells.iter().copied().flatten().collect();
         let there = !known.is_empty();
-        // Steps of which both cells are known; a step from or to nowhere is neither still nor a return.
+        // Steps with two known cells; a step from or to nowhere is neither still nor a return.
         let moves = || cells.windows(2).filter_map(|pair| Some((pair[0]?, pair[1]?)));
         let still = moves().filter(|(from, to)| from == to).count();
         let returns = cells.windows(3).filter(|three| three[0].is_some() && three[0] == three[2]);
@@ -68,7 +68,7 @@ impl Movement {
     }
 }
 
-/// The area of the smallest rectangle around all cells.
+/// Returns the area of the bounding rectangle of all cells.
 fn area(cells: &[(i32, i32)]) -> Option<f64> {
     let side = |of: fn(&(i32, i32)) -> i32| {
         let (least, most) = (cells.iter().map(of).min()?, cells.iter().map(of).max()?);
@@ -90,7 +90,7 @@ mod tests {
             bump_rate: Some(5.0 / 8.0),
             max_bumps: Some(4),
             late_bump_rate: Some(1.0),
-            // Only the last step returns at once: the step back from (2, 0) came after a pause.
+            // Only the last step is an immediate return: the step back from (2, 0) came after a pause.
             oscillation_rate: Some(1.0 / 8.0),
             still_rate: Some(3.0 / 8.0),
             unique_cells: Some(4),
@@ -125,7 +125,7 @@ mod tests {
         assert_eq!((standing.bump_rate, standing.oscillation_rate), (None, None));
         let nobody = Movement::of(&[true], &[None, None]);
         assert_eq!((nobody.bump_rate, nobody.still_rate, nobody.coverage), (Some(0.0), None, None));
-        // The avatar dies in the last step: what is known before counts.
+        // The avatar dies in the last step; the steps before it still count.
         let dies = Movement::of(&[true, true], &[Some((0, 0)), Some((0, 1)), None]);
         assert_eq!((dies.displacement, dies.still_rate), (Some(1), Some(0.0)));
     }

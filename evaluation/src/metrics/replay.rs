@@ -1,4 +1,4 @@
-//! An episode played again from its log.
+//! The replay of an episode from its log.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, NEXT_MOVE, SCHEMA, Status};
@@ -8,32 +8,32 @@ use crate::metrics::meaningful::{Effect, meaningful};
 use crate::subject::{Subject, SubjectLevel};
 use engine::{Action, Game, Outcome, SEMANTICS, State};
 
-/// What came of an episode, as its replay has it.
+/// The results of an episode's replay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replayed {
-    /// Ticks of the level's proved shortest win.
+    /// The ticks of the level's proved shortest win.
     pub optimal_ticks: Option<usize>,
-    /// What was played.
+    /// The actions played.
     pub actions: Vec<Action>,
-    /// By how much the score changed, step by step.
+    /// The change of the score in each step.
     pub rewards: Vec<f64>,
-    /// Which steps were meaningful.
+    /// The flags of the meaningful steps.
     pub meaningful: Vec<bool>,
-    /// Which were by the reference's code: one flag fewer.
+    /// The flags of the meaningful steps by the reference's code: one fewer.
     pub meaningful_as_code: Vec<bool>,
     /// The avatar's column and row before the first step and after each.
     pub cells: Vec<Option<(i32, i32)>>,
-    /// How it stood after the last step.
+    /// The outcome after the last step.
     pub outcome: Outcome,
-    /// The score then.
+    /// The score after the last step.
     pub score: f64,
 }
 
-/// Plays the episode of a log again on its game, and compares every state hash, score, outcome and place of the avatar. What follows
-/// from the game or from other lines has to agree with them: how a step came about with the answers before it, the last line with the
-/// state that the steps lead to, the number of steps with the limit.
+/// Replays the episode of a log on its game, and compares every state hash, score, outcome and avatar position. Values that
+/// follow from the game or from other lines have to agree with them: the validity of a step with the answers before it, the
+/// last line with the final state, the number of steps with the limit.
 ///
-/// Cost: per step two forward-model calls, a copy of the state and O(sprites log sprites).
+/// Cost per step: two forward-model calls, a copy of the state and O(sprites log sprites).
 ///
 /// # Errors
 /// The log is of another game, level or version of the suite, or contradicts itself or the game: the message names the line.
@@ -101,7 +101,7 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
     Ok(replayed)
 }
 
-/// The level and the state before the first step.
+/// Returns the level and the state before the first step.
 fn begin<'a>(subject: &'a Subject, start: &Event) -> Result<(&'a SubjectLevel, State), String> {
     let Event::Start { schema, semantics, game_digest, level, level_digest, seed, hash, avatar, .. } = start
     else {
@@ -163,7 +163,7 @@ fn compare(event: &Event, state: &State, replayed: &Replayed) -> Result<(), Stri
     }
 }
 
-/// Compares the last line with what the steps lead to.
+/// Compares the last line with the final state.
 fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(), String> {
     let Event::End { status, outcome, score, steps } = event else { return Ok(()) };
     let taken = replayed.actions.len() as u64;
@@ -188,7 +188,7 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
     }
 }
 
-/// The state of an episode in words: `won`, `not over`.
+/// Describes the outcome of an episode in words: `won`, `not over`.
 fn in_words(outcome: Outcome) -> String {
     match outcome {
         Outcome::Ongoing => "not over".to_owned(),
@@ -203,11 +203,11 @@ fn cell(game: &Game, state: &State) -> Option<(i32, i32)> {
     game.seen_avatar(state).map(|avatar| (avatar.column, avatar.row))
 }
 
-/// A sprite as it is seen: its type, and where it lies, in pixels.
+/// A visible sprite: its type and its rectangle in pixels.
 type SeenSprite = (u16, i32, i32, i32, i32);
 
-/// What is seen of a state. In pixels rather than cells: the two tell the same where sprites move from cell to cell, and where
-/// they glide, cells would not tell a glide from a wall.
+/// The visible part of a state, in pixels rather than cells. The two are equivalent for sprites that move from cell to cell,
+/// but for gliding sprites, cells would not distinguish a glide from a wall.
 #[derive(Clone, Debug, PartialEq)]
 struct Seen {
     avatar: Option<SeenSprite>,
@@ -233,7 +233,7 @@ impl Seen {
         seen
     }
 
-    /// The top left corner of the avatar.
+    /// Returns the top left corner of the avatar.
     fn place(&self) -> Option<(i32, i32)> {
         self.avatar.map(|(_, x, y, _, _)| (x, y))
     }
@@ -243,7 +243,7 @@ impl Seen {
     }
 }
 
-/// What an action did, given what doing nothing would have led to; `None` if nothing was done.
+/// Returns the effect of an action, given the result of doing nothing; `idle` is `None` if nothing was done.
 fn effect(seen: &Seen, outcome: Outcome, idle: Option<(Seen, Outcome)>, reward: f64) -> Effect {
     let Some((idle, idle_outcome)) = idle else {
         return if reward == 0.0 { Effect::Nothing } else { Effect::Acted };

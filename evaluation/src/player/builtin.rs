@@ -1,4 +1,4 @@
-//! Players that come with the suite and look ahead with the forward model, or repeat what was recorded.
+//! Built-in players, which plan with the forward model or repeat a recorded episode.
 
 use crate::log::Journal;
 use crate::player::{Agent, Choice, Halt, Validity};
@@ -6,32 +6,32 @@ use crate::turn::Turn;
 use agents::{Budget, PlannerSpec};
 use engine::{Action, Digest, Episode};
 
-/// Who plays an episode.
+/// The player of an episode.
 pub enum Contestant {
-    /// A planner: sees the state, for it is no subject of the benchmark but a mark to compare with.
+    /// A planner. It sees the state, because it is not a subject of the benchmark but a baseline.
     Planner {
-        /// Which, perhaps with its budget.
+        /// The planner, optionally with its budget.
         spec: PlannerSpec,
-        /// Forward-model calls of a decision, if the planner's name has none.
+        /// The number of forward-model calls per decision, if the planner's name does not set it.
         budget: Budget,
     },
-    /// Someone who is shown turns.
+    /// An agent that is shown turns.
     Agent(Box<dyn Agent>),
 }
 
-/// Plays the actions of a recorded episode, then nothing.
+/// An agent that plays the actions of a recorded episode, then nothing.
 #[derive(Clone, Debug)]
 pub struct Replay {
     actions: Vec<Action>,
 }
 
 impl Replay {
-    /// The actions of this episode.
+    /// Creates a replay of the actions of an episode.
     pub fn of(episode: &Episode) -> Replay {
         Replay { actions: episode.actions.clone() }
     }
 
-    /// Tells replays apart.
+    /// Returns a digest that distinguishes replays.
     pub fn digest(&self) -> Digest {
         let words: Vec<String> = self.actions.iter().map(Action::to_string).collect();
         Digest::of(words.join(" ").as_bytes())

@@ -1,4 +1,4 @@
-//! Who plays: planners that see the state, and agents that are shown turns.
+//! Players: planners that see the state, and agents that are shown turns.
 
 mod builtin;
 mod model;
@@ -12,62 +12,62 @@ use crate::turn::Turn;
 use engine::Action;
 use serde::{Deserialize, Serialize};
 
-/// Chooses actions from what it is shown.
+/// A player that chooses actions by the turns it is shown.
 pub trait Agent: Send {
-    /// The next action. Whatever is said, heard and paid on the way goes into the journal as it happens, before and after
-    /// each request, so that nothing is lost or paid for twice if the program is killed. Events that an interrupted run
-    /// has recorded for this turn are in the journal already ([`Journal::pending`]) and are used before anything is asked.
+    /// Chooses the next action. Every message and payment on the way is added to the journal as it happens, before and after
+    /// each request, so that nothing is lost or paid for twice if the program is killed. Events that an interrupted run has
+    /// recorded for this turn are already in the journal ([`Journal::pending`]) and are used before anything is requested.
     ///
     /// # Errors
-    /// There is no choice, and it is not the player's fault: the episode is broken off.
+    /// There is no choice, and the player is not at fault: the episode is aborted.
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt>;
 
-    /// A turn of an interrupted episode that is played again from its log, and what was chosen then.
+    /// Recalls a turn of an interrupted episode that is replayed from its log, with the choice made then.
     ///
     /// # Errors
-    /// The agent cannot take it up again.
+    /// The agent cannot resume the episode.
     fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt>;
 
-    /// The episode has ended: what is seen after the last action. Nothing is asked, and nothing can go wrong any more.
+    /// Shows the final observation after the end of the episode. No answer is expected, and nothing can fail.
     fn end(&mut self, _last: &Turn<'_>) {}
 }
 
-/// What an agent has decided.
+/// The decision of an agent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
     /// The action to play.
     pub action: Action,
-    /// How it came about.
+    /// The origin of the choice.
     pub validity: Validity,
 }
 
-/// How a choice came about. All but [`Valid`](Validity::Valid) are counted apart in every table.
+/// The origin of a choice. All but [`Valid`](Validity::Valid) are counted separately in every table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Validity {
-    /// The player said so.
+    /// The player named the action.
     Valid,
-    /// No answer could be read as an action, nor when asked again: nothing is done, and it is the player's doing.
+    /// No answer could be read as an action, even after asking again: nothing is done, and the player is at fault.
     Invalid,
-    /// The player would not answer.
+    /// The player refused to answer.
     Refused,
-    /// The answer was cut off before it came to an action.
+    /// The answer was cut off before it named an action.
     Truncated,
 }
 
-/// Why there is no choice, though the player is not to blame.
+/// The reason for a missing choice without the player's fault.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Halt {
-    /// The network, the server or the process of the player failed, however often it was tried.
+    /// The network, the server or the process of the player failed in every try.
     #[error("{0}")]
     Infrastructure(String),
-    /// The next request would go beyond what may be spent, in these words.
+    /// The next request would exceed this spending limit.
     #[error("{0}")]
     Budget(String),
-    /// The server will not have any request of this kind (wrong key, unknown model): no use in going on at all.
+    /// The server rejects all requests of this kind (wrong key, unknown model), so that the evaluation cannot continue.
     #[error("{0}")]
     Rejected(String),
-    /// The user has asked to stop.
+    /// The user asked to stop.
     #[error("interrupted")]
     Interrupted,
     /// The log cannot be written.
@@ -76,7 +76,7 @@ pub enum Halt {
 }
 
 impl Halt {
-    /// The line of the log; none where the log itself failed, or nothing happened that is worth telling.
+    /// Returns the line for the log; `None` if the log itself failed, or nothing worth recording happened.
     pub(crate) fn event(&self) -> Option<Event> {
         let reason = match self {
             Halt::Infrastructure(_) => "infrastructure",

@@ -1,4 +1,4 @@
-//! A language model as a player: what it is shown, what it answers, what is made of that.
+//! A language model as a player: its prompts, its answers, and their interpretation.
 
 use crate::answer::Reading;
 use crate::client::{ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model, Role};
@@ -11,41 +11,42 @@ use engine::{Action, Digest, Seed};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Why an answer that was cut off is asked for again.
+/// The complaint about an answer that was cut off.
 const CUT_OFF: &str = "it was cut off before it came to an action";
-/// Why a refusal is asked about again.
+/// The complaint about a refusal.
 const DECLINED: &str = "it declines to play";
 
-/// Has a language model play an episode.
+/// An agent that lets a language model play an episode.
 pub struct ModelPlayer {
     model: Arc<dyn Model>,
     prompter: Arc<Prompter>,
     decoding: Decoding,
-    /// How often it is asked again after an answer without a usable action.
+    /// The number of times to ask again after an answer without a usable action.
     reasks: u32,
-    /// Where the draws of the answers come from.
+    /// The seed of the answers' draws.
     samples: Seed,
     past: Vec<Past>,
-    /// The texts in the log, by their numbers.
+    /// The numbers of the texts in the log.
     texts: BTreeMap<Text, u32>,
-    /// Events of the log whose texts are among them.
+    /// The number of log events whose texts are among them.
     read: usize,
 }
 
-/// Where answers come from.
+/// The source of answers.
 enum Log<'a> {
-    /// The log, and where it has none the model.
+    /// The log, or else the model.
     Open(&'a mut Journal),
-    /// The log only: the turn is over.
+    /// Only the log, because the turn is over.
     Past(&'a Journal),
 }
 
-/// What makes a message the same as another one.
+/// The identity of a message.
 type Text = (u8, Digest, Option<Digest>);
 
 impl ModelPlayer {
-    /// A player for one episode of the prompter's game. `reasks`: how often it is asked again, with what was wrong, after an
-    /// answer without an action that can be chosen. `samples`: of the episode, the same whenever it is taken up again.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the number of times to ask again, with a
+    /// complaint, after an answer without an available action. `samples` is the seed of the episode, the same whenever it is
+    /// resumed.
     pub fn new(
         model: Arc<dyn Model>,
         prompter: Arc<Prompter>,
@@ -57,7 +58,7 @@ impl ModelPlayer {
         ModelPlayer { model, prompter, decoding, reasks, samples, past, texts, read: 0 }
     }
 
-    /// Goes through the attempts of a turn. Answers that the log has are not asked for again.
+    /// Goes through the attempts of a turn. Answers in the log are not requested again.
     fn turn(&mut self, turn: &Turn<'_>, mut log: Log<'_>) -> Result<Choice, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -89,7 +90,7 @@ impl ModelPlayer {
         Ok(choice)
     }
 
-    /// Asks, with everything in the log before it is sent and as soon as it is answered.
+    /// Requests an answer. The request is logged before it is sent, and the answer as soon as it arrives.
     fn ask(
         &mut self,
         turn: &Turn<'_>,
@@ -142,7 +143,7 @@ impl ModelPlayer {
         Ok(reply)
     }
 
-    /// The number of a message in the log, where it is written the first time that it is said.
+    /// Returns the number of a message in the log, after adding it at its first use.
     fn number(&mut self, message: &ChatMessage, journal: &mut Journal) -> Result<u32, Halt> {
         for event in &journal.events()[self.read..] {
             if let Event::Message { id, role, text, image } = event {
@@ -180,7 +181,7 @@ impl Agent for ModelPlayer {
     }
 }
 
-/// What an answer is worth, the action in it, and else why there is none, as a clause about it.
+/// Returns the class of an answer, its action, and the reason as a clause about it if there is none.
 fn judged(
     prompter: &Prompter,
     turn: &Turn<'_>,
@@ -192,14 +193,14 @@ fn judged(
     }
     match (prompter.read(text, turn), finish) {
         (Reading::Strict(action), _) => (ReplyClass::Strict, Some(action), String::new()),
-        // What was thought of before the end is no decision.
+        // An action considered before the cut is not a decision.
         (_, Finish::Length) => (ReplyClass::Truncated, None, CUT_OFF.to_owned()),
         (Reading::Tolerant { action, .. }, _) => (ReplyClass::Tolerant, Some(action), String::new()),
         (Reading::Invalid { why }, _) => (ReplyClass::Invalid, None, why),
     }
 }
 
-/// How a turn went whose last answer has no action.
+/// Returns the validity of a turn whose last answer has no action.
 fn blame(class: ReplyClass) -> Validity {
     match class {
         ReplyClass::Refused => Validity::Refused,
@@ -208,7 +209,7 @@ fn blame(class: ReplyClass) -> Validity {
     }
 }
 
-/// The answer to this attempt that the log has.
+/// Returns the answer to this attempt from the log.
 fn recorded(journal: &Journal, attempt: u32) -> Option<Reply> {
     let reply = |event: &Event| match event {
         Event::Reply(reply) if reply.attempt == attempt => Some(reply.clone()),

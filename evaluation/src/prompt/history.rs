@@ -1,40 +1,40 @@
-//! Turns that are over, and how many of them a conversation still shows.
+//! Past turns, and the number of them that a conversation still shows.
 
 use crate::answer;
 use crate::tokens;
 use engine::Action;
 
-/// Bytes of an answer that later turns are shown, from its end.
+/// The number of bytes of an answer that later turns show, from its end.
 const REMEMBERED: usize = 2_000;
 
-/// What stands for an answer of no words: providers refuse empty messages.
+/// The replacement for an empty answer: providers refuse empty messages.
 const NO_ANSWER: &str = "(no answer)";
 
-/// An answer that was given within a turn.
+/// An answer given within a turn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Attempt {
-    /// The words, raw.
+    /// The raw text.
     pub answer: String,
-    /// What was said to it, if it could not be used and another one was asked for.
+    /// The complaint about it, if it could not be used and another answer was requested.
     pub complaint: Option<String>,
 }
 
-/// A turn that is over.
+/// A past turn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Past {
     pub(super) shown: String,
     pub(super) attempts: Vec<Attempt>,
     pub(super) played: Action,
-    /// Tokens of what was shown.
+    /// The tokens of the text shown.
     shown_tokens: u64,
-    /// Tokens of the whole turn.
+    /// The tokens of the whole turn.
     pub(super) tokens: u64,
 }
 
 impl Past {
-    /// What was shown ([`Prompt::shown`](super::Prompt::shown)), what was answered, and what was played in the end.
-    /// Of answers only what is remembered of them is kept: their end, reasoning left out. A turn without an answer has an
-    /// empty one, and to the last one nothing is said: providers want the two sides of a conversation to take turns.
+    /// Creates a past turn from the text shown ([`Prompt::shown`](super::Prompt::shown)), the answers, and the action played
+    /// in the end. Only the end of each answer is kept, without reasoning. A turn without an answer gets a placeholder, and
+    /// the last answer gets no complaint, because providers require the roles of a conversation to alternate.
     pub fn new(shown: String, attempts: &[Attempt], played: Action) -> Past {
         let mut attempts = kept(attempts);
         match attempts.last_mut() {
@@ -47,7 +47,7 @@ impl Past {
     }
 }
 
-/// What conversations show of answers.
+/// Returns answers as conversations show them.
 pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
     let kept = |attempt: &Attempt| Attempt {
         answer: remembered(&attempt.answer),
@@ -56,18 +56,18 @@ pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
     attempts.iter().map(kept).collect()
 }
 
-/// Tokens of a message.
+/// Returns the tokens of a message.
 pub(super) fn cost(text: &str) -> u64 {
     tokens::count(text) + tokens::PER_MESSAGE
 }
 
-/// Tokens of answers and complaints.
+/// Returns the tokens of answers and complaints.
 pub(super) fn spoken(attempts: &[Attempt]) -> u64 {
     let one = |attempt: &Attempt| cost(&attempt.answer) + attempt.complaint.as_deref().map_or(0, cost);
     attempts.iter().map(one).sum()
 }
 
-/// What a conversation shows of an earlier answer.
+/// Returns an earlier answer as a conversation shows it.
 fn remembered(answer: &str) -> String {
     let said = answer::without_reasoning(answer).trim();
     if said.is_empty() {
@@ -77,9 +77,9 @@ fn remembered(answer: &str) -> String {
     if start == 0 { said.to_owned() } else { format!("…{}", &said[start..]) }
 }
 
-/// The first past turn that is still shown. `fixed`: tokens of the static part; `now`: of the newest turn, which together
-/// with the static part is shown in any case. As soon as the budget would be exceeded, so many of the oldest turns go that
-/// a quarter of it becomes free: in between, a conversation only grows at its end, and providers can take its start from
+/// Returns the index of the first past turn that is still shown. `fixed` is the number of tokens of the static part, `now`
+/// that of the newest turn; both are always shown. Whenever the budget would be exceeded, the oldest turns are dropped until
+/// a quarter of it is free. In between, a conversation only grows at its end, so that providers can take its start from
 /// their caches. Cost: O(turns).
 pub(super) fn first_kept(past: &[Past], fixed: u64, now: u64, budget: u64) -> usize {
     let (mut start, mut kept) = (0, 0);

@@ -1,7 +1,7 @@
-//! Prompts: the conversation that a language model is shown at a turn.
+//! Prompts: the conversation sent to a language model at a turn.
 //!
-//! The static part (rules, legend, actions, the format of answers) comes first and is the same to the byte in all turns of all
-//! levels; what is seen follows. The words are in `templates/`; [`Prompter::digest`] covers them and the settings.
+//! The static part (rules, legend, actions, the format of answers) comes first and is the same, byte for byte, in all turns
+//! of all levels; the observation follows. The texts are in `templates/`; [`Prompter::digest`] covers them and the settings.
 //! [`docs/prompts.md`](../../../docs/prompts.md) shows an example, part by part.
 
 mod history;
@@ -31,10 +31,10 @@ use minijinja::value::{Serde, Value};
 use render::Style;
 use serde::Serialize;
 
-/// The version of the templates: bumped when a word of them changes, so that results tell prompts apart at a glance.
+/// The version of the templates, raised when a word of them changes, so that results tell prompts apart at a glance.
 pub const VERSION: u32 = 1;
 
-/// The words of prompts, by name.
+/// The templates of prompts, by name.
 const TEMPLATES: [(&str, &str); 5] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
     ("standard_turn.j2", include_str!("templates/standard_turn.j2")),
@@ -43,69 +43,69 @@ const TEMPLATES: [(&str, &str); 5] = [
     ("complaint.j2", include_str!("templates/complaint.j2")),
 ];
 
-/// Actions in the order of the reference's numbers.
+/// The actions in the order of the reference's numbers.
 const NUMBERED: [Action; 6] =
     [Action::Nil, Action::Use, Action::Left, Action::Right, Action::Down, Action::Up];
 
-/// Writes the prompts of one game.
+/// A writer of the prompts of one game.
 #[derive(Debug)]
 pub struct Prompter {
     settings: PromptSettings,
     environment: Environment<'static>,
     legend: Legend,
     mask: Option<Mask>,
-    /// All actions of all states of the avatar, in the order in which they are listed.
+    /// All actions of all states of the avatar, in the listed order.
     actions: Vec<Action>,
-    /// Whether there is anything to hold in the game.
+    /// `true` if the game has resources to hold.
     holding: bool,
     static_part: String,
     static_tokens: Vec<PartTokens>,
 }
 
-/// Tokens of a part of a prompt.
+/// The tokens of a part of a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PartTokens {
-    /// The heading of the section; [`TASK`] for what is before the first.
+    /// The heading of the section; [`TASK`] for the text before the first heading.
     pub part: String,
-    /// How many, by [`tokens::count`].
+    /// The number of tokens, by [`tokens::count`].
     pub tokens: u64,
 }
 
-/// Tokens of a prompt.
+/// The tokens of a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PromptTokens {
     /// The static part, by section.
     pub fixed: Vec<PartTokens>,
-    /// What is seen now, by section; a picture is estimated.
+    /// The current turn, by section; a picture is estimated.
     pub turn: Vec<PartTokens>,
     /// Earlier turns, and earlier answers of this turn.
     pub history: u64,
-    /// The whole, frames of messages included.
+    /// The total, including the frames of messages.
     pub total: u64,
 }
 
 impl PromptTokens {
-    /// Tokens of the static part.
+    /// Returns the tokens of the static part.
     pub fn fixed(&self) -> u64 {
         self.fixed.iter().map(|part| part.tokens).sum()
     }
 
-    /// Tokens of what is seen now.
+    /// Returns the tokens of the current turn.
     pub fn turn(&self) -> u64 {
         self.turn.iter().map(|part| part.tokens).sum()
     }
 }
 
-/// What a model is asked.
+/// A prompt for a model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Prompt {
     /// The conversation.
     pub messages: Vec<ChatMessage>,
-    /// What of it tells the newest turn: what [`Past::new`] wants when the turn is over.
+    /// The text of the newest turn, which [`Past::new`] needs when the turn is over.
     pub shown: String,
-    /// Earlier turns that are left out, counted from the first.
+    /// The number of the oldest turns left out.
     pub left_out: usize,
-    /// How long it is.
+    /// The length of the prompt.
     pub tokens: PromptTokens,
 }
 
@@ -123,7 +123,7 @@ impl Prompter {
         let mask = if settings.masked_names { Some(Mask::of(&subject.game)?) } else { None };
         let masked = mask.as_ref().map(|mask| Analysis::of(mask.game()));
         let analysis = masked.as_ref().unwrap_or(&subject.analysis);
-        // The characters of a game can tell as much as its names.
+        // The characters of a game can reveal as much as its names.
         let shuffled = settings.shuffled_symbols.or(settings.masked_names.then_some(0));
         let options = LegendOptions { tracking: settings.identity_tracking, shuffled };
         let legend = Legend::new(analysis, &options);
@@ -162,18 +162,18 @@ impl Prompter {
         &self.legend
     }
 
-    /// The actions in the order in which they are listed, which is that of their numbers in the reference's style.
+    /// The actions in the listed order, which is that of their numbers in the reference's style.
     pub fn actions(&self) -> &[Action] {
         &self.actions
     }
 
-    /// What every prompt of the game starts with, the same to the byte.
+    /// The start of every prompt of the game, always the same bytes.
     pub fn static_part(&self) -> &str {
         &self.static_part
     }
 
-    /// BLAKE3 over [`VERSION`], all templates and the settings: prompts of two runs of the same game and the same digest are
-    /// the same, under the same [`engine::SEMANTICS`].
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates and the settings. Two runs of the same game with the same
+    /// digest have the same prompts, under the same [`engine::SEMANTICS`].
     pub fn digest(&self) -> Digest {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
@@ -185,9 +185,9 @@ impl Prompter {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// The conversation at a turn. `past`: the turns of the episode before it, all of them (zero-shot mode leaves them out);
-    /// `attempts`: answers of this turn that could not be used, each with its complaint. Pictures are shown of the newest
-    /// turn only. Never an error: what does not fit the budget is left out by whole turns, the newest one never.
+    /// Returns the conversation at a turn. `past` holds all previous turns of the episode (zero-shot mode leaves them out);
+    /// `attempts` holds the unusable answers of this turn, each with its complaint. Pictures are shown only for the newest
+    /// turn. A prompt over the budget is not an error: whole turns are left out, but never the newest one.
     pub fn prompt(&self, turn: &Turn<'_>, past: &[Past], attempts: &[Attempt]) -> Prompt {
         let shown = self.write_turn(turn, past);
         let picture = self.picture(turn);
@@ -224,7 +224,8 @@ impl Prompter {
         Prompt { messages, shown, left_out, tokens }
     }
 
-    /// What is said to an answer that cannot be used; `why` is a clause about it, such as those of [`Reading::Invalid`].
+    /// Returns the complaint about an answer that cannot be used; `why` is a clause about it, such as those of
+    /// [`Reading::Invalid`].
     pub fn complaint(&self, why: &str) -> String {
         self.render(
             "complaint.j2",
@@ -236,12 +237,12 @@ impl Prompter {
         )
     }
 
-    /// What an answer to a turn says.
+    /// Reads an answer to a turn.
     pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading {
         answer::read(answer, self.format(), &self.actions, turn.actions)
     }
 
-    /// The format that is asked for.
+    /// The requested format.
     pub fn format(&self) -> Format {
         match self.settings.style {
             PromptStyle::Standard => Format::Word,
@@ -352,7 +353,7 @@ fn message(role: Role, text: &str) -> ChatMessage {
     ChatMessage { role, text: text.to_owned(), image: None }
 }
 
-/// Answers and what was said to them.
+/// Appends answers and the complaints about them.
 fn speak(messages: &mut Vec<ChatMessage>, attempts: &[Attempt]) {
     for attempt in attempts {
         messages.push(message(Role::Assistant, &attempt.answer));

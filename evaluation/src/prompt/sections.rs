@@ -1,14 +1,14 @@
-//! The sections of a prompt: what stands between its headings.
+//! The sections of a prompt, separated by headings.
 
-/// What opens a heading, at the start of a line.
+/// The prefix of a heading line.
 const HEADING: &str = "## ";
 
-/// What comes before the first heading.
+/// The name of the text before the first heading.
 pub const TASK: &str = "Task";
 
-/// The sections of a message, each with its heading and its lines without the blank ones around them; what comes before
-/// the first heading is [`TASK`]. Where a heading comes twice, the first one is ours and later ones are part of a text that
-/// somebody put in. Cost: O(bytes).
+/// Returns the sections of a message, each with its heading and its lines without surrounding blank lines. The text before
+/// the first heading is [`TASK`]. If a heading occurs twice, the first one is ours and later ones belong to an inserted
+/// text. Cost: O(bytes).
 pub fn sections(message: &str) -> Vec<(&str, &str)> {
     let mut sections = Vec::new();
     let (mut heading, mut start, mut at) = (TASK, 0, 0);

@@ -1,37 +1,37 @@
-//! What of the game is shown, and how: every aid is a switch, so that its worth can be measured.
+//! The content and form of prompts. Every aid is a switch, so that its effect can be measured.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The settings of a prompt. Their defaults are the zero-shot prompt of the suite.
+/// The settings of a prompt. The defaults give the zero-shot prompt of the suite.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PromptSettings {
-    /// Whose composition it has.
+    /// The composition of the prompt.
     pub style: PromptStyle,
-    /// Whether earlier turns are shown.
+    /// The handling of earlier turns.
     pub mode: Mode,
-    /// How the rules are told.
+    /// The form of the rules.
     pub rules: Rules,
-    /// Sprite types go by names that tell nothing, in rules, legend and boards alike.
+    /// Sprite types have meaningless names in rules, legend and boards alike.
     pub masked_names: bool,
-    /// What the characters of the board stand for.
+    /// The meaning of the board's characters is shown.
     pub legend: bool,
-    /// What the keys do for this avatar.
+    /// The effects of the keys for this avatar are shown.
     pub action_meanings: bool,
-    /// Where the avatar is, what it is and where it faces.
+    /// The position, type and direction of the avatar are shown.
     pub position: bool,
-    /// What came of the action before; unless it is said, in contextual mode only.
+    /// The result of the previous action is shown; by default, only in contextual mode.
     pub feedback: Option<bool>,
-    /// In which forms the state is shown.
+    /// The forms in which the state is shown.
     pub encodings: Encodings,
-    /// Each state of the avatar has its own character on the board, and no character is told to be the player's.
+    /// Each state of the avatar has its own character on the board, and no character is marked as the player's.
     pub identity_tracking: bool,
-    /// The characters of the board are drawn, by this number.
+    /// The characters of the board are shuffled by this number.
     pub shuffled_symbols: Option<u64>,
-    /// Advice that is added word by word.
+    /// Advice that is added verbatim.
     pub strategy: Option<String>,
-    /// Tokens of a conversation at most, by our own count: the oldest turns are left out beyond it.
+    /// The maximum number of tokens of a conversation, by our own count. The oldest turns are left out beyond it.
     pub history_tokens: u64,
 }
 
@@ -56,8 +56,8 @@ impl Default for PromptSettings {
 }
 
 impl PromptSettings {
-    /// What differs from the default, apart from the mode, sorted: `no-legend`, `rules=vgdl`, `json`. Of an advice only that
-    /// there is one.
+    /// Returns the differences from the default, apart from the mode, sorted: `no-legend`, `rules=vgdl`, `json`. Advice
+    /// appears only as `strategy`.
     pub fn aids(&self) -> Vec<String> {
         let flat = |settings: &PromptSettings| {
             let mut all = serde_json::to_value(settings).expect("plain data");
@@ -82,45 +82,46 @@ impl PromptSettings {
         aids
     }
 
-    /// Whether what came of the action before is told.
+    /// Returns `true` if the result of the previous action is shown.
     pub fn has_feedback(&self) -> bool {
         self.feedback.unwrap_or(self.mode == Mode::Contextual)
     }
 }
 
-/// Whose composition a prompt has.
+/// The composition of a prompt.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PromptStyle {
-    /// That of this suite.
+    /// The composition of this suite.
     #[default]
     Standard,
-    /// That of the reference's pipeline (`spec/06` §1.4), in words of our own: the same parts in the same order, numbered
-    /// actions, every cell listed. The switches for legend, meanings, position, feedback and encodings have no effect on it.
+    /// The composition of the reference's pipeline (`spec/06` §1.4), in words of our own: the same parts in the same order,
+    /// numbered actions, every cell listed. The switches for legend, meanings, position, feedback and encodings have no
+    /// effect on it.
     Reference,
 }
 
-/// Whether earlier turns are shown.
+/// The handling of earlier turns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mode {
-    /// No turn remembers another.
+    /// Every turn is independent: no earlier turns are shown.
     #[default]
     ZeroShot,
-    /// The conversation goes on, as far as its budget of tokens reaches.
+    /// The conversation continues, within its token budget.
     Contextual,
 }
 
-/// How the rules are told.
+/// The form of the rules.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rules {
     /// In English, by `engine::describe`.
     #[default]
     Described,
-    /// As VGDL: the canonical print of the game, without comments.
+    /// VGDL: the canonical print of the game, without comments.
     Vgdl,
-    /// Not at all.
+    /// No rules.
     None,
 }
 
@@ -128,21 +129,22 @@ pub enum Rules {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Encodings {
-    /// A character a cell, and the cells that hold several things.
+    /// One character per cell, and the cells that hold several things.
     pub grid: bool,
-    /// The characters of a row have a blank between them: more tokens, and to most models each character one of its own.
+    /// The characters of a row are separated by spaces: more tokens, but for most models each character is a token of its
+    /// own.
     pub spaced: bool,
-    /// What lies in each direction of the avatar, and the nearest things of each type.
+    /// The first thing in each direction from the avatar, and the nearest things of each type.
     pub grounding: bool,
-    /// All things by place, walls included.
+    /// All things by place, including walls.
     pub coordinates: bool,
-    /// The grid once more, turned by a quarter.
+    /// A second copy of the grid, rotated by a quarter turn.
     pub rotated: bool,
-    /// A line of JSON.
+    /// One line of JSON.
     pub json: bool,
-    /// A picture, for models that see.
+    /// A picture, for multimodal models.
     pub image: bool,
-    /// Pixels of a cell of the picture at most, 4 to 40; on large boards there are fewer.
+    /// The maximum number of pixels of a cell of the picture, 4 to 40. Large boards use fewer.
     pub image_cell: u32,
 }
 

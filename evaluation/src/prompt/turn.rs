@@ -1,4 +1,4 @@
-//! What the templates of a turn are given.
+//! The data for the templates of a turn.
 
 use super::{Encodings, PromptSettings, PromptStyle};
 use crate::encoding::{self, direction_name};
@@ -8,20 +8,20 @@ use engine::{Action, Observation, SeenAvatar};
 use render::EMPTY;
 use serde_json::{Value, json};
 
-/// A turn, as it is to be told.
+/// A turn to be rendered.
 pub(super) struct View<'a> {
     pub(super) legend: &'a Legend,
     pub(super) settings: &'a PromptSettings,
-    /// The actions that the static part lists.
+    /// The actions listed in the static part.
     pub(super) actions: &'a [Action],
-    /// Whether there is anything to hold in the game.
+    /// `true` if the game has resources to hold.
     pub(super) holding: bool,
     pub(super) turn: &'a Turn<'a>,
-    /// What is seen, under the names that are told.
+    /// The observation under the names shown to the player.
     pub(super) now: &'a Observation,
-    /// What was seen a turn before.
+    /// The observation of the previous turn.
     pub(super) before: Option<&'a Observation>,
-    /// The last actions that were played, the newest last.
+    /// The last actions played, the newest last.
     pub(super) recent: Vec<Action>,
 }
 
@@ -67,7 +67,7 @@ impl View<'_> {
         })
     }
 
-    /// What came of the action before.
+    /// Returns the result of the previous action.
     fn feedback(&self) -> Option<Value> {
         let (before, played) = (self.before?, self.turn.before?);
         let (from, to) = (before.avatar.as_ref(), self.now.avatar.as_ref());
@@ -83,7 +83,7 @@ impl View<'_> {
         }))
     }
 
-    /// What the reference's composition shows.
+    /// Returns the data of the reference's composition.
     fn reference(&self) -> Value {
         let (now, legend) = (self.now, self.legend);
         let grid = encoding::grid(now, legend);
@@ -117,7 +117,7 @@ fn avatar(avatar: &SeenAvatar) -> Value {
     })
 }
 
-/// A board, if asked for with a blank between the characters of a row.
+/// Returns a board, with spaces between the characters of a row if requested.
 fn board(rows: String, spaced: bool) -> String {
     if !spaced {
         return rows;
@@ -126,14 +126,14 @@ fn board(rows: String, spaced: bool) -> String {
     rows.lines().map(row).collect::<Vec<String>>().join("\n")
 }
 
-/// What the avatar holds: `2 key, 1 gem`; `nothing`.
+/// Returns the avatar's resources: `2 key, 1 gem`; `nothing`.
 fn holds(seen: &Observation) -> String {
     let held = seen.resources.iter().filter(|(_, amount)| *amount != 0);
     let held: Vec<String> = held.map(|(name, amount)| format!("{amount} {name}")).collect();
     if held.is_empty() { "nothing".to_owned() } else { held.join(", ") }
 }
 
-/// `+2`, `-1`, `0`.
+/// Formats a reward: `+2`, `-1`, `0`.
 fn signed(reward: f64) -> String {
     if reward > 0.0 { format!("+{reward}") } else { reward.to_string() }
 }

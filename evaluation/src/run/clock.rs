@@ -1,8 +1,8 @@
-//! How long decisions take: recorded beside the results, never part of them.
+//! The duration of decisions: recorded beside the results, but never part of them.
 
 use std::time::{Duration, Instant};
 
-/// Runs from its start.
+/// A stopwatch that runs from its creation.
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {
@@ -11,12 +11,12 @@ impl Stopwatch {
         Stopwatch(Instant::now())
     }
 
-    /// Time since the start.
+    /// Returns the time since the start.
     pub(crate) fn elapsed(&self) -> Duration {
         self.0.elapsed()
     }
 
-    /// Since the start, ms, to the microsecond.
+    /// Returns the time since the start, ms, to the microsecond.
     pub(crate) fn milliseconds(&self) -> f64 {
         self.0.elapsed().as_micros() as f64 / 1000.0
     }

@@ -1,4 +1,4 @@
-//! One episode, from its first tick or from where it was interrupted to its end.
+//! The play of one episode, from its first tick or an interruption to its end.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, SCHEMA, Status};
@@ -10,29 +10,29 @@ use agents::{Planner, Player};
 use engine::{Action, Game, Observation, Outcome, SEMANTICS, Seed, State};
 use std::fmt::Display;
 
-/// Which episode to play.
+/// An episode to play.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
     /// The game.
     pub subject: &'a Subject,
     /// The level.
     pub level: &'a SubjectLevel,
-    /// Which of the episodes on this level.
+    /// The index of the episode among those on this level.
     pub run: u64,
-    /// Of the whole evaluation.
+    /// The seed of the whole evaluation.
     pub seed: Seed,
-    /// Decisions at most.
+    /// The maximum number of decisions.
     pub max_steps: u64,
 }
 
 impl Task<'_> {
-    /// The seed of the game's chance hangs on game, level and run only: the same for every player.
+    /// Returns the seed of the game's chance. It depends only on game, level and run: it is the same for every player.
     pub fn chance(&self) -> Seed {
         let game = self.seed.child(&self.subject.game.digest().to_string(), 0);
         game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
     }
 
-    /// Compares the first line of a log with what was asked for; a replay compares the rest of it with the game.
+    /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
     pub(crate) fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, .. } = start else { return Ok(()) };
         let differs = |what: &str, found: &dyn Display, asked: &dyn Display| {
@@ -56,23 +56,23 @@ impl Task<'_> {
         }
     }
 
-    /// The file of its log, in `episodes/`.
+    /// The name of its log file in `episodes/`.
     pub fn file_name(&self) -> String {
         format!("{}-lvl{}-run{}.jsonl", self.subject.id, self.level.number, self.run)
     }
 }
 
-/// How an episode was left.
+/// The final status of an episode in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Left {
-    /// It has ended.
+    /// The episode has ended.
     Ended(Outcome),
-    /// It was broken off.
+    /// The episode was aborted.
     Halted(Halt),
 }
 
-/// Plays an episode to its end, or takes it up where its log ends. Every step that the log holds is played again and its state
-/// hash compared; a planner's interrupted episode starts anew, which costs nothing but time.
+/// Plays an episode to its end, or resumes it at the end of its log. Every step in the log is replayed and its state hash
+/// compared. A planner's interrupted episode is restarted, which costs nothing but time.
 ///
 /// # Errors
 /// The log is of another episode, or cannot be written.
@@ -108,16 +108,16 @@ pub fn play(
     Ok(Left::Ended(outcome))
 }
 
-/// An episode that is being played.
+/// An episode in progress.
 struct Playing<'a> {
     task: &'a Task<'a>,
     contestant: &'a mut Contestant,
-    /// What a planner remembers between decisions.
+    /// The planner's memory between decisions.
     player: Option<Player>,
     state: State,
     steps: u64,
     seen: Observation,
-    /// What was seen before the last action, the action and what it gained.
+    /// The observation before the last action, the action and its reward.
     before: Option<(Observation, Action, f64)>,
 }
 
@@ -140,7 +140,7 @@ impl<'a> Playing<'a> {
         self.state.is_over() || self.steps >= self.task.max_steps
     }
 
-    /// The first line of the log.
+    /// Returns the first line of the log.
     fn started(&self) -> Event {
         let Task { subject, level, run, max_steps, .. } = *self.task;
         let (game, game_digest) = (subject.id.clone(), subject.game.digest());
@@ -159,7 +159,7 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Plays the steps that the log holds, and shows them to the agent.
+    /// Replays the steps in the log, and shows them to the agent.
     fn take_up(&mut self, journal: &mut Journal) -> Result<Option<Halt>, EvaluationError> {
         journal.set_step(1, None);
         let mut from = 1;
@@ -187,7 +187,7 @@ impl<'a> Playing<'a> {
         Ok(None)
     }
 
-    /// Has the contestant decide, plays it and records it.
+    /// Makes the contestant decide, plays the action and records it.
     fn decide(&mut self, journal: &mut Journal) -> Result<Result<(), Halt>, EvaluationError> {
         let (game, started) = (self.game(), Stopwatch::start());
         let decided = match (&mut *self.contestant, &mut self.player) {
@@ -220,14 +220,14 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Shows the agent what has come of it.
+    /// Shows the agent the final state.
     fn finish(&mut self) {
         if let Contestant::Agent(agent) = &mut *self.contestant {
             agent.end(&turn(self.task, self.steps, &self.seen, &self.before, &[]));
         }
     }
 
-    /// Plays an action: the event that records it.
+    /// Plays an action and returns the event that records it.
     fn step(&mut self, choice: Choice, calls: Option<u64>, took_ms: f64) -> Event {
         let score = self.state.score();
         self.game().step(&mut self.state, choice.action);
@@ -265,7 +265,7 @@ fn turn<'a>(
     Turn { subject, level, number, limit, observation, before, actions }
 }
 
-/// The first step at or after this event, with what was played.
+/// Returns the first step at or after `from`, with its action and validity.
 fn step_after(events: &[Event], from: usize) -> Option<(usize, Action, Validity)> {
     events.iter().enumerate().skip(from).find_map(|(at, event)| match event {
         Event::Step { action, validity, .. } => Some((at, *action, *validity)),

@@ -1,4 +1,4 @@
-//! All episodes of an evaluation, some at a time, each with its own log.
+//! The episodes of an evaluation, played in parallel, each with its own log.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, NEXT_MOVE};
@@ -18,60 +18,60 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Held by whoever writes into a results folder.
+/// The lock file, held by the program that writes to a results folder.
 const LOCK_FILE: &str = ".lock";
 
-/// The settings while they are written.
+/// The settings file while it is being written.
 const PARTIAL_FILE: &str = "evaluation.json.partial";
 
-/// Episodes in a row that environment failures may break off before the rest is left for later.
+/// The number of consecutive episodes aborted by environment failures before the rest is left open.
 const FAILURES_IN_A_ROW: u64 = 8;
 
-/// A results folder: `evaluation.json`, `games/` with the texts that were played, `episodes/` with a log each. It holds all
-/// that is needed to compute every metric and to replay every episode.
+/// A results folder: `evaluation.json`, `games/` with the texts that were played, `episodes/` with a log each. It holds
+/// everything needed to compute every metric and to replay every episode.
 #[derive(Debug)]
 pub struct Evaluation {
     folder: PathBuf,
-    /// What was asked.
+    /// The settings of the evaluation.
     pub settings: Settings,
-    /// What is played, in the order of the settings.
+    /// The games played, in the order of the settings.
     pub subjects: Vec<Subject>,
     _lock: Option<File>,
 }
 
-/// How far an evaluation is, for people who wait.
+/// A progress display.
 pub trait Progress: Sync {
-    /// An episode was left.
+    /// Reports that an episode has ended or was aborted.
     fn episode(&self, task: &Task<'_>, left: &Left);
 }
 
-/// How the episodes of an evaluation were left.
+/// The counts of an evaluation's episodes by their final status.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
-    /// Episodes asked for.
+    /// The number of episodes in total.
     pub episodes: u64,
-    /// Ended.
+    /// The number of episodes that ended.
     pub ended: u64,
-    /// Of these, won.
+    /// The number of those that were won.
     pub won: u64,
-    /// Broken off, or not begun because others were.
+    /// The number of episodes that were aborted, or not started because others were.
     pub open: u64,
-    /// Why the first of them was broken off.
+    /// The reason why the first of them was aborted.
     pub halted: Option<String>,
-    /// True if that is the doing of network, server, disk or a player's process, rather than of a cap or of the user.
+    /// `true` if the cause is the network, the server, the disk or a player's process, rather than a cap or the user.
     pub infrastructure: bool,
 }
 
 impl Evaluation {
-    /// Returns whether there is something to go on with: an evaluation, or the interrupted beginning of one.
+    /// Returns `true` if there is something to resume: an evaluation, or its interrupted creation.
     pub fn is_begun(folder: &Path) -> bool {
         [SETTINGS_FILE, LOCK_FILE].iter().any(|name| folder.join(name).exists())
     }
 
-    /// A new results folder; it must be absent or empty, but for what an interrupted beginning has left there.
+    /// Creates a results folder. It must be absent or empty, except for files of an interrupted creation.
     ///
     /// # Errors
-    /// It is neither, or cannot be written; more is asked for than an evaluation can have.
+    /// The folder is neither, or cannot be written, or the settings exceed the limits of an evaluation.
     pub fn create(
         folder: &Path,
         settings: Settings,
@@ -116,10 +116,10 @@ impl Evaluation {
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: Some(lock) })
     }
 
-    /// The evaluation in a results folder, for going on with it.
+    /// Opens the evaluation in a results folder for resuming it.
     ///
     /// # Errors
-    /// It is being written, by another program, or asks for something other than `settings`, or is damaged.
+    /// Another program is writing to it, its settings differ from `settings`, or it is damaged.
     pub fn resume(folder: &Path, settings: &Settings) -> Result<Evaluation, EvaluationError> {
         let lock = lock(folder)?;
         let mut evaluation = Evaluation::open(folder)?;
@@ -133,10 +133,10 @@ impl Evaluation {
         Ok(evaluation)
     }
 
-    /// The evaluation in a results folder, for reading.
+    /// Opens the evaluation in a results folder for reading.
     ///
     /// # Errors
-    /// There is none, it is of a newer format, or damaged.
+    /// There is none, it has a newer format, or it is damaged.
     pub fn open(folder: &Path) -> Result<Evaluation, EvaluationError> {
         let path = folder.join(SETTINGS_FILE);
         let text = read_text(&path, MAX_SETTINGS).map_err(|error| match error {
@@ -175,30 +175,30 @@ impl Evaluation {
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
     }
 
-    /// The entries that settings list for these subjects.
+    /// Returns the settings entries of these subjects.
     pub fn entries(subjects: &[Subject]) -> Vec<SubjectEntry> {
         subjects.iter().map(SubjectEntry::of).collect()
     }
 
-    /// All episodes, in the order of [`tasks`].
+    /// Returns all episodes in the order of [`tasks`].
     pub fn tasks(&self) -> Vec<Task<'_>> {
         tasks(&self.settings, &self.subjects)
     }
 
-    /// The events of an episode so far; empty if it was not begun.
+    /// Returns the events of an episode so far; none if it was not started.
     ///
     /// # Errors
-    /// The log cannot be read, or is none.
+    /// The file cannot be read, or is not a log.
     pub fn events(&self, task: &Task<'_>) -> Result<Vec<Event>, EvaluationError> {
         let path = self.log_path(task);
         if path.exists() { crate::log::read(&path) } else { Ok(Vec::new()) }
     }
 
-    /// Checks that there are no logs but those of these episodes: with fewer runs or games in the settings than were played, results
-    /// would be passed over.
+    /// Checks that there are no logs of other episodes: with fewer runs or games in the settings than were played, results
+    /// would be ignored.
     ///
     /// # Errors
-    /// There is another one, or the folder cannot be listed.
+    /// There is a log of another episode, or the folder cannot be listed.
     pub(crate) fn check_logs(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         let folder = self.folder.join("episodes");
         let names: BTreeSet<String> = tasks.iter().map(Task::file_name).collect();
@@ -222,10 +222,10 @@ impl Evaluation {
         })
     }
 
-    /// What `read` makes of the log of an episode, which has to be the log of this one.
+    /// Applies `read` to the log of an episode, after checking that it is the log of this episode.
     ///
     /// # Errors
-    /// It is not, or `read` fails: which file, which line, and the next move.
+    /// It is not, or `read` fails. The message names the file, the line and the next step.
     pub(crate) fn checked<T>(
         &self,
         task: &Task<'_>,
@@ -240,7 +240,7 @@ impl Evaluation {
         Ok(found)
     }
 
-    /// Plays the ended episodes again from their logs: nothing is counted as played that a report would refuse.
+    /// Replays the ended episodes from their logs, so that no episode is counted as played that a report would refuse.
     fn check_ended(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         self.check_logs(tasks)?;
         tasks.par_iter().try_for_each(|task| {
@@ -256,13 +256,13 @@ impl Evaluation {
         self.folder.join("episodes").join(task.file_name())
     }
 
-    /// Plays what is not played yet, on the threads of the current rayon pool. `contestant` makes the player of an episode.
+    /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates the player of an episode.
     ///
-    /// A cap, a request that the server will not have, and [`FAILURES_IN_A_ROW`] episodes that network or server broke off
-    /// leave the rest open.
+    /// The rest is left open after a cap, a request that the server rejects, or [`FAILURES_IN_A_ROW`] consecutive episodes
+    /// aborted by environment failures.
     ///
     /// # Errors
-    /// A log cannot be read or written, or that of an ended episode contradicts the game.
+    /// A log cannot be read or written, or the log of an ended episode contradicts the game.
     pub fn run(
         &self,
         contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
@@ -272,7 +272,7 @@ impl Evaluation {
         let first = Mutex::new(None);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
-        // One after the other from the front, not in halves: what is broken off has played every level about equally often.
+        // In order rather than in halves: when a run is aborted, every level has been played about equally often.
         let lefts = tasks.iter().par_bridge().map(|task| {
             if stopped.load(Ordering::Relaxed) {
                 return Ok(None);
@@ -319,7 +319,7 @@ impl Evaluation {
     }
 }
 
-/// All episodes of an evaluation: run by run, so that one that is broken off has played every level about equally often.
+/// Returns all episodes of an evaluation, run by run: when it is aborted, every level has been played about equally often.
 pub fn tasks<'a>(settings: &Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> {
     let (seed, max_steps) = (Seed::from_text(&settings.seed), settings.max_steps);
     let on = |run: u64| {
@@ -335,7 +335,7 @@ pub fn tasks<'a>(settings: &Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> 
     (0..settings.runs).flat_map(on).collect()
 }
 
-/// Keeps others from writing into the folder; the system lets go of it when the program ends, however it ends.
+/// Locks the folder against other writers. The operating system releases the lock when the program ends for any reason.
 fn lock(folder: &Path) -> Result<File, EvaluationError> {
     let path = folder.join(LOCK_FILE);
     let file = File::create(&path).map_err(EvaluationError::io("make", &path))?;
@@ -349,7 +349,7 @@ fn lock(folder: &Path) -> Result<File, EvaluationError> {
     }
 }
 
-/// Whether a folder holds nothing, or nothing but the beginning of an evaluation that has no settings yet.
+/// Returns `true` if a folder is empty or holds only an interrupted creation without settings.
 fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     let list = |folder: &Path| {
         let mut names = Vec::new();
@@ -364,7 +364,8 @@ fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     Ok(is_ours && (!episodes.exists() || list(&episodes)?.is_empty()))
 }
 
-/// The first field in which two evaluations differ. Where a model is served has no part in what it answers.
+/// Returns the first field in which two evaluations differ. The server of a model is ignored, because it does not affect its
+/// answers.
 fn difference(recorded: &Settings, asked: &Settings) -> Option<String> {
     let fields = |settings: &Settings| {
         let mut fields = serde_json::to_value(settings).expect("settings are plain data");
@@ -386,12 +387,12 @@ fn difference(recorded: &Settings, asked: &Settings) -> Option<String> {
     })
 }
 
-/// Returns whether there is no such file.
+/// Returns `true` if the file does not exist.
 fn is_absent(error: &std::io::Error) -> bool {
     matches!(error.kind(), std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory)
 }
 
-/// Whether an id from a results folder stays inside it.
+/// Returns `true` if an id from a results folder stays inside it.
 fn is_file_name(id: &str) -> bool {
     !id.is_empty()
         && !id.starts_with('.')

@@ -1,4 +1,4 @@
-//! `evaluation.json`: what was asked, written before the first episode.
+//! The settings file `evaluation.json`, written before the first episode.
 
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
@@ -8,19 +8,19 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The version of the results folder.
+/// The format version of the results folder.
 pub const FORMAT: u32 = 1;
-/// The file with the settings in a results folder.
+/// The settings file in a results folder.
 pub const SETTINGS_FILE: &str = "evaluation.json";
 
-/// Episodes of an evaluation at most, on all levels together.
+/// The maximum number of episodes of an evaluation, on all levels together.
 pub const MAX_EPISODES: u64 = 1_000_000;
-/// Decisions of an episode that may be asked for at most. No game takes as many ticks.
+/// The maximum number of decisions per episode that can be requested. No game takes as many ticks.
 pub const MAX_DECISIONS: u64 = 1_000_000;
-/// Bytes of [`SETTINGS_FILE`] at most.
+/// The maximum number of bytes of [`SETTINGS_FILE`].
 pub(crate) const MAX_SETTINGS: usize = 1 << 26;
 
-/// What was asked of an evaluation: all that decides its results, and nothing else. Resuming compares it.
+/// The settings of an evaluation: all inputs that determine its results, and nothing else. Resuming compares them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
@@ -28,33 +28,33 @@ pub struct Settings {
     pub format: u32,
     /// [`engine::SEMANTICS`].
     pub semantics: u32,
-    /// Version of the suite.
+    /// The version of the suite.
     pub suite: String,
-    /// Root digest of the snapshot that the games are from, if they are from one.
+    /// The root digest of the snapshot that the games are from, if they are from one.
     pub snapshot: Option<Digest>,
-    /// Who plays.
+    /// The player.
     pub entrant: Entrant,
-    /// Text that the seeds of all episodes come from. Nothing but this, the game, the level and the run decides them.
+    /// The text from which the seeds of all episodes are derived. They depend only on this, the game, the level and the run.
     pub seed: String,
-    /// Episodes on each level.
+    /// The number of episodes on each level.
     pub runs: u64,
-    /// Decisions of an episode at most.
+    /// The maximum number of decisions per episode.
     pub max_steps: u64,
-    /// What is played.
+    /// The games played.
     pub games: Vec<SubjectEntry>,
 }
 
-/// Who plays, and what it is shown.
+/// The player and the settings of its observations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Entrant {
-    /// What tables call it.
+    /// The player's name in tables.
     pub name: String,
-    /// `zero-shot` or `contextual`; none for players that are no models.
+    /// `zero-shot` or `contextual`; `None` for players that are not models.
     pub mode: Option<String>,
-    /// What it is shown beyond or short of the default, a flag each, sorted; for ablations.
+    /// The differences of its prompts from the default, a flag each, sorted; for ablations.
     pub aids: Vec<String>,
-    /// All that decides what it is asked and how it answers: model, server, decoding, prompt settings and digests.
+    /// All inputs that determine its requests and answers: model, server, decoding, prompt settings and digests.
     pub details: serde_json::Value,
 }
 
@@ -62,13 +62,13 @@ pub struct Entrant {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectEntry {
-    /// Folder in `games/`.
+    /// The folder in `games/`.
     pub id: String,
     /// The game's digest.
     pub digest: Digest,
-    /// What is known of it.
+    /// The known facts about it.
     pub facts: SubjectFacts,
-    /// Its levels that are played.
+    /// The levels played.
     pub levels: Vec<LevelEntry>,
 }
 
@@ -80,16 +80,16 @@ pub struct LevelEntry {
     pub number: usize,
     /// The level's digest.
     pub digest: Digest,
-    /// Ticks of the shortest win, where it is proved that no fewer win.
+    /// The ticks of the shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
 }
 
 impl Settings {
-    /// Checks that what is asked for stays within limits, and names every game and level once. Whoever reads a results folder knows
-    /// then how much there can be.
+    /// Checks that the settings stay within the limits, and that every game and level is listed once. This bounds the size
+    /// of a results folder for its readers.
     ///
     /// # Errors
-    /// It does not; in words, with the number that is too large.
+    /// They do not. The message names the number that is too large.
     pub fn check(&self) -> Result<(), String> {
         let levels: u64 = self.games.iter().map(|game| game.levels.len() as u64).sum();
         let episodes = self.runs.checked_mul(levels).filter(|&episodes| episodes <= MAX_EPISODES);
@@ -132,10 +132,10 @@ impl SubjectEntry {
         }
     }
 
-    /// The game again, from the texts in a results folder.
+    /// Reads the game from the texts in a results folder.
     ///
     /// # Errors
-    /// They are missing, do not compile, or are not the ones that were played.
+    /// They are missing, do not compile, or differ from the ones that were played.
     pub(crate) fn read(&self, results: &Path) -> Result<Subject, EvaluationError> {
         let folder = results.join("games").join(&self.id);
         let source = read_text(&folder.join("game.vgdl"), MAX_SOURCE)?;

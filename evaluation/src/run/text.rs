@@ -1,14 +1,15 @@
-//! Files of a results folder, which may come from somebody else: nothing is read that is not a file, and none without a limit.
+//! Files of a results folder from a possibly untrusted source: only regular files are read, and only up to a limit.
 
 use crate::error::EvaluationError;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Opens a regular file of at most `limit` bytes. What is no file, such as a pipe, is not opened: that could wait for ever.
+/// Opens a regular file of at most `limit` bytes. Other files, such as a pipe, are not opened, because that could block
+/// forever.
 ///
 /// # Errors
-/// It is none, is larger, or cannot be read.
+/// It is not a regular file, is larger, or cannot be read.
 pub(crate) fn open_file(path: &Path, limit: u64) -> Result<File, EvaluationError> {
     let wrong = |what: String| EvaluationError::Malformed(format!("{}: {what}", path.display()));
     let found = path.metadata().map_err(EvaluationError::io("read", path))?;
@@ -24,7 +25,7 @@ pub(crate) fn open_file(path: &Path, limit: u64) -> Result<File, EvaluationError
 /// Reads a text of at most `limit` bytes.
 ///
 /// # Errors
-/// As for [`open_file`]; it is no text.
+/// The same as for [`open_file`], or the file is not text.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, EvaluationError> {
     let mut bytes = Vec::new();
     let mut file = open_file(path, limit as u64)?.take(limit as u64 + 1);

@@ -1,24 +1,24 @@
-//! Bounds on what a server takes from strangers: connections, time, memory.
+//! Bounds on the resources that clients can take from a server: connections, time, memory.
 
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
-/// Bytes that a permit stands for.
+/// The number of bytes covered by one permit.
 const UNIT: usize = 1024;
 
 /// The limits of a server. Beyond them it waits or refuses, and takes no more memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bounds {
-    /// Connections at a time; others wait until one is closed.
+    /// The maximum number of open connections. Others wait until one is closed.
     pub connections: usize,
-    /// Bytes of a request at most.
+    /// The maximum number of bytes of a request.
     pub body: usize,
-    /// Bytes of all requests at a time.
+    /// The maximum number of bytes of all requests at a time.
     pub bodies: usize,
-    /// The time a client has to send the head of a request, also of the next one on the same connection.
+    /// The time limit for a client to send the head of a request, including the next one on the same connection.
     pub head_time: Duration,
-    /// The time a client has to send the body of a request, waiting for room included.
+    /// The time limit for a client to send the body of a request, including the wait for room.
     pub body_time: Duration,
 }
 
@@ -26,7 +26,7 @@ impl Default for Bounds {
     fn default() -> Bounds {
         Bounds {
             connections: 64,
-            // A long conversation with a picture.
+            // Enough for a long conversation with a picture.
             body: 32 << 20,
             bodies: 128 << 20,
             head_time: Duration::from_secs(20),
@@ -35,7 +35,7 @@ impl Default for Bounds {
     }
 }
 
-/// The room for bodies that are being read or answered.
+/// The memory available for bodies that are being read or answered.
 #[derive(Clone, Debug)]
 pub(super) struct Room(Arc<Semaphore>);
 
@@ -44,7 +44,7 @@ impl Room {
         Room(Arc::new(Semaphore::new(bytes / UNIT)))
     }
 
-    /// Waits until there is room for so many bytes, which are taken until the permit is dropped.
+    /// Waits until there is room for `bytes`, and reserves it until the permit is dropped.
     pub(super) async fn take(&self, bytes: usize) -> OwnedSemaphorePermit {
         let units = u32::try_from(bytes.div_ceil(UNIT)).expect("no body is that large");
         self.0.clone().acquire_many_owned(units).await.expect("it is never closed")

@@ -1,7 +1,7 @@
-//! Players of known strength that see the prompt and nothing else: behind chat completions on loopback, or called directly.
+//! Players of known strength that see only the prompt: behind chat completions on loopback, or called directly.
 //!
-//! They have no access to the game that is played: what they know of it they have read in the conversation. So they test the
-//! whole path from the state to the prompt to the answer to the action, and other people's harnesses as well
+//! They have no access to the game that is played: everything they know comes from the conversation. They therefore test the
+//! whole path from the state over the prompt and the answer to the action, and also test other people's harnesses
 //! ([docs/serve-player.md](../../../docs/serve-player.md)). The same conversation always gets the same answer.
 
 mod bounds;
@@ -26,30 +26,30 @@ use shown::Shown;
 use std::fmt;
 use std::str::FromStr;
 
-/// The names of players that need nothing but a prompt, the weakest first; `planner:NAME` beside them.
+/// The names of the players that need only a prompt, the weakest first. `planner:NAME` is also accepted.
 pub const PROMPT_PLAYERS: &[&str] = &["random", "reflex"];
 
 /// A player that answers prompts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PromptPlayer {
-    /// Any action but nil, by the digest of the conversation.
+    /// A random action other than nil, drawn by the digest of the conversation.
     Random,
-    /// The shortest way to what the rules say is good: [its rules](../../../docs/serve-player.md).
+    /// The shortest way to a good target according to the rules: [its rules](../../../docs/serve-player.md).
     Reflex,
-    /// A planner, on the position that is put together from the prompt; for games of which it shows all that matters.
+    /// A planner on the position reconstructed from the prompt, for games whose prompt shows everything that matters.
     Planner(PlannerSpec),
 }
 
-/// A conversation to which a player has no answer, in words: they name what is missing and the next move.
+/// The error for a conversation that a player cannot answer. The message names the missing part and the next step.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Unanswerable(pub String);
 
 impl PromptPlayer {
-    /// What the player says to a conversation. Cost: O(bytes); for a planner, its budget in forward-model calls.
+    /// Returns the player's answer to a conversation. Cost: O(bytes); for a planner, its budget in forward-model calls.
     ///
     /// # Errors
-    /// The conversation does not tell what the player needs.
+    /// The conversation lacks information that the player needs.
     pub fn answer(&self, messages: &[ChatMessage]) -> Result<String, Unanswerable> {
         let shown = Shown::of(messages)?;
         let seed = seed(messages);
@@ -119,7 +119,7 @@ impl Model for PromptPlayer {
     }
 }
 
-/// What decides the choices that nothing else decides: the whole conversation, to the byte.
+/// Returns the seed of the player's random choices: a digest of the whole conversation, byte for byte.
 fn seed(messages: &[ChatMessage]) -> Seed {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 served conversation");
     for message in messages {
@@ -136,17 +136,17 @@ fn seed(messages: &[ChatMessage]) -> Seed {
     Seed::from_text(&hasher.finalize().to_hex())
 }
 
-/// Tokens of a text as they are billed here: four bytes each.
+/// Returns the tokens billed for a text here: one for every four bytes.
 fn tokens(text: &str) -> u64 {
     text.len().div_ceil(4) as u64
 }
 
-/// Tokens of a conversation.
+/// Returns the tokens of a conversation.
 fn prompt_tokens(messages: &[ChatMessage]) -> u64 {
     messages.iter().map(|message| tokens(&message.text)).sum()
 }
 
-/// The actions other than nil, if there are any.
+/// Returns the actions other than nil, if there are any.
 fn deeds(actions: &[Action]) -> Vec<Action> {
     let deeds: Vec<Action> = actions.iter().copied().filter(|&action| action != Action::Nil).collect();
     if deeds.is_empty() { actions.to_vec() } else { deeds }

@@ -1,8 +1,8 @@
-//! Clients that may ask: programs on this machine, and no page of a browser that comes from elsewhere.
+//! Checks of the request's origin: programs on this machine may send requests, but not browser pages from elsewhere.
 //!
-//! A page from anywhere can have a browser send requests to 127.0.0.1. What tells them is the name that the browser asked for (`Host`,
-//! which a name that was bound to 127.0.0.1 afterwards cannot hide), the page that has it ask (`Origin`), and the kind of content: a
-//! page may send text to strangers, but JSON only to those that allow it, and this server allows nobody.
+//! A page from anywhere can make a browser send requests to 127.0.0.1. Such requests are recognised by the requested host
+//! name (`Host`, which DNS rebinding cannot hide), the origin of the page (`Origin`), and the content type: a page may send
+//! text to any server, but JSON only to servers that allow it, and this server allows none.
 
 use super::server::refusal;
 use axum::extract::Request;
@@ -10,10 +10,10 @@ use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
-/// Names of this machine.
+/// The names of this machine.
 const LOOPBACK: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
 
-/// Passes on the requests that are allowed.
+/// Forwards the allowed requests.
 pub(super) async fn check(request: Request, next: Next) -> Response {
     match problem(request.method(), request.headers()) {
         None => next.run(request).await,
@@ -21,7 +21,7 @@ pub(super) async fn check(request: Request, next: Next) -> Response {
     }
 }
 
-/// Why a request with these headers is refused.
+/// Returns the reason for refusing a request with these headers, if there is one.
 fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static str, &'static str)> {
     let all = |name| headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default());
     let hosts: Vec<&str> = all(header::HOST).collect();
@@ -54,7 +54,7 @@ fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static
     None
 }
 
-/// Returns whether a name, perhaps with a port, is one of this machine.
+/// Returns `true` if a name, optionally with a port, refers to this machine.
 fn is_loopback(authority: &str) -> bool {
     let is_port = |rest: &str| {
         rest.is_empty()

@@ -1,4 +1,4 @@
-//! A served player without a server: the same prompts, the same answers, read the same way.
+//! A served player without a server: the same prompts, and the same answers, read in the same way.
 
 use super::PromptPlayer;
 use crate::answer::Reading;
@@ -9,8 +9,8 @@ use crate::turn::Turn;
 use engine::Action;
 use std::sync::Arc;
 
-/// Plays what a [`PromptPlayer`] answers to the prompts of a game. Its log holds no prompts: the settings and the state say
-/// what they were.
+/// An agent that plays the answers of a [`PromptPlayer`] to the prompts of a game. Its log holds no prompts, because the
+/// settings and the state determine them.
 #[derive(Debug)]
 pub struct Prompted {
     player: PromptPlayer,
@@ -19,7 +19,7 @@ pub struct Prompted {
 }
 
 impl Prompted {
-    /// For one episode of the prompter's game.
+    /// Creates the agent for one episode of the prompter's game.
     pub fn new(player: PromptPlayer, prompter: Arc<Prompter>) -> Prompted {
         Prompted { player, prompter, past: Vec::new() }
     }
@@ -40,7 +40,7 @@ impl Agent for Prompted {
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
-        // The same prompt gets the same answer, whose words nobody has kept.
+        // The same prompt gets the same answer, whose text was not kept.
         self.act(turn, &mut Journal::in_memory()).map(|_| ())
     }
 }

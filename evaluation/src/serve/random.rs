@@ -1,10 +1,10 @@
-//! Any action: the floor that every player should be above.
+//! Random actions: the baseline that every player should beat.
 
 use super::deeds;
 use super::shown::Shown;
 use engine::{Action, Seed};
 
-/// One of the actions other than nil, all with the same chance.
+/// Returns one of the actions other than nil, all with equal probability.
 pub(super) fn choose(shown: &Shown<'_>, seed: Seed) -> Action {
     *seed.sampler().choose(&deeds(&shown.actions))
 }

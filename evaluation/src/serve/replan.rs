@@ -1,7 +1,7 @@
-//! Planning on a position that is put together from what the prompt shows.
+//! Planning on a position that is reconstructed from the prompt.
 //!
-//! This works where the prompt shows all that matters: the rules as VGDL, a game in which chance decides nothing, that waits
-//! for the player, and whose sprites have nothing that a board does not show. Where that is not certain, there is no answer.
+//! This works if the prompt shows everything that matters: the rules as VGDL, a game without chance that waits for the
+//! player, and sprites without state hidden from the board. If that is not certain, there is no answer.
 
 use super::Unanswerable;
 use super::shown::Shown;
@@ -11,10 +11,10 @@ use engine::syntax::{Description, MappingLine, parse};
 use engine::{Action, Analysis, Direction, Game, Level, Seed, State};
 use std::collections::BTreeMap;
 
-/// Forward-model calls of a decision, where the planner's name does not say.
+/// The number of forward-model calls per decision, if the planner's name does not set it.
 const BUDGET: Budget = Budget(1000);
 
-/// Effects that leave nothing behind but what is where, and what the avatar holds.
+/// The effects that change nothing but sprite positions and the avatar's resources.
 const SHOWN_EFFECTS: &[&str] = &[
     "killSprite",
     "killBoth",
@@ -38,13 +38,13 @@ const SHOWN_EFFECTS: &[&str] = &[
     "teleportToExit",
 ];
 
-/// Terminations that look at what is where, or at the clock.
+/// The terminations that depend only on sprite positions or the clock.
 const SHOWN_ENDINGS: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpriteCounter", "Timeout"];
 
-/// What a planner plays on the position that a prompt shows.
+/// Plans an action on the position that a prompt shows.
 ///
 /// # Errors
-/// The prompt does not show a position of a game that can be planned on: what is missing.
+/// The prompt does not show a position of a game that can be planned on. The message names the missing part.
 pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Action, Unanswerable> {
     let (game, state) = position(shown, seed.child("unused", 0))
         .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))?;
@@ -53,7 +53,8 @@ pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Resul
     if shown.actions.contains(&action) { Ok(action) } else { Ok(Action::Nil) }
 }
 
-/// The position that a prompt shows, in a game that plays like its game; or why there is none. The seed decides nothing.
+/// Reconstructs the position that a prompt shows, in an equivalent game, or returns the reason why it cannot. The result
+/// does not depend on the seed.
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
         return Err("it needs the rules as VGDL (`rules = \"vgdl\"`)".to_owned());
@@ -70,7 +71,8 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     Ok((game, state))
 }
 
-/// Whether a board, what the avatar holds and where it faces are all that there is to know in a game; if not, why.
+/// Checks that a board, the avatar's resources and its direction determine the state of a game, and returns the reason if
+/// they do not.
 fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     let game = analysis.game();
     let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
@@ -155,7 +157,7 @@ impl Position {
     }
 }
 
-/// Limits of ticks come so many ticks sooner.
+/// Lowers the tick limits by `ticks`.
 fn wind(description: &mut Description, ticks: u32) {
     let timeouts = description.terminations.iter_mut().filter(|line| line.class.text == "Timeout");
     for param in timeouts.flat_map(|line| &mut line.params).filter(|param| param.key.text == "limit") {
@@ -185,7 +187,7 @@ mod tests {
     use crate::turn::{Turn, choices};
     use std::path::Path;
 
-    /// What is told of a state, ticks and score left out.
+    /// Returns the visible part of a state, without ticks and score.
     fn seen(legend: &Legend, game: &Game, state: &State) -> impl PartialEq + std::fmt::Debug + use<> {
         let seen = game.observe(state);
         let board = (encoding::grid(&seen, legend), encoding::stacks(&seen, legend));
@@ -194,7 +196,7 @@ mod tests {
         (seen.outcome, avatar, resources, board)
     }
 
-    /// Positions of corpus games that can be planned on play on like the states that were shown.
+    /// Positions of corpus games that can be planned on continue like the original states.
     #[test]
     fn positions_play_on_like_what_was_shown() {
         let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };

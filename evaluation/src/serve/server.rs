@@ -21,10 +21,10 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, oneshot};
 
-/// The pause after a connection that the system would not open, because there are too many of all programs.
+/// The pause after a failure to accept a connection because the system has too many open.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// A server that has its port and does not answer yet.
+/// A server that is bound to its port but does not answer yet.
 #[derive(Debug)]
 pub struct Server {
     player: PromptPlayer,
@@ -34,10 +34,10 @@ pub struct Server {
 }
 
 impl Server {
-    /// Takes a port of 127.0.0.1, any free one for 0. Nobody but this machine can reach it.
+    /// Binds a port of 127.0.0.1; any free one for 0. Only this machine can reach it.
     ///
     /// # Errors
-    /// The port is taken.
+    /// The port cannot be bound.
     pub fn bind(player: PromptPlayer, port: u16) -> Result<Server, EvaluationError> {
         let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).and_then(|listener| {
             listener.set_nonblocking(true)?;
@@ -48,30 +48,30 @@ impl Server {
         bound.map_err(EvaluationError::io("listen on", place.as_ref()))
     }
 
-    /// The same within other limits.
+    /// Replaces the limits.
     pub fn within(self, bounds: Bounds) -> Server {
         Server { bounds, ..self }
     }
 
-    /// Where it listens.
+    /// The address of the server.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// What clients call the base URL.
+    /// The base URL for clients.
     pub fn base_url(&self) -> String {
         format!("http://{}/v1", self.address)
     }
 
-    /// Answers until the program ends. A player that thinks for long holds up nobody else.
+    /// Answers until the program ends. A player that thinks for a long time does not delay other requests.
     ///
     /// # Errors
-    /// The system will not let it.
+    /// The server cannot be started.
     pub fn run(self) -> Result<(), EvaluationError> {
         self.run_until(std::future::pending())
     }
 
-    /// Answers in the background until what is returned is dropped.
+    /// Answers in the background until the returned handle is dropped.
     pub fn spawn(self) -> Running {
         let base_url = self.base_url();
         let (stop, stopped) = oneshot::channel();
@@ -96,7 +96,7 @@ impl Server {
                 }
                 Ok(())
             });
-            // A player that still thinks is not waited for.
+            // Do not wait for a player that is still thinking.
             runtime.shutdown_background();
             answered
         };
@@ -104,7 +104,7 @@ impl Server {
     }
 }
 
-/// Answers every connection, as many at a time as the bounds allow. What is beyond them waits in the system's own queue.
+/// Answers every connection, up to the bounds. Connections beyond them wait in the queue of the operating system.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
     let places = Arc::new(Semaphore::new(bounds.connections));
     loop {
@@ -117,14 +117,14 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
         tokio::spawn(async move {
             let mut http = http1::Builder::new();
             http.timer(TokioTimer::new()).header_read_timeout(bounds.head_time);
-            // A client that breaks off, or is too slow, is no fault of the server.
+            // A client that disconnects, or is too slow, is not an error of the server.
             let _ = http.serve_connection(TokioIo::new(stream), service).await;
             drop::<OwnedSemaphorePermit>(place);
         });
     }
 }
 
-/// A server that answers. Dropping it stops it.
+/// A running server. Dropping it stops the server.
 #[derive(Debug)]
 pub struct Running {
     base_url: String,
@@ -133,7 +133,7 @@ pub struct Running {
 }
 
 impl Running {
-    /// What clients call the base URL.
+    /// The base URL for clients.
     pub fn base_url(&self) -> &str {
         &self.base_url
     }
@@ -168,14 +168,14 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         .with_state(Arc::new(Serving { player, bounds, room: Room::new(bounds.bodies) }))
 }
 
-/// The state that an answer needs.
+/// The state needed for an answer.
 struct Serving {
     player: PromptPlayer,
     bounds: Bounds,
     room: Room,
 }
 
-/// What of a request matters; how to sample does not.
+/// The relevant fields of a request. Sampling parameters are ignored.
 #[derive(Deserialize)]
 struct Request {
     model: String,
@@ -200,7 +200,7 @@ enum Content {
 
 #[derive(Deserialize)]
 struct Part {
-    /// None of a picture, which no player sees.
+    /// `None` for a picture, which no player can see.
     text: Option<String>,
 }
 
@@ -229,7 +229,7 @@ async fn complete(State(serving): State<Arc<Serving>>, body: Body) -> Response {
     }
 }
 
-/// Reads a body within the bounds: room for all that it says it has, or may have, is taken before.
+/// Reads a body within the bounds. Room for its stated size, or else for the maximum, is reserved first.
 async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePermit), Box<Response>> {
     let Bounds { body: most, bodies, body_time, .. } = serving.bounds;
     let most = most.min(bodies);
@@ -237,12 +237,12 @@ async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePer
         let message = format!("a request has at most {most} bytes");
         Box::new(refusal(StatusCode::PAYLOAD_TOO_LARGE, "unreadable_body", &message))
     };
-    // An honest length, or none: what is sent has no more bytes than that.
+    // The stated length is reliable: the body has no more bytes than that.
     let stated = HttpBody::size_hint(&body).upper();
     let size = match stated.map(usize::try_from) {
         Some(Ok(size)) if size <= most => size,
         Some(_) => {
-            // Who is still sending could not read the answer.
+            // A client that is still sending could not read the answer.
             let _ = tokio::time::timeout(body_time, pass_over(body, 2 * most)).await;
             return Err(too_large());
         }
@@ -266,7 +266,7 @@ async fn read(serving: &Serving, body: Body) -> Result<(Bytes, OwnedSemaphorePer
     }
 }
 
-/// Reads a body, up to so many bytes, and keeps nothing of it.
+/// Reads and discards up to `most` bytes of a body.
 async fn pass_over(body: Body, most: usize) {
     let (mut body, mut left) = (std::pin::pin!(body), most);
     while let Some(Ok(frame)) = std::future::poll_fn(|context| body.as_mut().poll_frame(context)).await {
@@ -328,7 +328,7 @@ fn message(message: Message) -> Result<ChatMessage, String> {
     Ok(ChatMessage { role, text, image: None })
 }
 
-/// An error as the real interfaces tell it.
+/// Returns an error in the format of the real APIs.
 pub(super) fn refusal(status: StatusCode, code: &str, message: &str) -> Response {
     let kind = if status.is_server_error() { "server_error" } else { "invalid_request_error" };
     let error = json!({"error": {"message": message, "type": kind, "param": null, "code": code}});

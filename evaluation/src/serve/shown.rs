@@ -1,50 +1,50 @@
-//! What a conversation shows, read back from its words (`docs/prompts.md` says what stands where).
+//! The content of a conversation, read back from its text (`docs/prompts.md` describes the sections).
 
 use super::Unanswerable;
 use crate::client::ChatMessage;
 use engine::Action;
 use std::collections::BTreeMap;
 
-/// The character of the avatar, unless the legend has others.
+/// The character of the avatar, unless the legend defines others.
 const AVATAR: char = '@';
 
-/// A prompt, as a player reads it.
+/// A prompt as a player reads it.
 #[derive(Debug, Default)]
 pub(super) struct Shown<'a> {
-    /// The sentences of the rules, in order; those about the keys too.
+    /// The sentences of the rules in order, including those about the keys.
     pub(super) rules: Vec<&'a str>,
-    /// The rules as VGDL, where they are told so.
+    /// The rules as VGDL, if the prompt has them in that form.
     pub(super) vgdl: Option<&'a str>,
-    /// What can be chosen now.
+    /// The available actions.
     pub(super) actions: Vec<Action>,
-    /// Columns of the board; 0 without one.
+    /// The columns of the board; 0 without a board.
     pub(super) columns: usize,
-    /// Row-major: the names in each cell, from the lowest to the uppermost, floors left out.
+    /// The names in each cell, row-major, from the lowest to the uppermost, without floors.
     pub(super) cells: Vec<Vec<&'a str>>,
-    /// Names that the board leaves out.
+    /// The names that the board does not show.
     pub(super) floors: Vec<&'a str>,
-    /// Ticks played.
+    /// The number of ticks played.
     pub(super) tick: u32,
-    /// The player, while it is there.
+    /// The player, while it exists.
     pub(super) you: Option<You<'a>>,
-    /// What the player holds; none if that is not told.
+    /// The player's resources, or `None` if the prompt does not list them.
     pub(super) held: Option<BTreeMap<&'a str, i32>>,
-    /// Answers are numbers, as in the reference's style.
+    /// The numbered actions, if answers are numbers as in the reference's style.
     numbered: Option<Vec<Action>>,
 }
 
-/// Where and what the player is.
+/// The position and type of the player.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct You<'a> {
-    /// Its type, as far as it is told.
+    /// Its type, as far as the prompt names it.
     pub(super) name: &'a str,
     /// The cell.
     pub(super) cell: usize,
-    /// Where it faces.
+    /// Its direction.
     pub(super) facing: Option<Action>,
 }
 
-/// Sections of a message by heading, the first of each.
+/// The sections of a message by heading, the first of each.
 struct Sections<'a>(Vec<(&'a str, &'a str)>);
 
 impl<'a> Sections<'a> {
@@ -58,10 +58,10 @@ impl<'a> Sections<'a> {
 }
 
 impl<'a> Shown<'a> {
-    /// Reads a conversation: the static part from its first message, the turn from the last one that shows one.
+    /// Reads a conversation: the static part from its first message, the turn from the last message that contains one.
     ///
     /// # Errors
-    /// It lists no actions.
+    /// The conversation lists no actions.
     pub(super) fn of(messages: &'a [ChatMessage]) -> Result<Shown<'a>, Unanswerable> {
         let missing = |what: &str| {
             Unanswerable(format!("the prompt has no {what}; see `arcade docs prompts` for what stands where"))
@@ -102,7 +102,7 @@ impl<'a> Shown<'a> {
         Ok(shown)
     }
 
-    /// An action in the format that the conversation asks for.
+    /// Formats an action as the conversation asks.
     pub(super) fn answer(&self, action: Action) -> String {
         match &self.numbered {
             None => format!("ACTION: {action}"),
@@ -113,7 +113,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// `nil, up, left`, or a line for each with its number.
+    /// Reads `nil, up, left`, or a line for each action with its number.
     fn read_actions(&mut self, section: &str) {
         let numbered =
             |line: &str| line.split_once(": ACTION_").and_then(|(_, name)| action(&name.to_lowercase()));
@@ -154,7 +154,7 @@ impl<'a> Shown<'a> {
         self.you = self.you.filter(|you| you.cell < self.cells.len());
     }
 
-    /// `frost over snow: (3,4) (5,4)`, a line for each pile.
+    /// Reads a line for each pile: `frost over snow: (3,4) (5,4)`.
     fn read_stacks(&mut self, section: &'a str) {
         for line in section.lines() {
             let Some((names, places)) = line.split_once(": ") else { continue };
@@ -172,7 +172,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// What characters stand for.
+/// The meanings of the characters.
 struct Symbols<'a> {
     names: BTreeMap<char, &'a str>,
     you: char,
@@ -180,7 +180,7 @@ struct Symbols<'a> {
 }
 
 impl<'a> Symbols<'a> {
-    /// `w wall`, `@ you: bare or armed`, `. nothing or floor`; `wall -> 'w'` in the reference's style.
+    /// Reads `w wall`, `@ you: bare or armed`, `. nothing or floor`; `wall -> 'w'` in the reference's style.
     fn of(legend: &'a str) -> Symbols<'a> {
         let mut symbols = Symbols { names: BTreeMap::new(), you: AVATAR, floors: Vec::new() };
         for line in legend.lines() {
@@ -208,19 +208,19 @@ impl<'a> Symbols<'a> {
     }
 }
 
-/// `2 key, 1 gem.`, which further sentences may follow; `nothing.`
+/// Reads `2 key, 1 gem.`, possibly followed by other sentences, or `nothing.`
 fn holdings(text: &str) -> BTreeMap<&str, i32> {
     let list = text.split_once('.').map_or(text, |(list, _)| list);
     let items = list.split(", ").filter_map(|item| item.split_once(' '));
     items.filter_map(|(amount, name)| Some((name, amount.parse().ok()?))).collect()
 }
 
-/// `nil, up, left`.
+/// Reads `nil, up, left`.
 fn actions_of(list: &str) -> Vec<Action> {
     list.split(", ").filter_map(|word| action(word.trim())).collect()
 }
 
-/// By name.
+/// Returns an action by its name.
 fn action(word: &str) -> Option<Action> {
     Action::ALL.into_iter().find(|action| action.to_string() == word)
 }

@@ -1,4 +1,4 @@
-//! Comparisons of two players: models with each other, a model with itself in the other mode, and with and without an aid.
+//! Comparisons of two players: different models, a model in both modes, and a model with and without an aid.
 
 use crate::study::Study;
 use crate::study::player::{CONTEXTUAL, ZERO_SHOT};
@@ -11,73 +11,73 @@ use statistics::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Comparisons of pairs of players. Each of the three lists is a family of its own for the correction of Benjamini and Hochberg:
-/// all pairs on all levels, on all games, and over all. Every pair with episodes on both sides is in it, ties too, so that the
-/// family does not hang on the results.
+/// Comparisons of pairs of players. Each of the three lists is a separate family for the correction of Benjamini and
+/// Hochberg: all pairs on all levels, on all games, and over all. It includes every pair with episodes on both sides, even
+/// ties, so that the family does not depend on the results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Contrasts {
     /// A comparison for each pair and level.
     pub by_level: Vec<Comparison>,
-    /// For each pair and game: all its levels together.
+    /// A comparison for each pair and game, with all its levels together.
     pub by_game: Vec<Comparison>,
-    /// For each pair: over all levels that both played, level by level.
+    /// A comparison for each pair over all levels that both played, stratified by level.
     pub overall: Vec<OverallComparison>,
 }
 
-/// Two players on a level or a game.
+/// A comparison of two players on a level or a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Indices into the players of the study.
+    /// The indices into the players of the study.
     pub players: [usize; 2],
-    /// Index into the games of the study.
+    /// The index into the games of the study.
     pub game: usize,
-    /// The level's number; none for all levels.
+    /// The level's number, or `None` for all levels.
     pub level: Option<usize>,
-    /// Wins of each.
+    /// The wins of each player.
     pub wins: [u64; 2],
-    /// Episodes of each.
+    /// The episodes of each player.
     pub episodes: [u64; 2],
-    /// Fisher's exact test, two-sided.
+    /// The p-value of Fisher's exact test, two-sided.
     pub p: f64,
-    /// Corrected for all comparisons of the list, by Benjamini and Hochberg.
+    /// The p-value corrected for all comparisons of the list, by Benjamini and Hochberg.
     pub q: f64,
-    /// Cohen's h of the first's win rate against the second's.
+    /// Cohen's h of the first player's win rate against the second's.
     pub h: f64,
-    /// The first's win rate minus the second's, with Newcombe's interval.
+    /// The first player's win rate minus the second's, with Newcombe's interval.
     pub difference: Estimate,
 }
 
-/// Two players on all levels that both played.
+/// A comparison of two players on all levels that both played.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
-    /// Indices into the players of the study.
+    /// The indices into the players of the study.
     pub players: [usize; 2],
-    /// Wins of each on these levels.
+    /// The wins of each player on these levels.
     pub wins: [u64; 2],
-    /// Episodes of each on these levels.
+    /// The episodes of each player on these levels.
     pub episodes: [u64; 2],
-    /// Levels that both played.
+    /// The number of levels that both played.
     pub levels: u64,
-    /// The exact test within levels (Cochran, Mantel, Haenszel), two-sided. It speaks of these levels.
+    /// The p-value of the exact stratified test (Cochran, Mantel, Haenszel), two-sided. It refers to these levels only.
     pub p: f64,
-    /// Corrected for all pairs of the list, by Benjamini and Hochberg.
+    /// The p-value corrected for all pairs of the list, by Benjamini and Hochberg.
     pub q: f64,
     /// Cohen's h of the pooled win rates.
     pub h: f64,
     /// The mean difference of the win rates over the levels, weighted by their episodes.
     pub difference: f64,
-    /// The difference of the pooled win rates with an interval that draws whole games again: it speaks of games like these. Missing
-    /// with fewer than two games.
+    /// The difference of the pooled win rates with a confidence interval from a bootstrap over whole games: it generalises
+    /// to games like these. Missing with fewer than two games.
     pub by_game: Option<Estimate>,
-    /// The common odds ratio of Mantel and Haenszel; infinite values are missing.
+    /// The common odds ratio of Mantel and Haenszel; missing if infinite.
     pub odds_ratio: Option<f64>,
 }
 
-/// Wins and episodes.
+/// Numbers of wins and episodes.
 type Counts = (u64, u64);
 
 impl Contrasts {
-    /// The comparisons of these pairs.
+    /// Compares these pairs.
     pub(crate) fn of(study: &Study, pairs: &[[usize; 2]]) -> Contrasts {
         let counts = counts(study);
         let mut contrasts = Contrasts::default();
@@ -109,8 +109,8 @@ impl Contrasts {
         contrasts
     }
 
-    /// Models with each other in the same mode, and with those that are no models. Variants of one model are compared in
-    /// [`Contrasts::modes`] and [`Contrasts::aids`].
+    /// Compares models in the same mode with each other, and with players that are not models. Variants of one model are
+    /// compared in [`Contrasts::modes`] and [`Contrasts::aids`].
     pub(crate) fn pairs(study: &Study) -> Contrasts {
         let players = &study.players;
         let mut pairs = Vec::new();
@@ -126,7 +126,7 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// The same model in both modes: zero-shot first, contextual second.
+    /// Compares the two modes of the same model: zero-shot first, contextual second.
     pub(crate) fn modes(study: &Study) -> Contrasts {
         let partner = |(a, ours): (usize, &super::Player)| {
             let is_partner = |theirs: &super::Player| {
@@ -140,7 +140,7 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// The same model in the same mode without and with one aid: without it first.
+    /// Compares the same model in the same mode without and with one aid: without it first.
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let mut pairs = Vec::new();
         for (a, without) in study.players.iter().enumerate() {
@@ -155,12 +155,12 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// Whether there is nothing to compare.
+    /// Returns `true` if there are no comparisons.
     pub fn is_empty(&self) -> bool {
         self.overall.is_empty()
     }
 
-    /// The three lists as tables, by rising p, the first `most` of the longer ones.
+    /// Returns the three lists as tables, by increasing p. At most the first `most` rows of the longer ones are included.
     pub(crate) fn tables(&self, study: &Study, id: &str, title: &str, most: usize) -> Vec<Table> {
         if self.is_empty() {
             return Vec::new();
@@ -278,7 +278,7 @@ impl OverallComparison {
             |of: fn(&Stratum) -> [u64; 2]| [0, 1].map(|side: usize| strata.iter().map(|s| of(s)[side]).sum());
         let (wins, episodes): ([u64; 2], [u64; 2]) = (total(|s| s.successes), total(|s| s.trials));
         let rates = [0, 1].map(|side: usize| wins[side] as f64 / episodes[side].max(1) as f64);
-        // All wins and losses of a game, on each side.
+        // The wins and losses of each game on either side.
         let mut games: BTreeMap<usize, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
         for ((game, _), stratum) in levels.iter().zip(&strata) {
             let sides = games.entry(*game).or_default();
@@ -306,7 +306,7 @@ impl OverallComparison {
     }
 }
 
-/// Wins and ended episodes of each player on each level.
+/// Counts the wins and ended episodes of each player on each level.
 fn counts(study: &Study) -> Vec<BTreeMap<(usize, usize), Counts>> {
     let mut counts = vec![BTreeMap::<(usize, usize), Counts>::new(); study.players.len()];
     for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {

@@ -1,4 +1,4 @@
-//! What goes with winning: the correlation matrix of the paper (`spec/06` §3 and §5.5).
+//! The correlations with winning: the correlation matrix of the paper (`spec/06` §3 and §5.5).
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
@@ -6,16 +6,16 @@ use crate::study::table::{Table, TableCell};
 use serde::Serialize;
 use statistics::{bonferroni, correlation_p, pearson, spearman};
 
-/// What is correlated.
+/// The correlated variables.
 pub const CORRELATED: [&str; 4] = ["win", "meaningful", "steps", "distance"];
 
-/// Correlations over the episodes of models (of all players, if there is no model): win (0 or 1), meaningful step ratio, steps, and
-/// distance, the cells walked.
+/// Correlations over the episodes of models (of all players, if there is no model): win (0 or 1), meaningful step ratio,
+/// steps, and distance in cells walked.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Correlations {
-    /// Episodes for which all four are known.
+    /// The number of episodes with all four values.
     pub episodes: u64,
-    /// Episodes left out because one of them is missing: no step, or no avatar.
+    /// The number of episodes left out because a value is missing: no step, or no avatar.
     pub excluded: u64,
     /// A row for each of the six pairs.
     pub pairs: Vec<Correlation>,
@@ -24,22 +24,22 @@ pub struct Correlations {
 /// The correlation of two of [`CORRELATED`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Correlation {
-    /// Indices into [`CORRELATED`].
+    /// The indices into [`CORRELATED`].
     pub pair: [usize; 2],
-    /// Pearson's, with its test; missing if one side never varies.
+    /// Pearson's coefficient, with its test; missing if a variable is constant.
     pub pearson: Option<Test>,
-    /// Spearman's, with its test (t approximation).
+    /// Spearman's coefficient, with its test (t approximation).
     pub spearman: Option<Test>,
 }
 
 /// A coefficient and its test.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Test {
-    /// From −1 to 1.
+    /// The coefficient, from −1 to 1.
     pub r: f64,
-    /// Two-sided, episodes taken for independent.
+    /// The two-sided p-value, with episodes treated as independent.
     pub p: f64,
-    /// Corrected for the pairs, by Bonferroni.
+    /// The p-value corrected for the pairs, by Bonferroni.
     pub adjusted: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How hard games and levels are for those who played them (`spec/06` §2.6).
+//! The difficulty of games and levels for their players (`spec/06` §2.6).
 
 use crate::study::Study;
 use crate::study::scores::{Scores, mean};
@@ -6,7 +6,7 @@ use crate::study::table::{Table, TableCell};
 use serde::Serialize;
 use std::fmt;
 
-/// How hard a level or a game is.
+/// The difficulty class of a level or a game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DifficultyLabel {
@@ -18,14 +18,14 @@ pub enum DifficultyLabel {
     Medium,
     /// At least 0.2.
     Hard,
-    /// Less.
+    /// Less than 0.2.
     VeryHard,
-    /// Nobody has won: whatever the score.
+    /// No wins, regardless of the score.
     Unbeaten,
 }
 
 impl DifficultyLabel {
-    /// The label of a score of somebody's wins.
+    /// Returns the label of a score with at least one win.
     fn of(ease: f64) -> DifficultyLabel {
         match ease {
             ease if ease >= 0.8 => DifficultyLabel::VeryEasy,
@@ -53,19 +53,19 @@ impl fmt::Display for DifficultyLabel {
 /// The difficulty of a level, or of a game over all its levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DifficultyRow {
-    /// Index into the games of the study.
+    /// The index into the games of the study.
     pub game: usize,
-    /// The level's number; none for the game.
+    /// The level's number, or `None` for the game.
     pub level: Option<usize>,
-    /// Mean win rate of the players.
+    /// The mean win rate of the players.
     pub win_rate: Option<f64>,
-    /// Mean normalised reward of the players.
+    /// The mean normalised reward of the players.
     pub normalised_reward: Option<f64>,
-    /// Mean step efficiency of the players that won.
+    /// The mean step efficiency of the players that won.
     pub efficiency: Option<f64>,
-    /// `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`: the higher, the easier. Missing if one of them is.
+    /// The score `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`: higher is easier. Missing if one of them is.
     pub ease: Option<f64>,
-    /// What that is called; missing if the score is and somebody has won.
+    /// The class of the score; missing if the score is and there is a win.
     pub label: Option<DifficultyLabel>,
 }
 
@@ -89,7 +89,7 @@ impl DifficultyRow {
     }
 }
 
-/// All games, each followed by its levels.
+/// Returns all games, each followed by its levels.
 pub(crate) fn difficulties(study: &Study) -> Vec<DifficultyRow> {
     let of_game = |(game, facts): (usize, &super::StudyGame)| {
         let levels = facts.levels.iter().map(|level| Some(level.number)).collect::<Vec<Option<usize>>>();

@@ -1,4 +1,4 @@
-//! How won and lost episodes were walked (`spec/06` §2.7 and §5.4).
+//! The movement in won and lost episodes (`spec/06` §2.7 and §5.4).
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
@@ -8,26 +8,26 @@ use serde::Serialize;
 use statistics::{bonferroni, quantile, welch};
 use std::collections::BTreeMap;
 
-/// The failure-mode measures.
+/// The failure-mode metrics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FailureMeasure {
-    /// The share of steps that were not meaningful.
+    /// The fraction of steps that were not meaningful.
     BumpRate,
     /// The longest run of such steps.
     MaxBumps,
     /// The bump rate of the last quarter.
     LateBumpRate,
-    /// The share of steps that went straight back.
+    /// The fraction of steps that returned directly to the previous cell.
     OscillationRate,
-    /// Different cells of the avatar.
+    /// The number of distinct cells visited by the avatar.
     UniqueCells,
-    /// These, by the area of the rectangle around them.
+    /// The unique cells divided by the area of their bounding rectangle.
     Coverage,
 }
 
 impl FailureMeasure {
-    /// All.
+    /// All metrics.
     pub const ALL: [FailureMeasure; 6] = [
         FailureMeasure::BumpRate,
         FailureMeasure::MaxBumps,
@@ -37,7 +37,7 @@ impl FailureMeasure {
         FailureMeasure::Coverage,
     ];
 
-    /// Its name in headings.
+    /// The name in headings.
     pub fn title(self) -> &'static str {
         match self {
             FailureMeasure::BumpRate => "bump rate",
@@ -49,7 +49,7 @@ impl FailureMeasure {
         }
     }
 
-    /// Its value for an episode.
+    /// Returns the value for an episode.
     pub fn of(self, episode: &EpisodeMetrics) -> Option<f64> {
         let movement = &episode.movement;
         match self {
@@ -63,18 +63,18 @@ impl FailureMeasure {
     }
 }
 
-/// A measure over the won and over the other episodes of models (of all players, if there is no model).
+/// A metric over the won episodes and the other episodes of models (of all players, if there is no model).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailureMode {
-    /// Which.
+    /// The metric.
     pub measure: FailureMeasure,
-    /// Its values in won episodes.
+    /// The values in won episodes.
     pub won: Vec<f64>,
-    /// Its values in all others.
+    /// The values in all other episodes.
     pub lost: Vec<f64>,
-    /// Episodes for which it is missing.
+    /// The number of episodes without a value.
     pub excluded: u64,
-    /// Welch's test of the means, won minus lost; missing with fewer than two values on a side, or without any spread.
+    /// Welch's test of the means, won minus lost; missing with fewer than two values on a side, or without variance.
     pub welch: Option<WelchTest>,
 }
 
@@ -83,15 +83,15 @@ pub struct FailureMode {
 pub struct WelchTest {
     /// The difference of the means in standard errors.
     pub t: f64,
-    /// Degrees of freedom.
+    /// The degrees of freedom.
     pub df: f64,
-    /// Two-sided, episodes taken for independent.
+    /// The two-sided p-value, with episodes treated as independent.
     pub p: f64,
-    /// Corrected for the six measures, by Bonferroni. (The paper corrects nothing here.)
+    /// The p-value corrected for the six metrics, by Bonferroni. (The paper does not correct here.)
     pub adjusted: f64,
 }
 
-/// All failure modes.
+/// Returns all failure modes.
 pub(crate) fn failures(study: &Study) -> Vec<FailureMode> {
     let of = |measure: FailureMeasure| {
         let values = |won: bool| {
@@ -113,24 +113,25 @@ pub(crate) fn failures(study: &Study) -> Vec<FailureMode> {
     modes
 }
 
-/// How a player oscillates on a level.
+/// The oscillation of a player on a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OscillationRow {
-    /// Index into the players of the study.
+    /// The index into the players of the study.
     pub player: usize,
-    /// Index into the games of the study.
+    /// The index into the games of the study.
     pub game: usize,
     /// The level's number.
     pub level: usize,
-    /// Mean oscillation rate.
+    /// The mean oscillation rate.
     pub rate: f64,
-    /// Episodes.
+    /// The number of episodes.
     pub episodes: u64,
-    /// Of these, won.
+    /// The number of wins among them.
     pub wins: u64,
 }
 
-/// Where models (all players, if there is no model) oscillate, the most first; where they never do is left out.
+/// Returns the levels on which models (all players, if there is no model) oscillate, the most first. Levels without
+/// oscillation are left out.
 pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
     let mut groups: BTreeMap<(usize, usize, usize), Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.tested() {
@@ -147,7 +148,7 @@ pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
     rows
 }
 
-/// Rows of the oscillation table.
+/// The number of rows of the oscillation table.
 const TOP: usize = 10;
 
 pub(crate) fn tables(study: &Study) -> Vec<Table> {

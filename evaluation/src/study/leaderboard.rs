@@ -1,4 +1,4 @@
-//! Who wins how often, and at what price.
+//! The win rates of the players, and their cost.
 
 use crate::metrics::{Choices, Spending};
 use crate::study::scores::{Estimate, Scores, mean};
@@ -8,27 +8,27 @@ use serde::Serialize;
 use statistics::clustered_mean;
 use std::collections::BTreeMap;
 
-/// What a player did on all that it played.
+/// The results of a player on all levels it played.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LeaderRow {
-    /// Index into the players of the study.
+    /// The index into the players of the study.
     pub player: usize,
-    /// Its numbers; their interval of the win rate takes episodes for independent.
+    /// The scores. The confidence interval of the win rate treats episodes as independent.
     pub scores: Scores,
-    /// The win rate with an interval that takes games for independent, not episodes: by drawing whole games again. Missing with
-    /// fewer than two games.
+    /// The win rate with a confidence interval from a bootstrap over whole games, which treats games rather than episodes as
+    /// independent. Missing with fewer than two games.
     pub by_game: Option<Estimate>,
-    /// How its choices came about.
+    /// The origins of the choices.
     pub choices: Choices,
-    /// What they cost.
+    /// The cost of the choices.
     pub spending: Spending,
-    /// Mean of input and output tokens a step.
+    /// The mean number of input and output tokens per step.
     pub tokens_per_step: Option<f64>,
-    /// Why episodes were broken off, and how many.
+    /// The number of aborted episodes by reason.
     pub broken_off: BTreeMap<String, u64>,
 }
 
-/// A row for each player: by win rate, then overall score, then in the order of the study.
+/// Returns a row for each player: by win rate, then overall score, then in the order of the study.
 pub(crate) fn leaderboard(study: &Study) -> Vec<LeaderRow> {
     let mut rows: Vec<LeaderRow> = (0..study.players.len()).map(|player| row(study, player)).collect();
     rows.sort_by(|a, b| {
@@ -66,7 +66,7 @@ fn row(study: &Study, player: usize) -> LeaderRow {
     LeaderRow { player, scores, by_game, choices, spending, tokens_per_step, broken_off }
 }
 
-/// The leaderboard, and the table of how choices came about.
+/// Returns the leaderboard and the table of the choices' origins.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let mut leaders = Table::new(
         "leaderboard",

@@ -1,4 +1,4 @@
-//! Heat maps as data: a number for each player on each game or level.
+//! Heat maps as data: a value for each player on each game or level.
 
 use crate::study::Study;
 use crate::study::player::{CONTEXTUAL, Player, ZERO_SHOT};
@@ -7,11 +7,11 @@ use crate::study::table::{Table, TableCell};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What a heat map shows.
+/// The value shown by a heat map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
-    /// Wins by episodes.
+    /// Wins divided by episodes.
     WinRate,
     /// The overall score.
     Overall,
@@ -26,7 +26,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// All.
+    /// All measures.
     pub const ALL: [Measure; 6] = [
         Measure::WinRate,
         Measure::Overall,
@@ -36,7 +36,7 @@ impl Measure {
         Measure::BumpRate,
     ];
 
-    /// Its name in headings.
+    /// The name in headings.
     pub fn title(self) -> &'static str {
         match self {
             Measure::WinRate => "Win rate",
@@ -48,7 +48,7 @@ impl Measure {
         }
     }
 
-    /// Its name in file names.
+    /// The name in file names.
     pub fn id(self) -> &'static str {
         match self {
             Measure::WinRate => "win-rate",
@@ -60,7 +60,7 @@ impl Measure {
         }
     }
 
-    /// Whether more is better; `None` where neither is.
+    /// Returns `true` if higher values are better, and `None` if neither direction is.
     pub fn higher_is_better(self) -> Option<bool> {
         match self {
             Measure::Steps => None,
@@ -69,12 +69,12 @@ impl Measure {
         }
     }
 
-    /// Whether it is a share, within 0..=1.
+    /// Returns `true` for a ratio within 0..=1.
     pub fn is_share(self) -> bool {
         self != Measure::Steps
     }
 
-    /// Its value among the numbers of some episodes.
+    /// Returns the value from the scores of a set of episodes.
     pub fn of(self, scores: &Scores) -> Option<f64> {
         match self {
             Measure::WinRate => scores.win_rate.map(|rate| rate.value),
@@ -87,7 +87,7 @@ impl Measure {
     }
 }
 
-/// Which players a heat map shows. Those that are no models are in all of them.
+/// The players shown by a heat map. Players that are not models are in all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scope {
@@ -95,15 +95,15 @@ pub enum Scope {
     ZeroShot,
     /// Models in contextual mode.
     Contextual,
-    /// Models, the episodes of both modes together.
+    /// Models, with the episodes of both modes pooled.
     Both,
 }
 
 impl Scope {
-    /// All.
+    /// All scopes.
     pub const ALL: [Scope; 3] = [Scope::ZeroShot, Scope::Contextual, Scope::Both];
 
-    /// Its name in headings and file names.
+    /// The name in headings and file names.
     pub fn id(self) -> &'static str {
         match self {
             Scope::ZeroShot => ZERO_SHOT,
@@ -112,7 +112,7 @@ impl Scope {
         }
     }
 
-    /// The row that a player belongs to, if it is shown at all.
+    /// Returns the label of a player's row, if the player is shown.
     fn row(self, player: &Player) -> Option<String> {
         match (self, player.mode.as_deref()) {
             (_, None) | (Scope::Both, _) => Some(player.short_label()),
@@ -122,45 +122,45 @@ impl Scope {
     }
 }
 
-/// Scores of all players on all games or levels, from which every heat map is read.
+/// The scores of all players on all games or levels: the data of every heat map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Matrix {
-    /// Whose episodes.
+    /// The players included.
     pub scope: Scope,
-    /// Its rows.
+    /// The rows.
     pub rows: Vec<MatrixRow>,
-    /// Its columns.
+    /// The columns.
     pub columns: Vec<MatrixColumn>,
-    /// Row-major: the numbers of a row's players on a column's levels; `None` if none was played.
+    /// The scores of a row's players on a column's levels, row-major; `None` if no episode was played.
     pub cells: Vec<Vec<Option<Scores>>>,
 }
 
 /// A row of a [`Matrix`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MatrixRow {
-    /// What it is called.
+    /// The label.
     pub label: String,
-    /// Whether it is no model but a mark to compare with.
+    /// `true` if it is not a model but a baseline.
     pub reference: bool,
-    /// Indices into the players of the study: two in [`Scope::Both`].
+    /// The indices into the players of the study: two in [`Scope::Both`].
     pub players: Vec<usize>,
 }
 
 /// A column of a [`Matrix`]: a level, or a game with all its levels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MatrixColumn {
-    /// What it is called.
+    /// The label.
     pub label: String,
-    /// Index into the games of the study.
+    /// The index into the games of the study.
     pub game: usize,
-    /// The level's number; none for all levels.
+    /// The level's number, or `None` for all levels.
     pub level: Option<usize>,
-    /// Ticks of the shortest win, where it is proved.
+    /// The ticks of the shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
 }
 
 impl Matrix {
-    /// The matrix of a scope, by levels or by games.
+    /// Builds the matrix of a scope, by levels or by games.
     pub(crate) fn of(study: &Study, scope: Scope, by_level: bool) -> Matrix {
         let rows = rows(study, scope);
         let mut columns = Vec::new();
@@ -186,20 +186,20 @@ impl Matrix {
         Matrix { scope, rows, columns, cells }
     }
 
-    /// The values of a measure, row-major.
+    /// Returns the values of a measure, row-major.
     pub fn values(&self, measure: Measure) -> Vec<Vec<Option<f64>>> {
         let value = |scores: &Option<Scores>| scores.as_ref().and_then(|scores| measure.of(scores));
         self.cells.iter().map(|row| row.iter().map(value).collect()).collect()
     }
 
-    /// A measure as a table, games or levels down and players across. `grain` is part of its file name.
+    /// Returns a measure as a table, with games or levels down and players across. `grain` is part of its file name.
     pub(crate) fn table(&self, measure: Measure, grain: &str) -> Table {
         let digits = if measure.is_share() { 2 } else { 1 };
         let id = format!("{}-by-{grain}-{}", measure.id(), self.scope.id());
         let title = format!("{} by {grain}, {}", measure.title(), self.scope.id());
         let note = if measure == Measure::WinRate { "With Wilson's 95 % interval." } else { "" };
         let names = self.rows.iter().map(|row| row.label.as_str());
-        // Beside the steps on a level stands how few can win it.
+        // Next to the steps on a level, the table shows the optimum.
         let with_optimum =
             measure == Measure::Steps && self.columns.iter().any(|column| column.level.is_some());
         let optimum = with_optimum.then_some("fewest to win (proved)");
@@ -221,7 +221,7 @@ impl Matrix {
     }
 }
 
-/// The rows of a scope, in the order of the study, models before references.
+/// Returns the rows of a scope in the order of the study, models before references.
 fn rows(study: &Study, scope: Scope) -> Vec<MatrixRow> {
     let mut rows: Vec<MatrixRow> = Vec::new();
     let mut places: BTreeMap<(bool, String), usize> = BTreeMap::new();

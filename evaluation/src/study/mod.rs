@@ -1,9 +1,9 @@
-//! A study: the results of several players read together, and every table of a report as plain data.
+//! A study: the combined results of several players, and every table of a report as plain data.
 //!
 //! ```
 //! use evaluation::study::{Player, Study};
 //!
-//! // Players with what was measured of their episodes; here nobody has played yet.
+//! // Players with the metrics of their episodes; here there are no episodes yet.
 //! let study = Study::new(vec![(Player::reference("random"), Vec::new())], Vec::new());
 //! assert_eq!(study.leaderboard.len(), 1);
 //! for table in study.tables() {
@@ -46,51 +46,51 @@ use crate::subject::Subject;
 use engine::Seed;
 use serde::Serialize;
 
-/// The level of all intervals.
+/// The confidence level of all intervals.
 const LEVEL: f64 = 0.95;
-/// Resamples of an interval that draws whole games again.
+/// The number of resamples of a bootstrap over whole games.
 const RESAMPLES: usize = 2000;
-/// Rows of a table of comparisons in a report; the data has all.
+/// The maximum number of rows of a comparison table in a report; the data has all.
 const MOST_COMPARISONS: usize = 100;
 
-/// The results of several players, and what follows from them. Indices named `player` and `game` lead into the first two lists.
+/// The results of several players and their analysis. Indices named `player` and `game` refer to the first two lists.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Study {
-    /// Who played, in the order in which their results were given.
+    /// The players, in the order in which their results were given.
     pub players: Vec<Player>,
-    /// What was played.
+    /// The games.
     pub games: Vec<StudyGame>,
-    /// All episodes, those that were broken off too: by player, game, level and run.
+    /// All episodes, including aborted ones: by player, game, level and run.
     pub episodes: Vec<StudyEpisode>,
-    /// What a reader has to know before comparing: different step limits, episodes that are missing.
+    /// The caveats for comparisons: different step limits, missing episodes.
     pub notes: Vec<String>,
-    /// Who wins how often; the best first.
+    /// The leaderboard; the best first.
     pub leaderboard: Vec<LeaderRow>,
-    /// Heat maps by game, one for each [`Scope`] in which there are models (for both, if there are none).
+    /// The heat maps by game, one for each [`Scope`] with models (for both, if there are none).
     pub by_game: Vec<Matrix>,
-    /// The same by level.
+    /// The heat maps by level.
     pub by_level: Vec<Matrix>,
-    /// Models with each other, and with players that are no models.
+    /// The comparisons of models with each other, and with players that are not models.
     pub pairs: Contrasts,
-    /// The same model zero-shot and contextual.
+    /// The comparisons of the same model zero-shot and contextual.
     pub modes: Contrasts,
-    /// The same model without and with an aid.
+    /// The comparisons of the same model without and with an aid.
     pub aids: Contrasts,
-    /// What goes with winning.
+    /// The correlations with winning.
     pub correlations: Correlations,
-    /// How won and lost episodes were walked.
+    /// The failure modes: the movement in won and lost episodes.
     pub failures: Vec<FailureMode>,
-    /// Where players go back and forth, the most first.
+    /// The levels on which players move back and forth, the most first.
     pub oscillations: Vec<OscillationRow>,
-    /// Every player game by game.
+    /// The results of every player by game.
     pub sweeps: Vec<Sweep>,
-    /// How hard games and levels are.
+    /// The difficulty of games and levels.
     pub difficulties: Vec<DifficultyRow>,
-    /// How long decisions take.
+    /// The duration of decisions.
     pub times: Vec<TimeRow>,
-    /// Results by kind of game.
+    /// The results by kind of game.
     pub taxonomy: Vec<TaxonomyRow>,
-    /// What so many episodes can show.
+    /// The statistical power of the episodes.
     pub power: Vec<PowerRow>,
 }
 
@@ -99,9 +99,9 @@ pub struct Study {
 pub struct StudyGame {
     /// The name of its folder.
     pub id: String,
-    /// Its title in its own fiction.
+    /// Its title in its own theme.
     pub title: String,
-    /// What kind of game it is, a sentence for each side.
+    /// The kind of game, a sentence for each side.
     pub taxonomy: Vec<String>,
     /// Its levels.
     pub levels: Vec<StudyLevel>,
@@ -112,7 +112,7 @@ pub struct StudyGame {
 pub struct StudyLevel {
     /// Its number.
     pub number: usize,
-    /// Ticks of its shortest win, where it is proved.
+    /// The ticks of its shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
 }
 
@@ -131,9 +131,9 @@ impl From<&Subject> for StudyGame {
 }
 
 impl Study {
-    /// The study of these players' episodes. A game of an episode that is not among `games` is added, by its id alone; so are
-    /// levels. Cost: O(episodes log episodes), a Fisher test for each pair of
-    /// players and level, and 2000 resamples for each pair.
+    /// Builds a study from the episodes of players. A game of an episode that is not among `games` is added with its id
+    /// only; so are levels. Cost: O(episodes log episodes), a Fisher test for each pair of players and level, and 2000
+    /// resamples for each pair.
     pub fn new(results: Vec<(Player, Vec<EpisodeMetrics>)>, games: Vec<StudyGame>) -> Study {
         let mut study = Study {
             players: Vec::new(),
@@ -199,7 +199,7 @@ impl Study {
         self.episodes.push(StudyEpisode { player, game, normalised_reward: None, most_steps: 0, metrics });
     }
 
-    /// Notes what a reader has to know.
+    /// Collects the notes.
     fn note(&mut self) {
         let mut limits: Vec<u64> = self.episodes.iter().map(|episode| episode.metrics.max_steps).collect();
         limits.sort_unstable();
@@ -220,7 +220,7 @@ impl Study {
         }
     }
 
-    /// The scopes in which there are models; all together, if there are none.
+    /// Returns the scopes with models, or all together if there are none.
     fn scopes(&self) -> Vec<Scope> {
         let has = |mode: &str| self.players.iter().any(|player| player.mode.as_deref() == Some(mode));
         let scopes = Scope::ALL.into_iter().filter(|scope| match scope {
@@ -231,7 +231,7 @@ impl Study {
         scopes.collect()
     }
 
-    /// The episodes of a player; on a game, if one is given, and on one of its levels. Cost: O(log episodes).
+    /// Returns the episodes of a player; only on a game or a level if one is given. Cost: O(log episodes).
     pub fn on(&self, player: usize, game: Option<usize>, level: Option<usize>) -> &[StudyEpisode] {
         let first = (player, game.unwrap_or(0), level.unwrap_or(0));
         let last = (player, game.unwrap_or(usize::MAX), level.unwrap_or(usize::MAX));
@@ -240,20 +240,20 @@ impl Study {
         &self.episodes[from..to]
     }
 
-    /// The ended episodes of models; of all players, if there is no model.
+    /// Returns the ended episodes of models, or of all players if there is no model.
     pub fn tested(&self) -> impl Iterator<Item = &StudyEpisode> + '_ {
         let models = self.players.iter().any(|player| !player.is_reference());
         let is_tested = move |player: usize| !models || !self.players[player].is_reference();
         self.episodes.iter().filter(move |episode| is_tested(episode.player) && episode.metrics.counts())
     }
 
-    /// What a game or a level is called: `aliens`, `aliens-0`.
+    /// Returns the name of a game or a level: `aliens`, `aliens-0`.
     pub fn place(&self, game: usize, level: Option<usize>) -> String {
         let id = &self.games[game].id;
         level.map_or_else(|| id.clone(), |level| format!("{id}-{level}"))
     }
 
-    /// All tables of a report, in its order.
+    /// Returns all tables of a report in order.
     pub fn tables(&self) -> Vec<Table> {
         let mut tables = leaderboard::tables(self);
         for (matrices, grain) in [(&self.by_game, "game"), (&self.by_level, "level")] {
@@ -275,12 +275,12 @@ impl Study {
     }
 }
 
-/// Player, game and level: the order of episodes.
+/// Returns player, game and level, the sort key of episodes.
 fn place(episode: &StudyEpisode) -> (usize, usize, usize) {
     (episode.player, episode.game, episode.metrics.level)
 }
 
-/// The draws for an interval: the same for the same study.
+/// Returns the seed of an interval's resamples: the same study always gets the same.
 fn seed(purpose: &str, index: usize) -> [u8; 32] {
     *Seed::from_text("intervals of a study").child(purpose, index as u64).as_bytes()
 }

@@ -1,16 +1,16 @@
-//! Who is compared.
+//! The players of a study.
 
 use crate::run::Entrant;
 use serde::Serialize;
 
-/// A player of a study: equal ones in several results folders are one.
+/// A player of a study. Equal players in several results folders are one.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Player {
-    /// What tables call it.
+    /// The name in tables.
     pub name: String,
-    /// `zero-shot` or `contextual`; none for players that are no models.
+    /// `zero-shot` or `contextual`; `None` for players that are not models.
     pub mode: Option<String>,
-    /// What it is shown beyond or short of the default, a flag each, sorted.
+    /// The differences of its prompts from the default, a flag each, sorted.
     pub aids: Vec<String>,
 }
 
@@ -20,22 +20,22 @@ pub const ZERO_SHOT: &str = "zero-shot";
 pub const CONTEXTUAL: &str = "contextual";
 
 impl Player {
-    /// A player that is no model.
+    /// Creates a player that is not a model.
     pub fn reference(name: &str) -> Player {
         Player { name: name.to_owned(), mode: None, aids: Vec::new() }
     }
 
-    /// A model in a mode, without aids.
+    /// Creates a model in a mode, without aids.
     pub fn model(name: &str, mode: &str) -> Player {
         Player { mode: Some(mode.to_owned()), ..Player::reference(name) }
     }
 
-    /// Whether it is no model but a mark to compare with: random, a planner, a replay.
+    /// Returns `true` if it is not a model but a baseline: random, a planner, a replay.
     pub fn is_reference(&self) -> bool {
         self.mode.is_none()
     }
 
-    /// The name with mode and aids: no two players of a study have the same.
+    /// Returns the name with mode and aids, which is unique within a study.
     ///
     /// ```
     /// use evaluation::study::{CONTEXTUAL, Player};
@@ -47,7 +47,7 @@ impl Player {
         if notes.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, notes.join(", ")) }
     }
 
-    /// The name with aids, for tables in which the mode is said.
+    /// Returns the name with aids, for tables that already show the mode.
     pub fn short_label(&self) -> String {
         Player { mode: None, ..self.clone() }.label()
     }

@@ -1,27 +1,28 @@
-//! What a number of episodes can show: before the run for what is planned, afterwards for what was played.
+//! The statistical power of a number of episodes: planned before the run, or played.
 
 use crate::study::Study;
 use crate::study::table::{Table, TableCell};
 use serde::Serialize;
 use statistics::Power;
 
-/// What two players can be told apart by, at 5 % and in 80 of 100 evaluations.
+/// The smallest differences between two players that are detected at a level of 5 % with a power of 80 %.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PowerRow {
-    /// On a level, on a game, on all games.
+    /// The unit: a level, a game, or all games.
     pub grain: String,
-    /// Episodes of each player.
+    /// The number of episodes of each player.
     pub episodes: u64,
-    /// The least Cohen's h that shows; above π, nothing does.
+    /// The smallest Cohen's h that is detected; above π, none is.
     pub h: f64,
-    /// The least win rate that is told from 0.1.
+    /// The smallest win rate that is distinguished from 0.1.
     pub from_tenth: Option<f64>,
-    /// The least win rate that is told from 0.5.
+    /// The smallest win rate that is distinguished from 0.5.
     pub from_half: Option<f64>,
 }
 
-/// What so many episodes of each player on a level show, with so many levels in all and on a game. Episodes are taken for
-/// independent, and nothing is corrected for: a study of many comparisons shows less.
+/// Computes the power of `runs` episodes of each player on a level, with `levels_of_game` levels per game and `levels` in
+/// all. Episodes are treated as independent, without a correction for multiple comparisons, so that a study of many
+/// comparisons detects less.
 ///
 /// ```
 /// let rows = evaluation::study::power(5, 5, 30);
@@ -40,7 +41,7 @@ pub fn power(runs: u64, levels_of_game: u64, levels: u64) -> Vec<PowerRow> {
     grains.filter(|(_, episodes)| *episodes > 0).map(row).collect()
 }
 
-/// What the episodes of a study show: those of the player with the fewest.
+/// Computes the power of the episodes of a study: those of the player with the fewest.
 pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
     let fewest = |counts: &dyn Fn(usize) -> Vec<u64>| {
         (0..study.players.len()).flat_map(counts).filter(|count| *count > 0).min().unwrap_or(0)
@@ -65,7 +66,7 @@ pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
     counts.into_iter().filter_map(row).collect()
 }
 
-/// As a table.
+/// Returns the rows as a table.
 pub fn table(rows: &[PowerRow]) -> Table {
     let mut table = Table::new(
         "power",

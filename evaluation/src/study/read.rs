@@ -1,4 +1,4 @@
-//! A study from results folders.
+//! Reading a study from results folders.
 
 use crate::error::EvaluationError;
 use crate::log::Event;
@@ -11,17 +11,17 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Logs of episodes, each with what it was played on.
+/// The logs of episodes, each with its game.
 pub type PlayedLogs<'a> = Vec<(&'a Subject, Vec<Event>)>;
 
 impl Study {
-    /// The study of these results folders: every episode is played again from its log. Folders of the same player (name, mode and
-    /// aids) are put together. Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current
-    /// rayon pool.
+    /// Reads a study from results folders. Every episode is replayed from its log. Folders of the same player (name, mode
+    /// and aids) are merged. Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the
+    /// current rayon pool.
     ///
     /// # Errors
-    /// A folder or log cannot be read, an episode leads elsewhere than recorded, two folders hold the same episode of the same
-    /// player, or different games or levels under the same name.
+    /// A folder or log cannot be read, a replay differs from its log, two folders hold the same episode of the same player,
+    /// or the same name stands for different games or levels.
     pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
         let mut results: Vec<(Player, Vec<EpisodeMetrics>)> = Vec::new();
         let mut names = Names::default();
@@ -33,7 +33,7 @@ impl Study {
             seeds.insert(evaluation.settings.seed.clone());
             let tasks = evaluation.tasks();
             evaluation.check_logs(&tasks)?;
-            // Of episodes that are only asked for, nothing is kept.
+            // Nothing is kept of episodes that were not started.
             let measured = tasks.par_iter().filter_map(|task| measured(&evaluation, task).transpose());
             let measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
             let open = tasks.len() - measured.len();
@@ -58,10 +58,10 @@ impl Study {
         Ok(study)
     }
 
-    /// The study of episodes in memory: each player with its logs and what they were played on.
+    /// Builds a study from episodes in memory: each player with its logs and their games.
     ///
     /// # Errors
-    /// An episode leads elsewhere than recorded.
+    /// A replay differs from its log.
     pub fn of_logs(results: Vec<(Player, PlayedLogs<'_>)>) -> Result<Study, EvaluationError> {
         let mut games: Vec<StudyGame> = Vec::new();
         let mut measured = Vec::new();
@@ -83,7 +83,7 @@ impl Study {
     }
 }
 
-/// What names stand for in the folders so far.
+/// The games and levels by name in the folders so far.
 #[derive(Default)]
 struct Names {
     games: Vec<(StudyGame, Digest, BTreeMap<usize, Digest>)>,
@@ -91,7 +91,7 @@ struct Names {
 }
 
 impl Names {
-    /// Takes up the game of a folder.
+    /// Adds the game of a folder.
     fn add(&mut self, subject: &Subject, folder: &Path) -> Result<(), EvaluationError> {
         let levels = subject.levels.iter().map(|level| (level.number, level.level.digest()));
         let Some((game, digest, known)) = self.games.iter_mut().find(|(game, ..)| game.id == subject.id)
@@ -124,7 +124,7 @@ impl Names {
         Ok(())
     }
 
-    /// Makes sure that nobody else has brought these episodes.
+    /// Checks that no other folder has these episodes.
     fn claim<'a>(
         &mut self,
         player: &Player,
@@ -149,7 +149,7 @@ impl Names {
         self.games.iter().map(|(game, ..)| game.clone()).collect()
     }
 
-    /// A note, if not every player has played every episode.
+    /// Returns a note if not every player has played every episode.
     fn unpaired(&self) -> Option<String> {
         let mut counts: BTreeMap<(&str, usize, u64), usize> = BTreeMap::new();
         let mut players: Vec<&Player> = Vec::new();
@@ -167,7 +167,7 @@ impl Names {
     }
 }
 
-/// The metrics of an episode; none if it was not begun.
+/// Returns the metrics of an episode, or `None` if it was not started.
 fn measured(evaluation: &Evaluation, task: &Task<'_>) -> Result<Option<EpisodeMetrics>, EvaluationError> {
     let log = evaluation.events(task)?;
     if log.is_empty() {

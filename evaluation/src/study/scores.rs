@@ -1,4 +1,4 @@
-//! The numbers of a set of episodes: of a player on a level, on a game, or on all.
+//! The scores of a set of episodes: of a player on a level, on a game, or on all.
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::table::TableCell;
@@ -6,29 +6,29 @@ use serde::Serialize;
 use statistics::{Interval, Z95, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A number with a 95 % interval.
+/// A number with a 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The number.
     pub value: f64,
-    /// The lower end.
+    /// The lower bound.
     pub low: f64,
-    /// The upper end.
+    /// The upper bound.
     pub high: f64,
 }
 
 impl Estimate {
-    /// A number and its interval.
+    /// Creates an estimate from a number and its interval.
     pub fn new(value: f64, Interval { low, high }: Interval) -> Estimate {
         Estimate { value, low, high }
     }
 
-    /// A win rate with its Wilson interval; `None` without trials.
+    /// Returns a win rate with its Wilson interval; `None` without trials.
     pub fn rate(wins: u64, trials: u64) -> Option<Estimate> {
         (trials > 0).then(|| Estimate::new(wins as f64 / trials as f64, wilson(wins, trials, Z95)))
     }
 
-    /// As a cell of a table.
+    /// Returns a table cell.
     pub fn cell(estimate: Option<Estimate>, digits: usize) -> TableCell {
         let cell = |Estimate { value, low, high }| TableCell::Interval { value, low, high, digits };
         estimate.map_or(TableCell::Missing, cell)
@@ -38,59 +38,60 @@ impl Estimate {
 /// An episode of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudyEpisode {
-    /// Who played: index into the players of the study.
+    /// The player: index into the players of the study.
     pub player: usize,
-    /// What was played: index into the games of the study.
+    /// The game: index into the games of the study.
     pub game: usize,
-    /// The score between the lowest and the highest of all players on this level: `(r − min) / (max − min + 1e-8)`. Missing where
-    /// these are equal.
+    /// The score relative to the range of all players on this level: `(r − min) / (max − min + 1e-8)`. Missing if the range
+    /// is empty or the episode was aborted.
     pub normalised_reward: Option<f64>,
-    /// The most steps of all episodes on this level, of all players.
+    /// The largest number of steps of all episodes on this level, of all players.
     pub most_steps: u64,
-    /// What was measured.
+    /// The metrics.
     #[serde(flatten)]
     pub metrics: EpisodeMetrics,
 }
 
-/// The numbers of a set of episodes. Means are over the episodes for which the number is known; episodes that were broken off
-/// count in `excluded` alone.
+/// The scores of a set of episodes. Means are over the episodes with a known value; aborted episodes count only in
+/// `excluded`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scores {
-    /// Episodes that ended.
+    /// The number of episodes that ended.
     pub episodes: u64,
-    /// Episodes that were broken off or are not finished.
+    /// The number of episodes that were aborted or are not finished.
     pub excluded: u64,
-    /// Won.
+    /// The number of wins.
     pub wins: u64,
-    /// Ended by the limit of steps.
+    /// The number of episodes ended by the step limit.
     pub timeouts: u64,
-    /// Wins by episodes, with Wilson's interval.
+    /// Wins divided by episodes, with Wilson's interval.
     pub win_rate: Option<Estimate>,
-    /// Mean meaningful step ratio.
+    /// The mean meaningful step ratio.
     pub meaningful: Option<f64>,
-    /// Mean meaningful step ratio by the reference's code.
+    /// The mean meaningful step ratio by the reference's code.
     pub meaningful_as_code: Option<f64>,
-    /// Mean steps.
+    /// The mean number of steps.
     pub steps: Option<f64>,
-    /// Mean score.
+    /// The mean score.
     pub score: Option<f64>,
-    /// Mean normalised reward.
+    /// The mean normalised reward.
     pub normalised_reward: Option<f64>,
-    /// Mean of `1 − steps / limit`.
+    /// The mean of `1 − steps / limit`.
     pub spared: Option<f64>,
-    /// The overall score of the paper: the mean of meaningful step ratio, spared steps, normalised reward and win rate. Missing if
-    /// one of the four is.
+    /// The overall score of the paper: the mean of meaningful step ratio, spared steps, normalised reward and win rate.
+    /// Missing if one of the four is.
     pub overall: Option<f64>,
-    /// Step efficiency: `1 − mean steps of wins / most steps of any episode` on a level, the mean over the levels that were won.
+    /// The step efficiency: `1 − mean steps of wins / most steps of any episode` on a level, averaged over the levels that
+    /// were won.
     pub efficiency: Option<f64>,
-    /// Mean over the wins of `optimal ticks / steps`, where the optimum is proved.
+    /// The mean of `optimal ticks / steps` over the wins with a proved optimum.
     pub optimality: Option<f64>,
-    /// Mean bump rate.
+    /// The mean bump rate.
     pub bump_rate: Option<f64>,
 }
 
 impl Scores {
-    /// The numbers of these episodes. Cost: O(episodes log episodes).
+    /// Computes the scores of these episodes. Cost: O(episodes log episodes).
     pub fn of<'a>(episodes: impl IntoIterator<Item = &'a StudyEpisode>) -> Scores {
         let all: Vec<&StudyEpisode> = episodes.into_iter().collect();
         let ended: Vec<&StudyEpisode> =
@@ -127,7 +128,7 @@ impl Scores {
     }
 }
 
-/// The step efficiency of each level that was won; their mean.
+/// Returns the mean of the step efficiencies of all levels that were won.
 fn efficiency(ended: &[&StudyEpisode]) -> Option<f64> {
     let mut levels: BTreeMap<(usize, usize), (Vec<f64>, u64)> = BTreeMap::new();
     for episode in ended.iter().filter(|episode| episode.metrics.won()) {
@@ -139,19 +140,19 @@ fn efficiency(ended: &[&StudyEpisode]) -> Option<f64> {
     mean(levels.filter_map(|(steps, most)| Some(1.0 - mean(steps)? / most as f64)))
 }
 
-/// The arithmetic mean; `None` of nothing.
+/// Returns the arithmetic mean; `None` for no values.
 pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     statistics::Summary::of(&values.into_iter().collect::<Vec<f64>>()).map(|summary| summary.mean)
 }
 
-/// Levels of these episodes, by game and number.
+/// Returns the levels of these episodes, by game and number.
 pub(crate) fn levels_of<'a>(
     episodes: impl IntoIterator<Item = &'a StudyEpisode>,
 ) -> BTreeSet<(usize, usize)> {
     episodes.into_iter().map(|episode| (episode.game, episode.metrics.level)).collect()
 }
 
-/// Puts normalised rewards and most steps into the episodes.
+/// Fills in normalised rewards and maximum steps.
 pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
     let mut ranges: BTreeMap<(usize, usize), (f64, f64, u64)> = BTreeMap::new();
     for episode in episodes.iter().filter(|episode| episode.metrics.counts()) {
@@ -164,7 +165,7 @@ pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
             continue;
         };
         let score = episode.metrics.score;
-        // What keeps the paper's quotient from dividing by 0; where it would, nothing is known here.
+        // The small term keeps the paper's quotient from dividing by 0; in that case the value is missing here.
         let reward = (score - least) / (most - least + 1e-8);
         episode.normalised_reward = (most > least && episode.metrics.counts()).then_some(reward);
         episode.most_steps = steps;

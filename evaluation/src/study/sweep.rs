@@ -1,35 +1,35 @@
-//! A player game by game, and what it comes to: the sweep of the paper (`spec/06` §4 and §5.2).
+//! The results of a player by game, and their totals: the sweep of the paper (`spec/06` §4 and §5.2).
 
 use crate::study::Study;
 use crate::study::scores::{Estimate, Scores, levels_of};
 use crate::study::table::{Table, TableCell};
 use serde::Serialize;
 
-/// A player's games.
+/// The results of a player by game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sweep {
-    /// Index into the players of the study.
+    /// The index into the players of the study.
     pub player: usize,
-    /// A row for each game that it played, in the order of the study.
+    /// A row for each game played, in the order of the study.
     pub games: Vec<SweepRow>,
-    /// Its numbers over all.
+    /// The scores over all games.
     pub total: Scores,
-    /// Levels that it played.
+    /// The number of levels played.
     pub levels: u64,
-    /// Of these, levels that it never won.
+    /// The number of levels among them that were never won.
     pub zero_win_levels: u64,
 }
 
-/// A player on a game.
+/// The results of a player on a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SweepRow {
-    /// Index into the games of the study.
+    /// The index into the games of the study.
     pub game: usize,
-    /// Its numbers over all levels.
+    /// The scores over all levels.
     pub scores: Scores,
-    /// Levels that it played.
+    /// The number of levels played.
     pub levels: u64,
-    /// Of these, levels that it never won.
+    /// The number of levels among them that were never won.
     pub zero_win_levels: u64,
 }
 
@@ -85,7 +85,7 @@ fn row(player: &str, game: &str, scores: &Scores, levels: u64, zero_win_levels: 
     ]
 }
 
-/// The table of all games, and its summary.
+/// Returns the table of all games and its summary.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / most steps of anybody's episode on the \
                 level, over the levels that were won.";

@@ -1,20 +1,20 @@
-//! A table of a report, and how it is written as Markdown, CSV and LaTeX.
+//! A table of a report, and its output as Markdown, CSV and LaTeX.
 
 use serde::Serialize;
 use std::fmt::Write;
 
-/// A table: every row has as many cells as there are columns.
+/// A table. Every row has as many cells as there are columns.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
-    /// What its file is called, without extension; letters, digits and hyphens.
+    /// The file name without extension: letters, digits and hyphens.
     pub id: String,
-    /// What it is called.
+    /// The title.
     pub title: String,
-    /// What a reader has to know of it: units, what is missing and why.
+    /// The notes for the reader: units, missing values and their reasons.
     pub note: String,
-    /// What its columns are called.
+    /// The column headings.
     pub columns: Vec<String>,
-    /// Its rows.
+    /// The rows.
     pub rows: Vec<Vec<TableCell>>,
 }
 
@@ -22,56 +22,56 @@ pub struct Table {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TableCell {
-    /// Nothing is known.
+    /// An unknown value.
     Missing,
-    /// Words.
+    /// A text.
     Text(String),
-    /// A number of things.
+    /// A count.
     Count(u64),
-    /// A number, of which so many decimals are printed.
+    /// A number and the decimals to print.
     Number {
         /// The number.
         value: f64,
-        /// Decimals.
+        /// The number of decimals.
         digits: usize,
     },
-    /// A number with the interval that it lies in.
+    /// A number with its confidence interval.
     Interval {
         /// The number.
         value: f64,
-        /// The lower end.
+        /// The lower bound.
         low: f64,
-        /// The upper end.
+        /// The upper bound.
         high: f64,
-        /// Decimals.
+        /// The number of decimals.
         digits: usize,
     },
-    /// A p-value or its like: two significant digits.
+    /// A p-value or another probability, printed with two significant digits.
     Probability(f64),
 }
 
 impl TableCell {
-    /// Words.
+    /// Creates a text cell.
     pub fn text(text: impl Into<String>) -> TableCell {
         TableCell::Text(text.into())
     }
 
-    /// A number with its decimals, if it is known.
+    /// Creates a number cell with decimals, or a missing one.
     pub fn number(value: impl Into<Option<f64>>, digits: usize) -> TableCell {
         value.into().map_or(TableCell::Missing, |value| TableCell::Number { value, digits })
     }
 
-    /// A count, if it is known.
+    /// Creates a count cell, or a missing one.
     pub fn count(count: impl Into<Option<u64>>) -> TableCell {
         count.into().map_or(TableCell::Missing, TableCell::Count)
     }
 
-    /// A probability, if it is known.
+    /// Creates a probability cell, or a missing one.
     pub fn probability(p: impl Into<Option<f64>>) -> TableCell {
         p.into().map_or(TableCell::Missing, TableCell::Probability)
     }
 
-    /// As people read it.
+    /// Formats the cell for people.
     pub fn plain(&self) -> String {
         match self {
             TableCell::Missing => "–".to_owned(),
@@ -93,7 +93,7 @@ impl TableCell {
     }
 }
 
-/// With so many decimals, and no sign before 0.
+/// Formats a number with `digits` decimals, without a sign before 0.
 fn rounded(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     match text.strip_prefix('-') {
@@ -103,7 +103,7 @@ fn rounded(value: f64, digits: usize) -> String {
 }
 
 impl Table {
-    /// A table without rows.
+    /// Creates a table without rows.
     pub fn new(id: &str, title: &str, note: &str, columns: &[&str]) -> Table {
         let columns = columns.iter().map(|&column| column.to_owned()).collect();
         Table { id: id.to_owned(), title: title.to_owned(), note: note.to_owned(), columns, rows: Vec::new() }
@@ -112,18 +112,18 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// If it has not as many cells as there are columns.
+    /// If the number of cells differs from the number of columns.
     pub fn push(&mut self, row: Vec<TableCell>) {
         assert_eq!(row.len(), self.columns.len(), "a row of {} has other columns", self.id);
         self.rows.push(row);
     }
 
-    /// Whether a column holds words, and is set to the left.
+    /// Returns `true` if a column holds text, which is left-aligned.
     fn is_words(&self, column: usize) -> bool {
         self.rows.iter().any(|row| row[column].is_words())
     }
 
-    /// As Markdown, with its title as a heading and the note below.
+    /// Formats the table as Markdown, with its title as a heading and the note below.
     ///
     /// ```
     /// use evaluation::study::{Table, TableCell};
@@ -150,8 +150,8 @@ impl Table {
         text
     }
 
-    /// As CSV: numbers in full, nothing where nothing is known, three columns for an interval. Words that a spreadsheet would take for
-    /// a formula have an apostrophe before them.
+    /// Formats the table as CSV: numbers with all digits, empty fields for unknown values, three columns for an interval.
+    /// Text that a spreadsheet would interpret as a formula gets a leading apostrophe.
     ///
     /// ```
     /// use evaluation::study::{Table, TableCell};
@@ -193,7 +193,7 @@ impl Table {
         String::from_utf8(bytes).expect("what was written is text")
     }
 
-    /// As a LaTeX `table` that needs no package.
+    /// Formats the table as a LaTeX `table` that needs no package.
     pub fn to_latex(&self) -> String {
         let columns: String =
             (0..self.columns.len()).map(|column| if self.is_words(column) { 'l' } else { 'r' }).collect();
@@ -214,7 +214,7 @@ impl Table {
     }
 }
 
-/// Text for Markdown, on one line: what would be taken for markup, HTML, a link or the end of a cell is escaped.
+/// Escapes text for Markdown, on one line: characters that could be read as markup, HTML, a link or the end of a cell.
 ///
 /// ```
 /// use evaluation::study::in_markdown;
@@ -231,7 +231,7 @@ pub fn in_markdown(text: &str) -> String {
             '>' => out += "&gt;",
             '&' if after.is_ascii_alphabetic() || after == '#' => out += "&amp;",
             '\\' | '`' | '*' | '[' | ']' | '|' | '~' => out.extend(['\\', character]),
-            // Within a word it is no markup.
+            // It is not markup within a word.
             '_' if !(before.is_alphanumeric() && after.is_alphanumeric()) => out += "\\_",
             _ if character.is_control() => out.push(' '),
             _ => out.push(character),
@@ -241,14 +241,14 @@ pub fn in_markdown(text: &str) -> String {
     out
 }
 
-/// Words for a field of CSV: what begins as a formula does has an apostrophe before it, so that a spreadsheet takes it for words
-/// (OWASP, *CSV Injection*).
+/// Prepares text for a field of CSV: a leading apostrophe keeps a spreadsheet from interpreting it as a formula (OWASP, *CSV
+/// Injection*).
 fn in_csv(text: &str) -> String {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
     if is_formula { format!("'{text}") } else { text.to_owned() }
 }
 
-/// Text with what LaTeX would take for commands escaped.
+/// Escapes the special characters of LaTeX.
 fn latex(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {
@@ -260,7 +260,7 @@ fn latex(text: &str) -> String {
                 out.push('\\');
                 out.push(character);
             }
-            // A row that begins with a bracket would be read as an option of the line above.
+            // At the start of a row, a bracket would be read as an option of the line above.
             '[' => out += "{[}",
             ']' => out += "{]}",
             '<' => out += "\\textless{}",

@@ -5,20 +5,20 @@ use crate::study::scores::{Estimate, Scores};
 use crate::study::table::{Table, TableCell};
 use serde::Serialize;
 
-/// A player on all games of a kind.
+/// The results of a player on all games of a kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TaxonomyRow {
     /// The kind: a sentence of the taxonomy.
     pub kind: String,
-    /// Index into the players of the study.
+    /// The index into the players of the study.
     pub player: usize,
-    /// Games of the kind that it played.
+    /// The number of games of the kind that it played.
     pub games: u64,
-    /// Its numbers on them.
+    /// The scores on them.
     pub scores: Scores,
 }
 
-/// A row for each kind and player, kinds in the order in which the games bring them up. A game is of several kinds.
+/// Returns a row for each kind and player, with kinds in the order of their first game. A game has several kinds.
 pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
     let mut kinds: Vec<&String> = Vec::new();
     for kind in study.games.iter().flat_map(|game| &game.taxonomy) {

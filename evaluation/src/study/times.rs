@@ -1,24 +1,24 @@
-//! How long decisions take.
+//! The duration of decisions.
 
 use crate::study::Study;
 use crate::study::table::{Table, TableCell};
 use serde::Serialize;
 use statistics::quantile;
 
-/// The decisions of a player, those of broken-off episodes too.
+/// The decisions of a player, including those of aborted episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeRow {
-    /// Index into the players of the study.
+    /// The index into the players of the study.
     pub player: usize,
-    /// Decisions.
+    /// The number of decisions.
     pub decisions: u64,
-    /// Half of the decisions took at most this long, ms.
+    /// The median duration of a decision, ms.
     pub median_ms: Option<f64>,
-    /// Nine of ten took at most this long, ms.
+    /// The 90th percentile of the duration, ms.
     pub p90_ms: Option<f64>,
-    /// Half of the decisions spent at most so many forward-model calls, of players that make any.
+    /// The median number of forward-model calls per decision, for players that make any.
     pub median_calls: Option<f64>,
-    /// Nine of ten spent at most so many.
+    /// The 90th percentile of the forward-model calls.
     pub p90_calls: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Boards, legends and pictures that models are shown.
+//! Boards, legends and pictures for models.
 
 use crate::walk::{Walk, corpus, game, public_games};
 use engine::{Action, Observation};
@@ -7,7 +7,7 @@ use evaluation::prompt::{PromptSettings, Prompter};
 use evaluation::{Subject, SubjectFacts, encoding};
 use std::collections::BTreeMap;
 
-/// Names by symbol, for the reader of a board; none for an empty cell.
+/// Returns the names by symbol, without floors.
 fn by_symbol(legend: &Legend) -> BTreeMap<char, &str> {
     let told = legend.entries().iter().filter(|entry| entry.standing != Standing::Floor);
     told.map(|entry| (entry.symbol, entry.name.as_str())).collect()
@@ -29,7 +29,7 @@ fn legends_have_a_character_for_each_thing() {
     }
 }
 
-/// What a reader makes of the grid and the lines on piles: the names in each cell, from the lowest to the uppermost.
+/// Reads the grid and the lines on piles: the names in each cell, from the lowest to the uppermost.
 fn read_back(seen: &Observation, legend: &Legend) -> Vec<Vec<String>> {
     let names = by_symbol(legend);
     let grid = encoding::grid(seen, legend);
@@ -47,7 +47,7 @@ fn read_back(seen: &Observation, legend: &Legend) -> Vec<Vec<String>> {
     cells
 }
 
-/// All that is no floor is told, and the avatar where it is.
+/// Checks that everything except floors is shown, and the avatar at its position.
 fn tells_everything(subject: &Subject, legend: &Legend, seen: &Observation) {
     let id = &subject.id;
     let own = |name: &str| seen.avatar.as_ref().is_some_and(|avatar| avatar.name == name);
@@ -56,14 +56,14 @@ fn tells_everything(subject: &Subject, legend: &Legend, seen: &Observation) {
         let is_here = seen.avatar.as_ref().is_some_and(|avatar| (avatar.column, avatar.row) == place);
         let entry =
             |name: &String| legend.entry(name).unwrap_or_else(|| panic!("{id}: {name} is not in the legend"));
-        // What is in the observation and drawn nowhere (`invisible=`) is shown to nobody.
+        // Sprites in the observation that are never drawn (`invisible=`) are not shown.
         let game = &subject.game;
         let seen =
             |name: &str| !game.sprite_type(name).is_some_and(|stype| subject.analysis.facts(stype).hidden);
         let others =
             all.iter().filter(|name| !own(name) && seen(name) && entry(name).standing != Standing::Floor);
         let others: Vec<&str> = others.map(String::as_str).collect();
-        // All states of the avatar are one to the reader of a board.
+        // All states of the avatar look the same to the reader of a board.
         let (below, top) = if is_here { read.split_at(read.len() - 1) } else { (&read[..], &[][..]) };
         assert!(
             top.iter().all(|name| entry(name).standing == Standing::Avatar),
@@ -90,7 +90,7 @@ fn boards_read_back_tell_everything() {
     }
 }
 
-/// Games that nobody wrote with prompts in mind: the same holds, and every prompt can be written.
+/// Games written without prompts in mind: the same holds, and every prompt can be written.
 #[test]
 fn public_games_are_told() {
     for subject in public_games() {
@@ -116,7 +116,7 @@ fn public_games_are_told() {
     }
 }
 
-/// A player who becomes another one by taking a key, and then can shoot.
+/// An avatar that becomes another one by taking a key, and then can shoot.
 const KNIGHT: &str = "BasicGame
   SpriteSet
     moss > Immovable

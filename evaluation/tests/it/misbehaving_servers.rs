@@ -1,4 +1,4 @@
-//! Servers that misbehave in every way: each way has its class, no answer is lost, and nothing is charged twice.
+//! Servers that misbehave in every way: each failure is classified, no answer is lost, and nothing is charged twice.
 
 use crate::server::{Act, Dial, Server};
 use evaluation::client::{
@@ -10,7 +10,7 @@ use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A key as servers could repeat it.
+/// A key as a server could repeat it.
 const KEY: &str = "sk-zebra-0123456789abcdef";
 
 fn request(text: &str) -> ChatRequest {
@@ -22,7 +22,7 @@ fn request(text: &str) -> ChatRequest {
     }
 }
 
-/// A model behind a server, with a key, three tries and a clock of its own.
+/// Connects to a model on a server, with a key, three tries and a fake clock.
 fn connect(server: &Server, change: impl FnOnce(&mut ModelOptions)) -> (Connection, Arc<Dial>) {
     let mut options = ModelOptions::new("some-model");
     options.base_url = Some(server.base_url());
@@ -36,7 +36,7 @@ fn connect(server: &Server, change: impl FnOnce(&mut ModelOptions)) -> (Connecti
     (connection, clock)
 }
 
-/// What a server does that may pass: a name, the deed, the status of the failure and words of it.
+/// Transient failures: a name, the server's action, and the status and a part of the message of the failure.
 fn passing() -> Vec<(&'static str, Act, Option<u16>, &'static str)> {
     let error = |message: &str| json!({ "error": { "message": message } }).to_string();
     let later = httpdate::fmt_http_date(Dial::begin() + Duration::from_secs(40));
@@ -257,7 +257,7 @@ fn many_threads_share_limits_and_servers() {
         0 => Act::reply(503, ""),
         3 => Act::Cut(Vec::new()),
         _ => {
-            // Requests that could overlap do.
+            // Gives requests time to overlap.
             std::thread::sleep(Duration::from_millis(2));
             Act::completion("up")
         }

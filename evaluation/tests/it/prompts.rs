@@ -1,7 +1,7 @@
-//! What models are shown of the corpus games.
+//! The prompts of the corpus games.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it prompts` writes the files of `golden/` anew; their diff is to be read
-//! like code. A changed word asks for another [`evaluation::prompt::VERSION`].
+//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it prompts` rewrites the files of `golden/`. Review their diff like
+//! code. A changed word requires a new [`evaluation::prompt::VERSION`].
 
 use crate::walk::{Walk, corpus, game};
 use engine::{Action, Digest, Game};
@@ -26,7 +26,7 @@ fn text(messages: &[ChatMessage]) -> String {
     messages.iter().map(one).collect::<Vec<_>>().join("\n")
 }
 
-/// Compares with a file of `golden/`, or writes it.
+/// Compares a text with a file of `golden/`, or writes the file.
 fn golden(name: &str, got: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
     if std::env::var_os("BLESS").is_some() {
@@ -55,8 +55,8 @@ fn first_turns_of_all_games() {
     golden("first_turns.txt", &lines);
 }
 
-/// Whole prompts of a game with several states of the avatar, one with shots, one that never stands still; and of the other
-/// kinds of prompts.
+/// Whole prompts of a game with several avatar states, of one with shots, and of one that never stands still, and prompts of
+/// the other kinds.
 #[test]
 fn prompts_to_read() {
     let show = |name: &str, subject: &str, settings: &PromptSettings, steps: usize| {
@@ -95,7 +95,7 @@ fn prompts_to_read() {
     show("reference_contextual.txt", "first-ice", &PromptSettings { mode: Mode::Contextual, ..reference }, 2);
 }
 
-/// What a step costs: `cargo test -p infinite-arcade-evaluation --test it prompts -- --nocapture tokens` prints the table of
+/// The tokens of a step. `cargo test -p infinite-arcade-evaluation --test it prompts -- --nocapture tokens` prints the table of
 /// `docs/prompts.md`.
 #[test]
 fn tokens_of_the_default_prompt() {
@@ -104,7 +104,7 @@ fn tokens_of_the_default_prompt() {
         let prompter = prompter(&subject, &PromptSettings::default());
         for level in 0..subject.levels.len() {
             let mut walk = Walk::new(&subject, level);
-            // The first turn, and one after which things have moved.
+            // The first turn, and one after some movement.
             for _ in 0..2 {
                 let tokens = prompter.prompt(&walk.turn(), &[], &[]).tokens;
                 whole.push(tokens.total);
@@ -164,7 +164,7 @@ fn vgdl_in_prompts_is_the_game() {
     }
 }
 
-/// A name is told if a masked prompt has it and no masked prompt of another game does: then it is no word of ours.
+/// A name is leaked if a masked prompt has it and no masked prompt of another game does: then it is not one of our words.
 #[test]
 fn masked_prompts_tell_no_names() {
     let words = |subject: &Subject, rules: Rules| -> BTreeSet<String> {
@@ -201,7 +201,7 @@ fn all_settings_write() {
     for subject in &subjects {
         for bits in 0_u32..1 << 12 {
             let has = |bit: u32| bits >> bit & 1 == 1;
-            // Pictures take long, and no template depends on what they show.
+            // Pictures take long to draw, and no template depends on their content.
             let image = has(0) && bits % 128 == 1;
             let settings = PromptSettings {
                 style: if has(1) { PromptStyle::Reference } else { PromptStyle::Standard },
@@ -286,8 +286,8 @@ fn digests_tell_settings_apart() {
     assert_ne!(standard.digest(), prompter(&subject, &other).digest());
 }
 
-/// Whole turns go, the oldest first; in between the conversation only grows at its end; it never exceeds its budget, but
-/// for the static part and the newest turn.
+/// Whole turns are dropped, the oldest first; in between the conversation only grows at its end. It never exceeds its
+/// budget, except by the static part and the newest turn.
 #[test]
 fn histories_keep_to_their_budget() {
     let subject = game("first-ice");

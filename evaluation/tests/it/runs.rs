@@ -1,4 +1,4 @@
-//! Evaluations of built-in players: what is written, and that an interruption leaves no trace.
+//! Evaluations of built-in players: the files written, and interruptions that leave no trace.
 
 use crate::games::corridor;
 use agents::Budget;
@@ -83,7 +83,7 @@ fn a_results_folder_holds_all_that_a_replay_needs() {
     }
 }
 
-/// Seeds are those of game, level and run: players meet the same chance.
+/// Seeds depend only on game, level and run, so that all players meet the same chance.
 #[test]
 fn players_are_paired() {
     let subjects = [corridor()];
@@ -99,7 +99,7 @@ fn players_are_paired() {
     assert_ne!(random[0], random[1]);
 }
 
-/// Whatever was written when the program was killed: the resumed evaluation has the same logs.
+/// The resumed evaluation has the same logs, regardless of what was written before the program was killed.
 #[test]
 fn interrupted_evaluations_are_taken_up_again() {
     let home = tempfile::tempdir().unwrap();
@@ -110,7 +110,7 @@ fn interrupted_evaluations_are_taken_up_again() {
     for (part, cut) in [0, 1, 5, 9].into_iter().enumerate() {
         let folder = home.path().join(format!("cut{part}"));
         Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
-        // One log whole, one cut within a line, the rest not begun.
+        // One complete log, one cut within a line, the rest not started.
         for (at, (name, _)) in undisturbed.iter().take(2).enumerate() {
             let bytes = fs::read(whole.join("episodes").join(name)).unwrap();
             let kept = if at == 0 { bytes.len() } else { bytes.len() * cut / 10 };
@@ -150,7 +150,7 @@ fn an_agents_episode_is_taken_up_where_it_ends() {
     }
 }
 
-/// An episode that network or server breaks off stays open, and is gone on with later.
+/// An episode aborted by the network or the server stays open, and is resumed later.
 #[test]
 fn environment_failures_are_not_the_players_fault() {
     let home = tempfile::tempdir().unwrap();
@@ -198,7 +198,7 @@ fn results_folders_are_guarded() {
     assert!(refusal(Evaluation::open(&folder)).contains("not the settings of an evaluation"));
 }
 
-/// A log whose steps lead elsewhere is not gone on with.
+/// A log whose replay differs is not resumed.
 #[test]
 fn damaged_logs_are_told() {
     let home = tempfile::tempdir().unwrap();

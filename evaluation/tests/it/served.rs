@@ -1,5 +1,5 @@
-//! Served players: over the network they play the moves that they play when they are called directly, and what cannot be
-//! answered is told as the real interfaces tell it.
+//! Served players: they play the same moves over the network as in a direct call, and report errors in the format of the
+//! real APIs.
 
 use engine::{Action, Game, Observation, Outcome, Seed, State};
 use evaluation::answer::Reading;
@@ -13,10 +13,10 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::time::Duration;
 
-/// Decisions of an episode at most.
+/// The maximum number of decisions of an episode.
 const LIMIT: u64 = 200;
 
-/// A game of the corpus with its first level.
+/// Reads a game of the corpus with its first level.
 fn corpus_game(folder: &Path) -> Subject {
     let text = |file: &str| std::fs::read_to_string(folder.join(file)).unwrap();
     let name = folder.file_name().unwrap().to_str().unwrap();
@@ -39,7 +39,7 @@ fn offered(game: &Game, state: &State) -> Vec<Action> {
     [Action::Nil].iter().chain(game.actions(state)).copied().collect()
 }
 
-/// What is played when a player answers the prompts of a level; whether it is won.
+/// Plays a level with the answers to its prompts, and returns the actions and the outcome.
 fn episode(
     subject: &Subject,
     settings: &PromptSettings,
@@ -87,7 +87,7 @@ fn spawn(player: &str) -> Running {
     Server::bind(player.parse().unwrap(), 0).unwrap().spawn()
 }
 
-/// The status and the document of a reply.
+/// Posts a request and returns the status and the document of the reply.
 fn post(server: &Running, path: &str, body: &str) -> (u16, Value) {
     let agent: ureq::Agent = ureq::Agent::config_builder().http_status_as_error(false).build().into();
     let request = agent.post(format!("{}{path}", server.base_url()));
@@ -107,7 +107,7 @@ fn body(model: &str, messages: &[ChatMessage]) -> String {
     json!({"model": model, "messages": messages, "temperature": 0.7}).to_string()
 }
 
-/// Through a model's client, whichever it is.
+/// Sends a conversation through a model's client.
 fn through(model: &dyn Model, messages: &[ChatMessage]) -> String {
     let (messages, sample) = (messages.to_vec(), Seed::from_text("through"));
     model.chat(&ChatRequest { messages, decoding: Decoding::default(), sample }).unwrap().text
@@ -144,7 +144,7 @@ fn reflex_is_better_than_random() {
     assert!(reflex > random, "{reflex} {random}");
 }
 
-/// A lamp behind a gate that a key opens, a moth that kills, a bat to be shot.
+/// A lamp behind a gate that a key opens, a deadly moth, and a bat to be shot.
 const LAMP: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    lamp > Door\n    gate > Immovable\n    key > Resource limit=2\n    moth > Immovable\n    bat > Immovable\n    dart > Missile\n    avatar > ShootAvatar stype=dart\n  LevelMapping\n    . > floor\n    A > avatar floor\n    l > lamp floor\n    g > gate floor\n    k > key floor\n    m > moth floor\n    b > bat floor\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    key avatar > collectResource\n    avatar moth bat > killSprite\n    bat dart > killBoth\n    dart wall > killSprite\n    lamp avatar > killSprite scoreChange=5\n  TerminationSet\n    MultiSpriteCounter stype1=lamp stype2=bat win=True\n    SpriteCounter stype=avatar win=False\n";
 
 #[test]
@@ -158,7 +158,7 @@ fn reflex_goes_by_the_rules() {
             assert!(actions.len() <= limit, "{level}{rules:?} {actions:?}");
         }
     };
-    // The lamp at once; around the moth; the key first, then through the gate; the bat from afar.
+    // Straight to the lamp; around the moth; first the key, then the gate; the bat from a distance.
     check("wwwwww\nwA..lw\nwwwwww\n", 12);
     check("wwwwwww\nwA.m.lw\nw.....w\nwwwwwww\n", 24);
     check("wwwwwwww\nw.A.wl.w\nw...g..w\nwk..w..w\nwwwwwwww\n", 60);
@@ -262,7 +262,7 @@ fn what_is_asked_by_hand_is_answered() {
     assert_eq!(models["data"][0]["id"], "random");
 }
 
-/// A connection that gives up reading after `patience`.
+/// Opens a connection that stops reading after `patience`.
 fn connection(server: &Running, patience: Duration) -> TcpStream {
     let address = server.base_url().strip_prefix("http://").unwrap().strip_suffix("/v1").unwrap();
     let stream = TcpStream::connect(address).unwrap();
@@ -272,7 +272,7 @@ fn connection(server: &Running, patience: Duration) -> TcpStream {
 
 const PATIENT: Duration = Duration::from_secs(60);
 
-/// Returns all that comes back for these bytes.
+/// Sends bytes and returns the whole reply.
 fn raw(server: &Running, bytes: &str) -> String {
     let mut stream = connection(server, PATIENT);
     stream.write_all(bytes.as_bytes()).unwrap();
@@ -281,7 +281,7 @@ fn raw(server: &Running, bytes: &str) -> String {
     reply
 }
 
-/// A page of a stranger, opened in a browser on this machine, gets nothing from a served player.
+/// A foreign page in a browser on this machine gets no answers from a served player.
 #[test]
 fn pages_of_strangers_are_refused() {
     let server = spawn("random");
@@ -315,7 +315,7 @@ fn bounded(bounds: Bounds) -> Running {
 
 const HEAD: &str = "POST /v1/chat/completions HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nConnection: close\r\n";
 
-/// Slow clients are let go, with the head of a request and with its body.
+/// Slow clients are disconnected, both in the head and in the body of a request.
 #[test]
 fn slow_clients_are_let_go() {
     let short = Duration::from_millis(200);
@@ -344,17 +344,17 @@ fn connections_are_bounded() {
     assert!(reply.starts_with("HTTP/1.1 200"), "{reply}");
 }
 
-/// Bodies that are under way take up no more memory together than the bounds allow.
+/// The bodies in flight together use no more memory than the bounds allow.
 #[test]
 fn bodies_are_bounded() {
     let server =
         bounded(Bounds { body: 48 << 10, bodies: 64 << 10, body_time: PATIENT, ..Bounds::default() });
     let mut half = connection(&server, PATIENT);
     half.write_all(format!("{HEAD}Content-Length: {}\r\n\r\n{{", 48 << 10).as_bytes()).unwrap();
-    // Read as far as it is sent, so that its room is taken.
+    // The server reads what has been sent, so that room for the body is reserved.
     half.flush().unwrap();
     let request = format!("{HEAD}Content-Length: {}\r\n\r\n{}", 32 << 10, " ".repeat(32 << 10));
-    // A small one has room beside it.
+    // There is still room for a small one.
     assert!(raw(&server, &format!("{HEAD}Content-Length: 2\r\n\r\n{{}}")).starts_with("HTTP/1.1 400"));
     let mut waiting = connection(&server, Duration::from_millis(500));
     waiting.write_all(request.as_bytes()).unwrap();
@@ -365,7 +365,7 @@ fn bodies_are_bounded() {
     let mut reply = String::new();
     waiting.read_to_string(&mut reply).unwrap();
     assert!(reply.starts_with("HTTP/1.1 400") && reply.contains("invalid_json"), "{reply}");
-    // Too large by its own word, too large in pieces.
+    // Too large by its stated length, and too large in chunks.
     let much = (48 << 10) + 1;
     let stated = raw(&server, &format!("{HEAD}Content-Length: {much}\r\n\r\n{}", " ".repeat(much)));
     assert!(stated.starts_with("HTTP/1.1 413"), "{stated}");

@@ -1,4 +1,4 @@
-//! A server on loopback that answers as it is told to, well or badly, and a clock that passes only in sleep.
+//! A server on loopback that answers by a script, well or badly, and a clock that advances only in sleep.
 
 #![allow(dead_code, reason = "every test file uses its part")]
 
@@ -10,54 +10,54 @@ use std::sync::{Arc, Condvar, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
-/// What the server does with a request.
+/// The server's reaction to a request.
 #[derive(Clone, Debug)]
 pub(crate) enum Act {
-    /// Replies.
+    /// Sends a reply.
     Reply {
         /// The status.
         status: u16,
-        /// Headers beside the length of the body.
+        /// The headers in addition to the body's length.
         headers: Vec<(String, String)>,
         /// The body.
         body: Vec<u8>,
     },
-    /// Says nothing, until the server is dropped.
+    /// Sends nothing until the server is dropped.
     Hang,
-    /// Sends these bytes, of which HTTP knows nothing, and cuts the connection.
+    /// Sends these bytes, which are not valid HTTP, and closes the connection.
     Cut(Vec<u8>),
 }
 
-/// A request as the server got it.
+/// A request as the server received it.
 #[derive(Clone, Debug)]
 pub(crate) struct Asked {
-    /// Path and query.
+    /// The path and query.
     pub(crate) path: String,
-    /// Names in lower case.
+    /// The headers, with names in lower case.
     pub(crate) headers: Vec<(String, String)>,
     /// The body.
     pub(crate) body: String,
 }
 
 impl Asked {
-    /// The value of a header.
+    /// Returns the value of a header.
     pub(crate) fn header(&self, name: &str) -> Option<&str> {
         self.headers.iter().find(|(found, _)| found == name).map(|(_, value)| value.as_str())
     }
 
-    /// The body, which is JSON.
+    /// Parses the body as JSON.
     pub(crate) fn json(&self) -> Value {
         serde_json::from_str(&self.body).expect("requests are JSON")
     }
 }
 
 impl Act {
-    /// A reply with this status and body.
+    /// Returns a reply with this status and body.
     pub(crate) fn reply(status: u16, body: impl Into<Vec<u8>>) -> Act {
         Act::Reply { status, headers: Vec::new(), body: body.into() }
     }
 
-    /// The same with one header more.
+    /// Adds a header.
     pub(crate) fn with_header(self, name: &str, value: &str) -> Act {
         match self {
             Act::Reply { status, mut headers, body } => {
@@ -68,7 +68,7 @@ impl Act {
         }
     }
 
-    /// A chat completion with these words, 100 tokens of prompt and 10 of answer.
+    /// Returns a chat completion with this text, 100 tokens of prompt and 10 of answer.
     pub(crate) fn completion(text: &str) -> Act {
         let body = json!({
             "model": "served",
@@ -79,7 +79,7 @@ impl Act {
     }
 }
 
-/// The server. It answers every request on a connection of its own.
+/// The server. It answers every request on a separate connection.
 pub(crate) struct Server {
     address: SocketAddr,
     shared: Arc<Shared>,
@@ -103,7 +103,7 @@ struct State {
 }
 
 impl Server {
-    /// A server that asks `script` what to do with each request; they are counted from 0.
+    /// Starts a server that asks `script` for the reaction to each request; requests are counted from 0.
     pub(crate) fn start(script: impl Fn(usize, &Asked) -> Act + Send + Sync + 'static) -> Server {
         let listener = TcpListener::bind(("127.0.0.1", 0)).expect("loopback has a free port");
         let address = listener.local_addr().expect("it is bound");
@@ -114,22 +114,22 @@ impl Server {
         Server { address, shared, thread: Some(thread) }
     }
 
-    /// A server that does these things one after the other, and the last one for ever.
+    /// Starts a server with these reactions in turn; the last one is repeated.
     pub(crate) fn scripted(acts: Vec<Act>) -> Server {
         Server::start(move |number, _| acts[number.min(acts.len() - 1)].clone())
     }
 
-    /// What `--base-url` is given.
+    /// Returns the value for `--base-url`.
     pub(crate) fn base_url(&self) -> String {
         format!("http://{}/v1", self.address)
     }
 
-    /// All requests so far.
+    /// Returns all requests so far.
     pub(crate) fn asked(&self) -> Vec<Asked> {
         self.shared.state.lock().unwrap().asked.clone()
     }
 
-    /// The most requests that were under way at once.
+    /// Returns the maximum number of concurrent requests.
     pub(crate) fn most_at_once(&self) -> usize {
         self.shared.state.lock().unwrap().most_at_once
     }
@@ -159,7 +159,7 @@ fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
     }
 }
 
-/// One request and what is done with it. Errors of the connection are the client's business.
+/// Serves one request. Connection errors are the client's concern.
 fn serve(mut stream: TcpStream, shared: &Shared) {
     let Some(asked) = read(&mut stream) else { return };
     let number = {
@@ -170,7 +170,7 @@ fn serve(mut stream: TcpStream, shared: &Shared) {
         state.asked.len() - 1
     };
     let act = (shared.script)(number, &asked);
-    // Before the answer: the client may ask again as soon as it has it.
+    // Before the answer, because the client may send another request as soon as it has it.
     let leave = || shared.state.lock().unwrap().at_once -= 1;
     match act {
         Act::Reply { status, headers, body } => {
@@ -210,17 +210,17 @@ fn read(stream: &mut TcpStream) -> Option<Asked> {
     Some(Asked { path, headers, body: String::from_utf8(body).ok()? })
 }
 
-/// A clock on which no time passes but in sleep.
+/// A clock that advances only in sleep.
 #[derive(Default)]
 pub(crate) struct Dial(Mutex<Vec<Duration>>);
 
 impl Dial {
-    /// All sleeps.
+    /// Returns all sleeps.
     pub(crate) fn sleeps(&self) -> Vec<Duration> {
         self.0.lock().unwrap().clone()
     }
 
-    /// The date at the beginning.
+    /// Returns the initial date.
     pub(crate) fn begin() -> SystemTime {
         SystemTime::UNIX_EPOCH + Duration::from_secs(1_796_000_000)
     }
@@ -241,7 +241,7 @@ impl Clock for Dial {
 }
 
 impl Dial {
-    /// Time since the beginning, ms.
+    /// Returns the time since the start, ms.
     pub(crate) fn elapsed_ms(&self) -> u64 {
         self.elapsed().as_millis() as u64
     }

@@ -10,7 +10,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The games of the corpus, by name.
+/// Returns the games of the corpus, sorted by name.
 pub(crate) fn corpus() -> Vec<Subject> {
     let mut folders: Vec<PathBuf> =
         fs::read_dir(root().join("corpora")).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -30,7 +30,7 @@ fn read(folder: &Path) -> Subject {
     subject(folder, &source).unwrap_or_else(|| panic!("{}: faults", folder.display()))
 }
 
-/// The game of this text with the levels of a folder; none if it does not compile.
+/// Builds the game of this text with the levels of a folder; `None` if it does not compile.
 fn subject(folder: &Path, source: &str) -> Option<Subject> {
     let name = folder.file_name()?.to_string_lossy().into_owned();
     let file = |number: usize| {
@@ -41,7 +41,8 @@ fn subject(folder: &Path, source: &str) -> Option<Subject> {
     Subject::read(&name, source, &levels, SubjectFacts::default()).ok()
 }
 
-/// The public games beside the checkout that compile with all their levels; none, and a line that says so, without them.
+/// Returns the public games beside the checkout that compile with all their levels. Without them it prints a message and
+/// returns none.
 #[allow(dead_code, reason = "not all tests play them")]
 pub(crate) fn public_games() -> Vec<Subject> {
     let folder = root().join("../shared/gvgai/games");
@@ -55,7 +56,7 @@ pub(crate) fn public_games() -> Vec<Subject> {
     folders.iter().filter_map(read).collect()
 }
 
-/// An episode of random actions, and what is to be seen of it.
+/// An episode of random actions and its observations.
 pub(crate) struct Walk<'a> {
     subject: &'a Subject,
     level: usize,
@@ -94,13 +95,13 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Plays an action by chance; whether the game goes on.
+    /// Plays a random action. Returns `true` if the game continues.
     pub(crate) fn step(&mut self) -> bool {
         let action = *self.sampler.choose(&self.actions);
         self.play(action)
     }
 
-    /// Plays an action; whether the game goes on.
+    /// Plays an action. Returns `true` if the game continues.
     pub(crate) fn play(&mut self, action: Action) -> bool {
         let score = self.state.score();
         self.subject.game.step(&mut self.state, action);

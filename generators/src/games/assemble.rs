@@ -1,4 +1,4 @@
-//! From a draft to a description: the rules of movement and harm that follow from the bodies, everything in order.
+//! From a draft to a description: derives the rules of movement and harm from the bodies and orders everything.
 
 use super::body::Body;
 use super::draft::{AVATAR, Draft, Ending, FLOOR, Harm, Part, Phase, Rule, Stamina, Value, WALL};
@@ -9,8 +9,8 @@ use engine::syntax::{
     Header, InteractionLine, MappingLine, Param, SpriteLine, TerminationLine, Trivia, Word,
 };
 
-/// Adds the rules and the ending that follow from the bodies and from what harms, and puts all in the order of the
-/// InteractionSet and the TerminationSet.
+/// Adds the rules and the ending that follow from the bodies and from the harmful parts, and sorts everything into the
+/// order of the InteractionSet and the TerminationSet.
 pub(crate) fn complete(draft: &mut Draft) {
     let order = drawing_order(draft);
     let derived: Vec<Rule> = movement(draft, &order).into_iter().chain(harm(draft)).collect();
@@ -24,7 +24,7 @@ pub(crate) fn complete(draft: &mut Draft) {
     draft.endings.sort_by_key(|(ending, win)| (matches!(ending, Ending::Timeout(_)), *win));
 }
 
-/// Lays a complete draft out.
+/// Writes a complete draft as a description.
 pub(crate) fn describe(draft: &Draft) -> Description {
     let order = drawing_order(draft);
     Description {
@@ -38,14 +38,14 @@ pub(crate) fn describe(draft: &Draft) -> Description {
     }
 }
 
-/// All parts, what lies lowest first.
+/// All parts, the lowest first.
 fn drawing_order(draft: &Draft) -> Vec<Part> {
     let mut order: Vec<Part> = draft.parts().filter(|&part| !draft.sprite(part).gone).collect();
     order.sort_by_key(|&part| draft.sprite(part).body);
     order
 }
 
-/// What stops whom: one line for each that moves and each thing that happens to it.
+/// The rules for obstacles: one for each top-level part that moves and each effect of being stopped.
 fn movement(draft: &Draft, order: &[Part]) -> Vec<Rule> {
     let tops = order.iter().copied().filter(|&part| draft.sprite(part).parent.is_none());
     let tops: Vec<Part> = tops.collect();
@@ -65,12 +65,12 @@ fn movement(draft: &Draft, order: &[Part]) -> Vec<Rule> {
             rules.push(Rule { phase, first: mover, second: second.clone(), effect, score: 0, gene: None });
         }
     }
-    // The hero first, then what else moves, in drawing order.
+    // The hero first, then the other movers, in drawing order.
     rules.sort_by_key(|rule| rule.first != AVATAR);
     rules
 }
 
-/// What touching the harmful does, by what the hero can take.
+/// The effects of touching harmful parts, according to the hero's stamina.
 fn harm(draft: &Draft) -> Vec<Rule> {
     let all: Vec<Part> = draft.harms.iter().map(|&(part, _)| part).collect();
     if all.is_empty() {

@@ -1,11 +1,11 @@
-//! What a sprite type is to those that move: who stops whom, and what stopping means.
+//! The body of a sprite type: which sprites stop which, and the effects of being stopped.
 //!
-//! Patterns say what body their sprites have and nothing more; every rule of movement follows from it. So whatever
-//! patterns meet in a game, nothing walks through a door, and nothing leaves the board.
+//! Patterns only state which body their sprites have; every rule of movement follows from it. So for every combination of
+//! patterns in a game, nothing walks through a door, and nothing leaves the board.
 
 use super::effect::Effect;
 
-/// How a sprite type takes part in movement. The order is the order of the SpriteSet, which is the order of drawing.
+/// The part that a sprite type plays in movement. The order is that of the SpriteSet, and so of drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Body {
     /// Lies under everything.
@@ -14,38 +14,38 @@ pub(crate) enum Body {
     Wall,
     /// Lies flat: everything passes.
     Flat,
-    /// A place that matters: all pass but what is pushed, which would hide it.
+    /// A place that matters: everything passes except pushed things, which would hide it.
     Spot,
-    /// A thing that lies there, to be taken: as a spot.
+    /// An item to be taken: behaves as a spot.
     Item,
-    /// Stops all but the hero, who digs.
+    /// Stops everything except the hero, who digs.
     Soft,
     /// Stops everything.
     Solid,
-    /// Stops all but what comes out of it.
+    /// Stops only the hero, its shots and crates, since other sprites come out of it.
     Den,
     /// Is pushed, and stops everything.
     Crate,
-    /// Goes to and fro, and carries.
+    /// Moves to and fro, and carries.
     Carrier,
-    /// Goes about by itself.
+    /// Moves about by itself.
     Walker,
-    /// Goes straight, and turns round at obstacles.
+    /// Moves straight, and turns round at obstacles.
     Patroller,
-    /// Goes straight, and any other way from obstacles.
+    /// Moves straight, and turns in any other direction at obstacles.
     Drifter,
-    /// Is shot by a foe, or falls; ends at obstacles.
+    /// Is shot by a foe, or falls; is destroyed at obstacles.
     FoeShot,
-    /// A cloud, a flame, a puddle: is there for a while, not inside obstacles.
+    /// A cloud, a flame or a puddle: exists for a while, and not inside obstacles.
     Puff,
-    /// Is shot by the hero; ends at obstacles.
+    /// Is shot by the hero; is destroyed at obstacles.
     Shot,
     /// The hero.
     Hero,
 }
 
 impl Body {
-    /// Whether `obstacle` stops this body.
+    /// Returns `true` if `obstacle` stops this body.
     pub(crate) fn is_stopped_by(self, obstacle: Body) -> bool {
         use Body as B;
         match self {
@@ -59,7 +59,7 @@ impl Body {
         }
     }
 
-    /// What happens to this body at an obstacle, in order.
+    /// The effects on this body at an obstacle, in order.
     pub(crate) fn when_stopped(self) -> &'static [Effect] {
         match self {
             Body::Hero | Body::Walker | Body::Crate => &[Effect::StepBack],

@@ -1,4 +1,4 @@
-//! What helps the hero.
+//! Boons: patterns that help the hero.
 
 use super::body::Body;
 use super::draft::{AVATAR, Draft, Phase, Stamina, Value, draw};
@@ -78,7 +78,7 @@ fn hearts(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// Wounds are healed with what coins buy.
+/// Coins buy medicine, which heals wounds.
 fn shop(draft: &mut Draft, sampler: &mut Sampler) {
     let health = draw(sampler, 2, 3);
     let price = draw(sampler, 1, 2);
@@ -110,7 +110,7 @@ fn ward(draft: &mut Draft, _: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// Labour that nobody has to do, and that pays.
+/// An optional task with a reward.
 fn press(draft: &mut Draft, sampler: &mut Sampler) {
     let block = draft.place(Role::Crate, SpriteClass::Passive, Body::Crate, &[]);
     let plate = draft.place(Role::Plate, SpriteClass::Immovable, Body::Flat, &[]);
@@ -135,7 +135,7 @@ fn coins(draft: &mut Draft, _: &mut Sampler) {
     draft.tell_points(clause);
 }
 
-/// One at a time ripens, somewhere.
+/// Berries ripen at the bushes, one at a time.
 pub(crate) fn bush(draft: &mut Draft, sampler: &mut Sampler) {
     let berry =
         draft.spawn(Role::Berry, SpriteClass::Immovable, Body::Item, &[("singleton", Value::Flag(true))]);

@@ -1,10 +1,10 @@
-//! Which parts of a fiction the sprite types of a game can play, by what its rules make of them.
+//! The roles in a theme that the sprite types of a game can play, according to its rules.
 
 use super::role::Role;
 use engine::analysis::{Analysis, Harm, Motion, Removal, Role as Use};
 use engine::{Direction, SpriteType};
 
-/// The parts that a type can play, the most fitting first; never empty.
+/// The roles that a type can play, the most fitting first; never empty.
 pub(super) fn parts(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
     use Role as R;
     let facts = analysis.facts(stype);
@@ -47,7 +47,7 @@ pub(super) fn parts(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
     }
 }
 
-/// Words for a group of types of which one has this use; more general than those of any fiction.
+/// Words for a group of types one of which has this use; more general than those of any theme.
 pub(super) fn group(role: Use) -> &'static [&'static str] {
     match role {
         Use::Avatar => &["figure", "actor"],
@@ -81,7 +81,7 @@ fn enemy(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
     }
 }
 
-/// Where what harms comes from.
+/// The roles for a spawner of harmful sprites.
 fn nest(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
     use Role as R;
     let made = analysis.facts(stype).makes.first().map(|&made| analysis.facts(made));
@@ -118,13 +118,13 @@ fn collectable(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
     }
 }
 
-/// Whether an avatar ends it by touch.
+/// Returns `true` if an avatar removes it by touch.
 pub(super) fn is_caught(analysis: &Analysis, stype: SpriteType) -> bool {
     let removed = |avatar: SpriteType| analysis.touch(avatar, stype).removal != Removal::Never;
     analysis.avatars().iter().any(|avatar| removed(avatar.stype))
 }
 
-/// Whether the avatar should keep away from it.
+/// Returns `true` if the avatar should keep away from it.
 pub(super) fn is_dangerous(analysis: &Analysis, stype: SpriteType) -> bool {
     let role = analysis.role(stype);
     matches!(role, Use::Enemy | Use::Hazard | Use::Boulder) && analysis.harm(stype) != Harm::None

@@ -1,4 +1,4 @@
-//! Small changes to a game, each with a meaning: what a designer would do next.
+//! Small, meaningful changes to a game, such as a designer would make next.
 
 use super::draft::{AVATAR, Draft, Part, Value};
 use super::edit::{Edit, RuleAt};
@@ -9,35 +9,35 @@ use engine::Sampler;
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Change {
-    /// One pattern more.
+    /// Adds a pattern.
     Add,
-    /// One pattern less.
+    /// Removes a pattern.
     Remove,
-    /// A pattern of the same family instead; the goal and the way of moving included.
+    /// Replaces a pattern by one of the same family; the goal and the way of moving included.
     Replace,
-    /// A pattern is built with another seed.
+    /// Builds a pattern with another seed.
     Redraw,
-    /// A parameter of a sprite type.
+    /// Changes a parameter of a sprite type.
     Parameter,
-    /// The class of a sprite type.
+    /// Changes the class of a sprite type.
     Class,
-    /// A rule between parts of any patterns.
+    /// Adds a rule between parts of any patterns.
     Graft,
-    /// Another effect of a rule.
+    /// Changes the effect of a rule.
     Effect,
-    /// One rule less.
+    /// Removes a rule.
     Drop,
-    /// Another score.
+    /// Changes a score.
     Score,
-    /// More time, or less.
+    /// Changes the time limit.
     Time,
-    /// Another fiction.
+    /// Changes the theme.
     Fiction,
-    /// An earlier edit is taken back.
+    /// Takes back an earlier edit.
     Undo,
 }
 
-/// All kinds, with how often each is drawn.
+/// All kinds, with their weights in the draw.
 const CHANGES: [(Change, u32); 13] = [
     (Change::Add, 5),
     (Change::Remove, 2),
@@ -61,7 +61,7 @@ impl Change {
     }
 }
 
-/// An edit of that kind; none if this draw finds nothing to edit so.
+/// Draws an edit of that kind; `None` if this draw finds nothing to edit.
 pub(crate) fn edit(draft: &Draft, change: Change, sampler: &mut Sampler) -> Option<Edit> {
     let parts: Vec<Part> = draft.parts().filter(|&part| !draft.sprite(part).gone).collect();
     match change {
@@ -78,7 +78,7 @@ pub(crate) fn edit(draft: &Draft, change: Change, sampler: &mut Sampler) -> Opti
             Some(Edit::Param { of: draft.site(part), key, value: moved(value, range, sampler)? })
         }
         Change::Class => {
-            // What the goal is about moves as the goal says.
+            // The parts that the goal is about move as the goal says.
             let free = |&&part: &&Part| draft.sprite(part).gene != Some(1);
             let part = *pick(&parts.iter().filter(free).collect::<Vec<_>>(), sampler)?;
             let class = pick(&ways::siblings(draft, part), sampler)?;
@@ -105,7 +105,7 @@ pub(crate) fn edit(draft: &Draft, change: Change, sampler: &mut Sampler) -> Opti
             Some(Edit::Effect { rule: RuleAt::of(draft, at, 0), effect })
         }
         Change::Drop => {
-            // What follows from bodies keeps the board together, and the goal lives by its rules.
+            // The rules derived from bodies keep the board together, and the goal depends on its own rules.
             let free = |&at: &usize| draft.rules[at].gene.is_some_and(|gene| gene > 1);
             let at = pick(&(0..draft.rules.len()).filter(free).collect::<Vec<_>>(), sampler)?;
             Some(Edit::Drop { rule: RuleAt::of(draft, at, 0) })
@@ -122,7 +122,7 @@ pub(crate) fn edit(draft: &Draft, change: Change, sampler: &mut Sampler) -> Opti
     }
 }
 
-/// A value nearby, within the range; hundredths go by fives.
+/// Draws a nearby value within the range: up to a third away, or up to 1 (for hundredths 5) if that is more.
 fn moved(value: Value, (least, most): (u32, u32), sampler: &mut Sampler) -> Option<Value> {
     let near = |old: u32, step: u32, sampler: &mut Sampler| {
         let reach = (old / 3).max(step);
@@ -138,7 +138,7 @@ fn moved(value: Value, (least, most): (u32, u32), sampler: &mut Sampler) -> Opti
     }
 }
 
-/// One of them, if there are any.
+/// Picks one of the options, if there are any.
 pub(crate) fn pick<T: Copy>(options: &[T], sampler: &mut Sampler) -> Option<T> {
     if options.is_empty() { None } else { Some(*sampler.choose(options)) }
 }

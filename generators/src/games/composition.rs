@@ -1,4 +1,4 @@
-//! Which patterns go together: drawn so that every one has what it needs and none meets what it bars.
+//! The choice of patterns that go together: every pattern has what it needs and meets nothing that it bars.
 
 use super::boons::BOONS;
 use super::goals;
@@ -9,7 +9,7 @@ use super::pattern::{Feature, Goal, Pattern};
 use super::threats::THREATS;
 use engine::Sampler;
 
-/// Boons in one game at most.
+/// The maximum number of boons in a game.
 const BOONS_AT_MOST: usize = 2;
 
 /// The patterns of one game, in the order in which they are built.
@@ -19,8 +19,8 @@ pub(crate) struct Composition {
 }
 
 impl Composition {
-    /// Draws a goal of one of these kinds, a way of moving that it can be reached with, and company for both; None if the
-    /// draws so far leave no way on.
+    /// Draws a goal of one of these kinds, a way of moving that can reach it, and further patterns; `None` if the draws
+    /// so far leave no fitting pattern.
     pub(crate) fn draw(kinds: &[Kind], sampler: &mut Sampler) -> Option<Composition> {
         let goals: Vec<&'static Goal> =
             goals::all().into_iter().filter(|goal| kinds.contains(&goal.kind)).collect();
@@ -38,7 +38,7 @@ impl Composition {
             let threat = composition.pick(THREATS.iter(), sampler)?;
             composition.patterns.push(threat);
         }
-        // A weapon is for something.
+        // A weapon needs something to be used on.
         if composition.gives(Feature::Strikes) && !composition.gives(Feature::Prey) {
             let prey = THREATS.iter().filter(|threat| threat.gives.contains(&Feature::Prey));
             let threat = composition.pick(prey, sampler)?;
@@ -60,12 +60,12 @@ impl Composition {
         is_challenge(&composition.patterns).then_some(composition)
     }
 
-    /// Whether some pattern brings this.
+    /// Returns `true` if some pattern has this feature.
     pub(crate) fn gives(&self, feature: Feature) -> bool {
         self.patterns.iter().any(|pattern| pattern.gives.contains(&feature))
     }
 
-    /// One of the patterns that go with those drawn so far.
+    /// Draws one of the patterns that go with those drawn so far.
     fn pick(
         &self,
         from: impl Iterator<Item = &'static Pattern>,
@@ -81,13 +81,13 @@ impl Composition {
     }
 }
 
-/// Whether a pattern finds what it needs among others, and neither it nor they bar the other.
+/// Tests whether the others provide what a pattern needs, and neither it nor they bar the other.
 fn goes_with(patterns: &[&'static Pattern], pattern: &Pattern) -> bool {
     let gives = |feature: &Feature| patterns.iter().any(|other| other.gives.contains(feature));
     pattern.needs.iter().all(gives) && patterns.iter().all(|other| go_together(other, pattern))
 }
 
-/// Whether a game with these patterns can take in one more, for company.
+/// Tests whether a game with these patterns can take one more besides its goal and way of moving.
 pub(crate) fn admits(goal: &Goal, patterns: &[&'static Pattern], pattern: &Pattern) -> bool {
     let most = match family(pattern) {
         "threat" => goal.threats.1 + 1,
@@ -98,13 +98,13 @@ pub(crate) fn admits(goal: &Goal, patterns: &[&'static Pattern], pattern: &Patte
     like < most && goes_with(patterns, pattern)
 }
 
-/// Whether two patterns can be in one game: they share no role, and neither brings what the other bars.
+/// Tests whether two patterns can be in one game: they share no role, and neither has a feature that the other bars.
 fn go_together(one: &Pattern, two: &Pattern) -> bool {
     let bars = |one: &Pattern, two: &Pattern| one.bars.iter().any(|feature| two.gives.contains(feature));
     !one.roles.iter().any(|role| two.roles.contains(role)) && !bars(one, two) && !bars(two, one)
 }
 
-/// Whether something endangers the hero, works against it, or stands in its way.
+/// Tests whether something endangers the hero, works against it, or stands in its way.
 pub(crate) fn is_challenge(patterns: &[&'static Pattern]) -> bool {
     let company = |pattern: &&&Pattern| ["threat", "obstacle"].contains(&family(pattern));
     let works_against = |feature: &Feature| [Feature::Harm, Feature::Movers].contains(feature);
@@ -117,13 +117,13 @@ pub(crate) fn family(pattern: &Pattern) -> &'static str {
     pattern.name.split_once('/').map_or(pattern.name, |(family, _)| family)
 }
 
-/// The patterns that can keep a goal company: threats, obstacles and boons.
+/// The patterns that can accompany a goal: threats, obstacles and boons.
 pub(crate) fn company() -> impl Iterator<Item = &'static Pattern> {
     THREATS.iter().chain(OBSTACLES).chain(BOONS)
 }
 
-/// Whether these patterns make a game: a way of moving and the goal first, as much company as the goal takes and one more
-/// of a family, all of whom find what they need and meet nothing that they bar.
+/// Tests whether these patterns make a game: a way of moving and the goal first, then as many others as the goal allows
+/// and at most one more of a family. Every pattern must have what it needs and meet nothing that it bars.
 pub(crate) fn is_coherent(goal: &'static Goal, patterns: &[&'static Pattern]) -> bool {
     let [movement, aim, rest @ ..] = patterns else { return false };
     let gives = |feature: &Feature| patterns.iter().any(|pattern| pattern.gives.contains(feature));
@@ -147,13 +147,13 @@ pub(crate) fn is_coherent(goal: &'static Goal, patterns: &[&'static Pattern]) ->
 mod tests {
     use super::*;
 
-    /// Every pattern that there is.
+    /// All patterns.
     fn all() -> Vec<&'static Pattern> {
         let goals = goals::all().into_iter().map(|goal| &goal.pattern);
         MOVEMENTS.iter().chain(goals).chain(company()).collect()
     }
 
-    /// The page for people names every pattern, with what it brings, needs and bars.
+    /// The documentation page lists every pattern, with the features it gives, needs and bars.
     #[test]
     fn the_page_tells_of_every_pattern() {
         let page = include_str!("../../../docs/generate-games.md");

@@ -1,4 +1,4 @@
-//! The constructive generator of games: draws patterns that go together, and a fiction, and builds the game.
+//! The constructive generator of games: draws patterns that go together and a theme, and builds the game.
 
 use super::genome::GameGenome;
 use super::kind::Kind;
@@ -6,11 +6,11 @@ use crate::{GenerateError, Generator};
 use engine::{Description, Seed};
 use serde::{Deserialize, Serialize};
 
-/// What games may be made.
+/// The configuration of a game generator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GameConfig {
-    /// The kinds that are drawn from.
+    /// The kinds to draw from.
     pub kinds: Vec<Kind>,
 }
 
@@ -21,22 +21,22 @@ impl Default for GameConfig {
     }
 }
 
-/// A game and what people should know of it.
+/// A game with its description in prose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeneratedGame {
-    /// The rules; they compile without problems or warnings.
+    /// The rules; they compile without errors or warnings.
     pub description: Description,
-    /// Title in the game's own fiction.
+    /// The title, in the terms of the game's own theme.
     pub title: String,
-    /// What there is, in a few sentences.
+    /// The contents of the game, in a few sentences.
     pub summary: String,
-    /// How to win, in one sentence.
+    /// The instructions for winning, in one sentence.
     pub goal: String,
-    /// What sort of game it is.
+    /// The kind of game.
     pub kind: Kind,
-    /// Whether something moves unless the player acts.
+    /// `true` if something moves even when the player does not act.
     pub real_time: bool,
-    /// The patterns that were composed, and the fiction.
+    /// The names of the patterns used, and of the theme.
     pub patterns: Vec<String>,
 }
 
@@ -47,15 +47,16 @@ pub struct ConstructiveGames {
 }
 
 impl ConstructiveGames {
-    /// A generator of these kinds of games.
+    /// Creates a generator of these kinds of games.
     pub fn new(config: GameConfig) -> ConstructiveGames {
         ConstructiveGames { config }
     }
 
-    /// The genome of the game that a seed gives.
+    /// Returns the genome of the game that a seed gives.
     ///
     /// # Errors
-    /// If no kinds are allowed, or this seed leads nowhere. Whether it builds, [`GameGenome::build`] says.
+    /// If no kinds are allowed, or generation fails with this seed. The genome may still fail to build: see
+    /// [`GameGenome::build`].
     pub fn genome(&self, seed: Seed) -> Result<GameGenome, GenerateError> {
         GameGenome::draw(&self.config, seed)
     }
@@ -118,7 +119,7 @@ mod tests {
         }
     }
 
-    /// Trees are built, not parsed; what is printed must be the same game all the same.
+    /// Descriptions are built as trees, not parsed; printing one and parsing the text must give the same game.
     #[test]
     fn the_print_is_the_same_game() {
         for game in games(200) {
@@ -129,7 +130,7 @@ mod tests {
         }
     }
 
-    /// With levels of our own, random play does nothing that the engine stops at.
+    /// With generated levels, random play does nothing that stops the engine.
     #[test]
     fn games_play_on_generated_levels() {
         let mut levels = 0;

@@ -1,4 +1,4 @@
-//! A game under construction: sprite types, rules and endings as typed data, before it is laid out as a description.
+//! A game under construction: sprite types, rules and endings as typed data, before it becomes a description.
 
 use super::body::Body;
 use super::effect::Effect;
@@ -16,26 +16,26 @@ use engine::{Sampler, Seed, SpriteClass};
 pub(crate) struct Draft {
     pub(crate) sprites: Vec<Sprite>,
     pub(crate) rules: Vec<Rule>,
-    /// In the order of the TerminationSet, each with whether it is a win.
+    /// In the order of the TerminationSet; `true` marks a win.
     pub(crate) endings: Vec<(Ending, bool)>,
     pub(crate) harms: Vec<(Part, Harm)>,
-    /// Pairs whose meeting a pattern has settled: no rule of movement is made for them.
+    /// Pairs whose meeting a pattern handles itself: no rule of movement is derived for them.
     pub(crate) settled: Vec<(Part, Part)>,
     pub(crate) weapon: Option<Weapon>,
     pub(crate) stamina: Stamina,
-    /// How to win, in words.
+    /// The instructions for winning, in words.
     pub(crate) goal: String,
-    /// What the hero has, in words.
+    /// The equipment of the hero, in words.
     pub(crate) outfit: String,
-    /// What else there is, in words.
+    /// The other facts about the game, in words.
     pub(crate) clauses: Vec<Clause>,
-    /// The number of the pattern that is being built.
+    /// The number of the pattern under construction.
     pub(crate) gene: Option<usize>,
     naming: Naming,
 }
 
 impl Draft {
-    /// Floor, wall and hero.
+    /// Creates a draft with floor, wall and hero.
     pub(crate) fn new(theme: &'static Theme, names: Seed) -> Draft {
         let mut draft = Draft {
             sprites: Vec::new(),
@@ -60,7 +60,7 @@ impl Draft {
         draft
     }
 
-    /// A sprite type that levels place.
+    /// Adds a sprite type that levels place.
     pub(crate) fn place(
         &mut self,
         role: Role,
@@ -82,7 +82,7 @@ impl Draft {
         })
     }
 
-    /// A sprite type that comes into being during play.
+    /// Adds a sprite type that is created only during play.
     pub(crate) fn spawn(
         &mut self,
         role: Role,
@@ -95,7 +95,7 @@ impl Draft {
         part
     }
 
-    /// Another state of a sprite type, that comes into being during play: `lit` and a lamp make a `litLamp`.
+    /// Adds another state of a sprite type, created only during play: `lit` and a lamp make a `litLamp`.
     pub(crate) fn state(
         &mut self,
         of: Part,
@@ -119,7 +119,7 @@ impl Draft {
         })
     }
 
-    /// Another state of the hero.
+    /// Adds another state of the hero.
     pub(crate) fn hero_state(&mut self, adjective: &str) -> Part {
         let name = format!("{adjective}{}", english::capital(self.name(HERO)));
         self.add(Sprite {
@@ -171,24 +171,24 @@ impl Draft {
         Part(self.sprites.len() - 1)
     }
 
-    /// The class and the parameters of the hero, in all its states.
+    /// Sets the class and adds parameters of the hero, for all its states.
     pub(crate) fn set_hero(&mut self, class: SpriteClass, params: &[(&'static str, Value)]) {
         let avatar = &mut self.sprites[AVATAR.0];
         avatar.class = Some(class);
         avatar.params.extend_from_slice(params);
     }
 
-    /// One more parameter, for types that refer to each other.
+    /// Adds a parameter, for types that refer to each other.
     pub(crate) fn give(&mut self, part: Part, key: &'static str, value: Value) {
         self.sprites[part.0].params.push((key, value));
     }
 
-    /// Levels place it, though it is a state of something else.
+    /// Lets levels place a part although it is a state of another.
     pub(crate) fn show(&mut self, part: Part) {
         self.sprites[part.0].placed = true;
     }
 
-    /// How edits call a part.
+    /// Returns the site by which edits refer to a part.
     pub(crate) fn site(&self, part: Part) -> Site {
         if part == CLOCK {
             return Site { role: Role::Floor, nth: CLOCK.0 };
@@ -198,7 +198,7 @@ impl Draft {
         Site { role, nth }
     }
 
-    /// The part that edits call so, if it is there.
+    /// Returns the part that a site refers to, if it is there.
     pub(crate) fn at(&self, site: Site) -> Option<Part> {
         if site.nth == CLOCK.0 {
             return Some(CLOCK);
@@ -207,7 +207,7 @@ impl Draft {
         of_role.nth(site.nth).filter(|&part| !self.sprite(part).gone)
     }
 
-    /// All parts, in the order of their making.
+    /// All parts, in the order of creation.
     pub(crate) fn parts(&self) -> impl Iterator<Item = Part> + use<> {
         (0..self.sprites.len()).map(Part)
     }
@@ -216,33 +216,33 @@ impl Draft {
         &self.sprites[part.0]
     }
 
-    /// The name as VGDL has it.
+    /// Returns the name used in VGDL.
     pub(crate) fn name(&self, part: Part) -> &str {
         if part == CLOCK { "TIME" } else { &self.sprites[part.0].name }
     }
 
-    /// A rule that scores nothing.
+    /// Adds a rule without a score.
     pub(crate) fn rule(&mut self, phase: Phase, first: Part, second: &[Part], effect: Effect) {
         self.scored(phase, first, second, effect, 0);
     }
 
-    /// A rule that scores.
+    /// Adds a rule with a score.
     pub(crate) fn scored(&mut self, phase: Phase, first: Part, second: &[Part], effect: Effect, score: i32) {
         let rule = Rule { phase, first, second: second.to_vec(), effect, score, gene: self.gene };
         self.rules.push(rule);
     }
 
-    /// Touching it harms the hero.
+    /// Makes touching the part harm the hero.
     pub(crate) fn harm(&mut self, part: Part, harm: Harm) {
         self.harms.push((part, harm));
     }
 
-    /// A pattern has seen to what happens when these meet.
+    /// Records that a pattern handles the meeting of these two itself.
     pub(crate) fn settle(&mut self, first: Part, second: Part) {
         self.settled.push((first, second));
     }
 
-    /// The hero's weapon, if there is one, fells it.
+    /// Lets the hero's weapon, if there is one, kill the part.
     pub(crate) fn prey(&mut self, part: Part, score: i32) {
         match self.weapon {
             None => {}
@@ -257,7 +257,7 @@ impl Draft {
         }
     }
 
-    /// The hero's weapon turns it into something else.
+    /// Lets the hero's weapon, if there is one, turn the part into another.
     pub(crate) fn prey_leaves(&mut self, part: Part, stype: Part, score: i32) {
         let (hit, kill_second) = match self.weapon {
             None => return,
@@ -268,47 +268,47 @@ impl Draft {
         self.scored(Phase::Strike, part, &[hit], Effect::TransformTo { stype, kill_second }, score);
     }
 
-    /// The game is won when none of these is left.
+    /// Adds a win for when none of these is left.
     pub(crate) fn win_without(&mut self, parts: &[Part]) {
         self.endings.push((Ending::Gone(parts.to_vec()), true));
     }
 
-    /// The game is lost when none of these is left.
+    /// Adds a loss for when none of these is left.
     pub(crate) fn lose_without(&mut self, part: Part) {
         self.endings.push((Ending::Gone(vec![part]), false));
     }
 
-    /// The game is lost when there are so many of these.
+    /// Adds a loss for when `count` of these exist.
     pub(crate) fn lose_with(&mut self, part: Part, count: u32) {
         self.endings.push((Ending::Many(part, count), false));
     }
 
-    /// In English: "sea glass".
+    /// Returns the name in English: "sea glass".
     pub(crate) fn say(&self, part: Part) -> String {
         english::spaced(self.name(part))
     }
 
-    /// More than one: "sea glasses".
+    /// Returns the plural: "sea glasses".
     pub(crate) fn many(&self, part: Part) -> String {
         english::plural(&self.say(part))
     }
 
-    /// With its article: "a sea glass".
+    /// Returns the name with its article: "a sea glass".
     pub(crate) fn one(&self, part: Part) -> String {
         english::one(&self.say(part))
     }
 
-    /// Adds to what there is to know.
+    /// Adds a fact to the summary.
     pub(crate) fn tell(&mut self, text: String) {
         self.claim(Claim::Fact, text);
     }
 
-    /// Adds how a sprite type moves.
+    /// Adds a clause about the movement of a sprite type.
     pub(crate) fn tell_way(&mut self, part: Part, text: String) {
         self.claim(Claim::Way(part), text);
     }
 
-    /// Adds what something is worth.
+    /// Adds a clause about the points that something is worth.
     pub(crate) fn tell_points(&mut self, text: String) {
         self.claim(Claim::Points, text);
     }
@@ -317,19 +317,19 @@ impl Draft {
         self.clauses.push(Clause { text, gene: self.gene, claim });
     }
 
-    /// Draws from the words of the fiction are over; what remains draws on.
+    /// Makes the title. Called after all other names of the theme are drawn, since it continues the same draws.
     pub(crate) fn title(&mut self, deed: &str) -> String {
         let hero = english::headline(&self.say(HERO));
         self.naming.title(&hero, deed)
     }
 
-    /// Where the game takes place.
+    /// Returns the theme.
     pub(crate) fn setting(&self) -> &'static Theme {
         self.naming.theme()
     }
 }
 
-/// A number from a range, for parameters.
+/// Draws a number from a range, for parameters.
 pub(crate) fn draw(sampler: &mut Sampler, low: u32, high: u32) -> u32 {
     sampler.between(low as usize, high as usize) as u32
 }

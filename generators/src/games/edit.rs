@@ -1,7 +1,7 @@
-//! Typed edits: what is changed in a game after its patterns are built.
+//! Typed edits: the changes made to a game after its patterns are built.
 //!
-//! An edit calls sprite types by [`Site`] and rules by [`RuleAt`], so that it keeps its meaning when patterns come and go,
-//! and when it is handed on to another game; where there is no such thing, it does nothing.
+//! An edit refers to sprite types by [`Site`] and to rules by [`RuleAt`], so that it keeps its meaning when patterns are
+//! added or removed and when it is passed to another game. If its target does not exist, it does nothing.
 
 use super::draft::{AVATAR, Claim, Draft, FLOOR, HERO, Part, Phase, Site, Value, WALL};
 use super::effect::Effect;
@@ -9,7 +9,7 @@ use super::grafts::Graft;
 use super::ways;
 use engine::SpriteClass;
 
-/// A rule: the first one of that phase, effect and first sprite type that has that partner.
+/// A reference to a rule: the first one of that phase, effect and first sprite type that has that partner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RuleAt {
     phase: Phase,
@@ -21,26 +21,26 @@ pub(crate) struct RuleAt {
 /// One change.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Edit {
-    /// A parameter of a sprite type has another value.
+    /// Gives a parameter of a sprite type another value.
     Param { of: Site, key: &'static str, value: Value },
-    /// A sprite type has another class, which goes after something or not.
+    /// Gives a sprite type another class, with a target to chase if `after` is given.
     Class { of: Site, class: SpriteClass, after: Option<Site> },
-    /// A rule scores so much.
+    /// Gives a rule another score.
     Score { rule: RuleAt, score: i32 },
-    /// A rule has another effect.
+    /// Gives a rule another effect.
     Effect { rule: RuleAt, effect: Effect<Site> },
-    /// A rule is gone.
+    /// Removes a rule.
     Drop { rule: RuleAt },
-    /// A rule leaves that partner alone.
+    /// Removes a partner from a rule.
     Spare { rule: RuleAt },
-    /// There is one more rule.
+    /// Adds a rule.
     Graft { graft: &'static Graft, first: Site, second: Site, third: Site },
-    /// A sprite type is gone, with the rules about it.
+    /// Removes a sprite type, with the rules about it.
     Without { of: Site },
 }
 
 impl RuleAt {
-    /// How edits call a rule of a draft, by one of its partners.
+    /// Returns the reference to a rule of a draft by one of its partners.
     pub(crate) fn of(draft: &Draft, rule: usize, partner: usize) -> RuleAt {
         let rule = &draft.rules[rule];
         RuleAt {
@@ -51,7 +51,7 @@ impl RuleAt {
         }
     }
 
-    /// Its number in a draft, if there is one.
+    /// Returns its index in a draft, if it is there.
     fn find(self, draft: &Draft) -> Option<usize> {
         let (first, second) = (draft.at(self.first)?, draft.at(self.second)?);
         draft.rules.iter().position(|rule| {
@@ -64,7 +64,7 @@ impl RuleAt {
 }
 
 impl Edit {
-    /// What sort of change it is, for provenance.
+    /// The name of the kind of change, for provenance.
     pub(crate) fn name(&self) -> &'static str {
         match self {
             Edit::Param { .. } => "edit/parameter",
@@ -77,7 +77,7 @@ impl Edit {
         }
     }
 
-    /// Whether an earlier edit has no say any more after this one.
+    /// Returns `true` if an earlier edit has no effect after this one.
     pub(crate) fn replaces(&self, earlier: &Edit) -> bool {
         match (self, earlier) {
             (Edit::Param { of, key, .. }, Edit::Param { of: other, key: same, .. }) => {
@@ -89,7 +89,7 @@ impl Edit {
         }
     }
 
-    /// Makes the change in a complete draft; none if there is nothing to change so, and nothing is.
+    /// Makes the change in a complete draft; returns `None`, and changes nothing, if its target does not exist.
     pub(crate) fn apply(self, draft: &mut Draft) -> Option<()> {
         match self {
             Edit::Param { of, key, value } => {
@@ -144,14 +144,14 @@ impl Edit {
 }
 
 impl Draft {
-    /// Takes back what the pattern of a rule says about itself.
+    /// Removes the clauses of the pattern of a rule that `about` selects.
     fn forget(&mut self, rule: usize, about: impl Fn(Claim) -> bool) {
         if let Some(gene) = self.rules[rule].gene {
             self.clauses.retain(|clause| clause.gene != Some(gene) || !about(clause.claim));
         }
     }
 
-    /// Lets two types pass each other, whatever their bodies are.
+    /// Lets two types pass each other, regardless of their bodies.
     pub(crate) fn let_pass(&mut self, mover: Part, obstacle: Part) {
         let derived = [Phase::Carry, Phase::Push, Phase::Block];
         for rule in &mut self.rules {
@@ -162,12 +162,12 @@ impl Draft {
         self.rules.retain(|rule| !rule.second.is_empty());
     }
 
-    /// Whether something says that so many of these, or none, end the game.
+    /// Tests whether an ending counts the sprites of this type.
     pub(crate) fn is_counted(&self, part: Part) -> bool {
         self.endings.iter().any(|(ending, _)| ending.parts().contains(&part))
     }
 
-    /// Takes a type out, with the rules about it; none if something else is nothing without it.
+    /// Removes a type with the rules about it; returns `None` if something else depends on it.
     fn remove(&mut self, part: Part) -> Option<()> {
         let named = |value: &Value| *value == Value::Part(part);
         let leans = |sprite: &super::draft::Sprite| {

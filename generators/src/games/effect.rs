@@ -1,8 +1,8 @@
-//! What a rule does: the effects that the patterns use, with the parameters they need and no others.
+//! The effects of rules that the patterns use, with only the parameters that they need.
 
 use super::draft::{Part, Value};
 
-/// An effect of an interaction; `P` is how it names sprite types.
+/// An effect of an interaction; `P` is the type of references to sprite types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Effect<P = Part> {
     /// Kills the first.
@@ -11,39 +11,39 @@ pub(crate) enum Effect<P = Part> {
     KillBoth,
     /// Kills all of a type.
     KillAll { stype: P },
-    /// Kills the first if the second holds so much; the second pays or not.
+    /// Kills the first if the second holds enough of a resource, which the second may have to pay.
     KillIfOtherHasMore { resource: P, limit: u32, subtract: bool },
-    /// Kills the first unless it holds more than that.
+    /// Kills the first unless it holds more than `limit` of a resource.
     KillIfHasLess { resource: P, limit: u32 },
-    /// Sends the first back.
+    /// Moves the first back.
     StepBack,
     /// Turns the first round.
     ReverseDirection,
-    /// Turns the first any way.
+    /// Turns the first in a random direction.
     FlipDirection,
     /// Lets the second push the first.
     BounceForward,
     /// Lets the second carry the first.
     PullWithIt,
-    /// Sends the first to where the second leads.
+    /// Moves the first to an exit of the second.
     TeleportToExit,
-    /// Makes the first another type, at the cost of the second or not.
+    /// Turns the first into another type; the second may be killed.
     TransformTo { stype: P, kill_second: bool },
-    /// Makes all of one type another.
+    /// Turns all sprites of one type into another.
     TransformToAll { stype: P, into: P },
-    /// Makes a sprite where the first is, if it holds so much, which it pays.
+    /// Spawns a sprite at the first if the first holds enough of a resource, which it pays.
     SpawnIfHasMore { resource: P, limit: u32, stype: P },
-    /// Makes a sprite where the second was.
+    /// Spawns a sprite where the second was.
     SpawnBehind { stype: P },
-    /// The second takes the first, which stays or not.
+    /// Adds the first to the resources of the second; the first may stay on the board.
     CollectResource { stays: bool },
     /// Takes one of a resource from the first, and kills the second.
     Spend { resource: P },
-    /// Takes a health point from the first every so many ticks.
+    /// Takes a health point from the first every `timer` ticks.
     Wane { timer: u32 },
-    /// Takes a health point from the first; it dies of the last one, for another score.
+    /// Takes a health point from the first; losing the last one kills it, with a score of its own.
     SubtractHealthPoints { score_if_killed: i32 },
-    /// Gives health points to the first, at the cost of the second.
+    /// Gives health points to the first, and kills the second.
     AddHealthPointsToMax { value: u32 },
 }
 
@@ -73,7 +73,7 @@ impl<P: Copy> Effect<P> {
         }
     }
 
-    /// The same effect with sprite types named otherwise; none if one of them has no other name.
+    /// Returns the same effect with its references to sprite types mapped; `None` if one of them cannot be mapped.
     pub(crate) fn map<Q>(self, mut name: impl FnMut(P) -> Option<Q>) -> Option<Effect<Q>> {
         Some(match self {
             Effect::KillSprite => Effect::KillSprite,
@@ -111,7 +111,7 @@ impl<P: Copy> Effect<P> {
         })
     }
 
-    /// The sprite types that it names.
+    /// The sprite types that it refers to.
     pub(crate) fn names(self) -> Vec<P> {
         let mut names = Vec::new();
         self.map(|part| {
@@ -159,7 +159,7 @@ impl Effect {
                 let score = ("scoreChangeIfKilled", Value::Score(score_if_killed));
                 (score_if_killed != 0).then_some(score).into_iter().collect()
             }
-            // The first time comes after as long as the others, too.
+            // The first execution waits as long as the others.
             Effect::Wane { timer } => vec![
                 ("timer", Value::Count(timer)),
                 ("repeating", Value::Flag(true)),

@@ -1,6 +1,6 @@
 //! From sprite names to English: `seaGlass` is "sea glass", "a sea glass", "sea glasses".
 
-/// With blanks for capitals.
+/// Replaces each capital by a space and the small letter.
 pub(crate) fn spaced(name: &str) -> String {
     let mut text = String::new();
     for letter in name.chars() {
@@ -12,7 +12,7 @@ pub(crate) fn spaced(name: &str) -> String {
     text
 }
 
-/// More than one of them.
+/// Returns the plural.
 pub(crate) fn plural(noun: &str) -> String {
     let ends = |endings: &[&str]| endings.iter().any(|ending| noun.ends_with(ending));
     if ends(&["fish"]) {
@@ -31,30 +31,30 @@ pub(crate) fn plural(noun: &str) -> String {
     }
 }
 
-/// With its article.
+/// Adds the indefinite article.
 pub(crate) fn one(noun: &str) -> String {
     let vowel = noun.starts_with(['a', 'e', 'i', 'o', 'u']);
     format!("{} {noun}", if vowel { "an" } else { "a" })
 }
 
-/// The first letter large.
+/// Capitalises the first letter.
 pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Every word's first letter large.
+/// Capitalises every word.
 pub(crate) fn headline(text: &str) -> String {
     text.split(' ').map(capital).collect::<Vec<_>>().join(" ")
 }
 
-/// "one", "two" …
+/// Spells out a number: "one", "two" …
 pub(crate) fn number(count: u32) -> String {
     const WORDS: [&str; 10] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
     WORDS.get(count as usize).map_or_else(|| count.to_string(), |word| (*word).to_owned())
 }
 
-/// "a, b and c".
+/// Joins clauses: "a, b and c".
 pub(crate) fn series(clauses: &[String]) -> String {
     match clauses {
         [] => String::new(),

@@ -1,4 +1,4 @@
-//! Genomes of games: what a search changes.
+//! Genomes of games: the representation that a search varies.
 
 use super::assemble;
 use super::composition::Composition;
@@ -14,42 +14,42 @@ use crate::GenerateError;
 use engine::{Digest, Game, Seed, syntax};
 use std::fmt;
 
-/// Compositions that are drawn for one game: a goal may find no company, and mechanics may have nothing to do with each
-/// other.
+/// The maximum number of compositions to draw for one game: a goal may find no fitting patterns, or the mechanics may not
+/// depend on each other.
 const DRAWS: u64 = 64;
-/// Ticks of one unit of a goal's time.
+/// The number of ticks in one unit of a goal's time.
 const TIME: u32 = 50;
-/// The same where the hero has to hold out: every tick counts.
+/// The same where the hero has to survive until time is up.
 const SIEGE_TIME: u32 = 20;
 
-/// A pattern and the seed that it is built with.
+/// A pattern with the seed to build it.
 #[derive(Clone, Copy)]
 pub(crate) struct Gene {
     pub(crate) pattern: &'static Pattern,
     pub(crate) seed: Seed,
 }
 
-/// A game as a typed tree: a fiction, patterns with the seed that each is built with, and typed edits of what they build.
+/// A game as a typed tree: a theme, patterns with a seed for each, and typed edits of the result.
 ///
-/// The same genome builds the same game, on every machine. Those that [`ConstructiveGames`](super::ConstructiveGames) and
-/// [`GameVariation`](super::GameVariation) give all build.
+/// The same genome builds the same game on every machine. All genomes returned by
+/// [`ConstructiveGames`](super::ConstructiveGames) and [`GameVariation`](super::GameVariation) build.
 #[derive(Clone)]
 pub struct GameGenome {
     pub(crate) fiction: Fiction,
     pub(crate) goal: &'static Goal,
-    /// The way of moving, the goal, then threats, obstacles and boons: in the order in which they are built.
+    /// The way of moving, the goal, then threats, obstacles and boons: in build order.
     pub(crate) genes: Vec<Gene>,
-    /// Units of time until the game is over.
+    /// The number of units of time until the game is over.
     pub(crate) time: u32,
     pub(crate) edits: Vec<Edit>,
 }
 
-/// What things are called.
+/// The theme of a game, and the draws of its names.
 #[derive(Clone, Copy)]
 pub(crate) struct Fiction {
     pub(crate) theme: &'static Theme,
     pub(crate) names: Seed,
-    /// What one does, for the title.
+    /// The hero's task, for the title.
     pub(crate) deed: &'static str,
 }
 
@@ -62,10 +62,11 @@ impl Fiction {
 }
 
 impl GameGenome {
-    /// Draws patterns that go together, and a fiction.
+    /// Draws patterns that go together, and a theme.
     ///
     /// # Errors
-    /// If no kinds are allowed, or this seed leads nowhere. Whether the game compiles, [`build`](GameGenome::build) says.
+    /// If no kinds are allowed, or generation fails with this seed. The game may still fail to compile: see
+    /// [`build`](GameGenome::build).
     pub(crate) fn draw(config: &GameConfig, seed: Seed) -> Result<GameGenome, GenerateError> {
         if config.kinds.is_empty() {
             return Err(GenerateError::Unsuitable("no kinds of games are allowed".to_owned()));
@@ -78,7 +79,7 @@ impl GameGenome {
         drawn.ok_or_else(|| GenerateError::Unlucky("no goal found company".to_owned()))
     }
 
-    /// These patterns, with a fiction for them.
+    /// Makes a genome of these patterns, with a theme for them.
     fn compose(Composition { goal, patterns }: Composition, seed: Seed) -> GameGenome {
         let (least, most) = goal.ticks;
         let genes = patterns.into_iter().enumerate();
@@ -93,12 +94,12 @@ impl GameGenome {
         }
     }
 
-    /// What sort of game it is.
+    /// The kind of game.
     pub fn kind(&self) -> Kind {
         self.goal.kind
     }
 
-    /// Edits of what the patterns build.
+    /// The number of edits.
     pub fn edits(&self) -> usize {
         self.edits.len()
     }
@@ -106,12 +107,12 @@ impl GameGenome {
     /// Builds the game. Cost: well under a millisecond.
     ///
     /// # Errors
-    /// If the rules do not compile, or the compiler or the analysis warns of something in them, such as a game that cannot
+    /// If the rules do not compile, or if the compiler or the analysis warns about them, for example that the game cannot
     /// be won.
     pub fn build(&self) -> Result<GeneratedGame, GenerateError> {
         let draft = self.draft().0;
         let game = self.lay_out(draft);
-        // From the print: what is built is what is frozen.
+        // Compiles the printed text: frozen games are compiled from it.
         match Game::from_source(&syntax::print(&game.description)) {
             Ok(compiled) if compiled.warnings().is_empty() => Ok(game),
             Ok(compiled) => {
@@ -121,20 +122,20 @@ impl GameGenome {
         }
     }
 
-    /// The digest of the rules as they are printed: genomes with the same key build the same rules under the same names.
-    /// Cost: that of building without compiling.
+    /// The digest of the printed rules: genomes with the same key build the same rules under the same names. Cost: that
+    /// of building without compiling.
     pub fn key(&self) -> Digest {
         Digest::of(syntax::print_bare(&assemble::describe(&self.draft().0)).as_bytes())
     }
 
-    /// What the patterns build, with the edits made; and those of the edits that changed something.
+    /// Builds the patterns and applies the edits; returns the draft with the edits that changed something.
     pub(crate) fn draft(&self) -> (Draft, Vec<Edit>) {
         let mut draft = Draft::new(self.fiction.theme, self.fiction.names);
         for (number, gene) in self.genes.iter().enumerate() {
             draft.gene = Some(number);
             (gene.pattern.build)(&mut draft, &mut gene.seed.sampler());
         }
-        // Every game ends: lost when time is up, or won where holding out is the goal.
+        // Every game ends: it is lost when time is up, or won where surviving is the goal.
         let waiting = draft.endings.iter_mut().find(|(ending, _)| matches!(ending, Ending::Timeout(_)));
         match waiting {
             Some((ending, _)) => *ending = Ending::Timeout(SIEGE_TIME * self.time),
@@ -160,12 +161,12 @@ impl GameGenome {
         }
     }
 
-    /// Whether some pattern brings this.
+    /// Returns `true` if some pattern has this feature.
     fn gives(&self, feature: Feature) -> bool {
         self.genes.iter().any(|gene| gene.pattern.gives.contains(&feature))
     }
 
-    /// The patterns, in the order in which they are built.
+    /// The patterns, in build order.
     pub(crate) fn patterns(&self) -> Vec<&'static Pattern> {
         self.genes.iter().map(|gene| gene.pattern).collect()
     }
@@ -183,7 +184,7 @@ impl fmt::Debug for GameGenome {
     }
 }
 
-/// Who is where, with what; then what else there is.
+/// Describes the hero with its equipment and the place, then the other facts.
 fn summary(draft: &Draft) -> String {
     let hero = draft.one(HERO);
     let outfit = match draft.outfit.as_str() {

@@ -1,18 +1,17 @@
-//! Rules that can be added between parts of any patterns: what designers do when two things of a game should have to do
-//! with each other.
+//! Rules that can be added between parts of any patterns, as designers do to make two things of a game interact.
 
 use super::draft::{Draft, Part, Phase, Rule};
 use super::effect::Effect;
 use super::role::Role;
 
-/// What walks about and means no good.
+/// Moving enemies.
 const FOES: &[Role] =
     &[Role::Wanderer, Role::Chaser, Role::Patroller, Role::Rover, Role::Slug, Role::Pest, Role::Snuffer];
-/// Those that do not stay on a line.
+/// Moving enemies that do not stay on a line.
 const STRAYS: &[Role] = &[Role::Wanderer, Role::Chaser, Role::Slug, Role::Pest, Role::Snuffer];
-/// What is nice to have, and not needed.
+/// Things that are useful but not needed.
 const TREATS: &[Role] = &[Role::Coin, Role::Berry, Role::Medicine];
-/// What hurts where it is.
+/// Things that are harmful where they are.
 const HAZARDS: &[Role] =
     &[Role::Trap, Role::Dart, Role::Drop, Role::Steam, Role::Creep, Role::Slime, Role::Blast];
 
@@ -21,23 +20,23 @@ const HAZARDS: &[Role] =
 pub(crate) struct Graft {
     /// Its name, with its family.
     pub(crate) name: &'static str,
-    /// How often it is drawn, relative to others.
+    /// The relative weight in the draw.
     pub(crate) weight: u32,
     first: &'static [Role],
     second: &'static [Role],
-    /// What else must be there; if nothing, the second once more.
+    /// The roles for the third part; if empty, the second part is used again.
     third: &'static [Role],
     phase: Phase,
-    /// Whether the first may be what an ending counts: the rule takes none of them away.
+    /// `true` if an ending may count the first: the rule does not remove it.
     spares: bool,
-    /// Whether their bodies would keep the two apart.
+    /// `true` if the two must be allowed to pass each other, since their bodies would keep them apart.
     passes: bool,
     score: i32,
     effect: fn([Part; 3]) -> Effect,
     tell: fn(&Draft, [Part; 3]) -> String,
 }
 
-/// All of them.
+/// All grafts.
 pub(crate) const GRAFTS: &[Graft] = &[
     Graft {
         name: "graft/perish",
@@ -165,7 +164,7 @@ pub(crate) const GRAFTS: &[Graft] = &[
 ];
 
 impl Graft {
-    /// The parts of a draft between which it makes sense.
+    /// Returns the parts of a draft between which the rule makes sense.
     pub(crate) fn places(&self, draft: &Draft) -> Vec<[Part; 3]> {
         let of = |roles: &'static [Role]| {
             let parts = draft.parts().filter(|&part| !draft.sprite(part).gone);
@@ -185,7 +184,8 @@ impl Graft {
         places
     }
 
-    /// One rule for a pair is enough, and what an ending counts goes by the rules of its goal only.
+    /// Tests whether the rule fits: a pair has at most one rule, and only the rules of the goal may remove what an ending
+    /// counts.
     fn fits(&self, draft: &Draft, [first, second, third]: [Part; 3]) -> bool {
         let effect = (self.effect)([first, second, third]);
         let met = |rule: &Rule| {
@@ -199,7 +199,7 @@ impl Graft {
         all_differ && !taken_away && !partner_too && !draft.rules.iter().any(met)
     }
 
-    /// Adds the rule; none if it does not make sense there.
+    /// Adds the rule; returns `None` if it does not make sense there.
     pub(crate) fn apply(&self, draft: &mut Draft, place: [Part; 3]) -> Option<()> {
         if !self.fits(draft, place) {
             return None;

@@ -1,21 +1,21 @@
-//! What sort of game it is, by what wins it.
+//! The kinds of games, by what wins them.
 
 use engine::Sampler;
 use serde::{Deserialize, Serialize};
 
-/// Declares the kinds once: variant, name as written, words for titles.
+/// Declares the kinds once: variant, name in configurations, words for titles.
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident $name:literal $deeds:literal;)*) => {
-        /// A sort of game.
+        /// A kind of game.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case")]
         pub enum Kind { $($(#[doc = $doc])+ $kind),* }
 
         impl Kind {
-            /// All kinds, in a fixed order: draws depend on it.
+            /// All kinds, in a fixed order that draws depend on.
             pub const ALL: &[Kind] = &[$(Kind::$kind),*];
 
-            /// As written in configurations and cards.
+            /// The name in configurations and cards.
             pub fn name(self) -> &'static str {
                 match self { $(Kind::$kind => $name),* }
             }
@@ -28,40 +28,40 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// Get out.
+    /// Reach the exit.
     Escape "escape" "Escape Flight Exit";
-    /// Get across lanes of traffic.
+    /// Cross lanes of traffic.
     Crossing "crossing" "Crossing Passage Traverse";
-    /// Gather things among dangers.
+    /// Collect things among dangers.
     CollectAndAvoid "collect-and-avoid" "Harvest Hoard Gathering";
-    /// Find what opens, and open it.
+    /// Find a key and open the lock.
     KeyAndDoor "key-and-door" "Secret Lock Key";
-    /// Shoot or strike them all.
+    /// Shoot or strike all foes.
     Shooter "shooter" "Hunt Stand Battle";
-    /// Push things where they belong.
+    /// Push things onto their targets.
     BoxPuzzle "box-puzzle" "Puzzle Labour Shift";
-    /// Get friends out of danger.
+    /// Save friends from danger.
     Rescue "rescue" "Rescue Errand Vigil";
-    /// Drive the shy where they belong.
+    /// Drive fleeing or straying creatures to a place.
     Herding "herding" "Round Drive Muster";
-    /// Fetch, make, deliver.
+    /// Fetch, process and deliver goods.
     Resource "resource" "Delivery Trade Errand";
-    /// Set everything right faster than it goes wrong.
+    /// Put everything in order faster than it is undone.
     Tending "tending" "Rounds Watch Chore";
     /// Stay alive until time is up.
     Survival "survival" "Ordeal Night Siege";
-    /// Keep what is in one's care from harm.
+    /// Protect something from harm.
     Defence "defence" "Guard Watch Defence";
     /// Lead pursuers into traps.
     Lure "lure" "Trick Ruse Bait";
-    /// Catch what falls.
+    /// Catch falling things.
     Catching "catching" "Catch Juggle Windfall";
     /// Blow things up.
     Demolition "demolition" "Demolition Blast Clearance";
 }
 
 impl Kind {
-    /// What one does in such games, for titles.
+    /// Draws a word for the hero's task, for titles.
     pub(crate) fn deed(self, sampler: &mut Sampler) -> &'static str {
         let deeds: Vec<&'static str> = self.deeds().split(' ').collect();
         deeds[sampler.below(deeds.len())]

@@ -1,8 +1,8 @@
-//! The masked twin of a game: the same rules, with nothing in names, characters, colours or comments that tells what they
-//! are.
+//! The masked twin of a game: the same rules, without names, characters, colours or comments that reveal the meaning of
+//! anything.
 //!
-//! Who has read about games knows what a `key` is for; who plays the twin has to find out. The names `wall` and `avatar`
-//! stay, as the engine knows them by these.
+//! A player who has read about games knows the purpose of a `key`; a player of the twin has to find it out. The names
+//! `wall` and `avatar` stay, since the engine depends on them.
 
 use super::surface::{self, Symbols};
 use engine::syntax::SpriteLine;
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// Level characters of masked games.
 const SYMBOLS: &str = "abcdefghijklmnopqrstuvwxyzBCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-/// A game without its fiction, and how its levels are written.
+/// A game without its theme, with the characters of its levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Masked {
     description: Description,
@@ -20,16 +20,16 @@ pub struct Masked {
 }
 
 impl Masked {
-    /// The twin of a game, any that compiles: sprite types are called `t1`, `t2` and so on in drawn order, level characters
-    /// are drawn, and the colours that the game uses change places. Pictures and comments go. The order of all lines is
-    /// that of the game, so that the two play alike, state hashes included.
+    /// Makes the twin of any game that compiles: sprite types are called `t1`, `t2` and so on in random order, level
+    /// characters are drawn, and the colours that the game uses are permuted. Images and comments are removed. All lines
+    /// keep the order of the game, so that the two play alike, state hashes included.
     pub fn of(description: &Description, seed: Seed) -> Masked {
         let mut sampler = seed.child("masked", 0).sampler();
         let mask = Mask::draw(description, &mut sampler);
         let mut masked = surface::undressed(description, &mask.names);
         mask.recolor(&mut masked.sprites);
         mask.symbols.write(&mut masked);
-        // In the order of their characters, which is not that of their parts.
+        // The mapping is sorted by character, so its order does not reveal the sprite types.
         masked.mapping.sort_by_key(|line| line.symbol);
         Masked { description: masked, symbols: mask.symbols }
     }
@@ -39,13 +39,13 @@ impl Masked {
         &self.description
     }
 
-    /// A level of the game, as the twin writes it. Characters that mean nothing become blanks.
+    /// Translates a level of the game for the twin. Characters without a meaning become blanks.
     pub fn level(&self, text: &str) -> String {
         self.symbols.level(text)
     }
 }
 
-/// What becomes of what.
+/// The mappings from old to new names, characters and colours.
 struct Mask {
     names: BTreeMap<String, String>,
     symbols: Symbols,
@@ -82,7 +82,7 @@ impl Mask {
         pool.truncate(used.len() - needed.len());
         pool.extend(needed);
         sampler.shuffle(&mut pool);
-        // A game with more characters than the pool keeps the last ones.
+        // A game with more characters than the pool keeps its last ones.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
         let symbols = symbols.chain(silent());
         Mask { names: names.collect(), symbols: Symbols(symbols.collect()), colors: colors.collect() }
@@ -112,7 +112,7 @@ mod tests {
         Seed::from_text("masks")
     }
 
-    /// The same hashes and outcomes under the same actions.
+    /// Tests that the twin has the same hashes and outcomes under the same actions.
     fn plays_alike(name: &str, source: &Description, levels: &[String]) {
         let masked = Masked::of(source, seed().child(name, 0));
         assert_eq!(masked, Masked::of(source, seed().child(name, 0)));

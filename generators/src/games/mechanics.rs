@@ -1,11 +1,11 @@
-//! The graph of mechanics of a draft: which rule provides what another one lives on.
+//! The dependency graph of the mechanics of a draft: rules that use what other rules provide.
 
 use super::body::Body;
 use super::draft::{Draft, Part, Phase, Rule, Stamina, Value, Weapon};
 use super::effect::Effect;
 use engine::SpriteClass;
 
-/// A mechanic that provides something, and what it provides.
+/// The mechanics that provide something, with the part that each provides.
 fn provisions(draft: &Draft) -> Vec<(Option<usize>, Part)> {
     let mut provided = Vec::new();
     for (at, rule) in draft.rules.iter().enumerate() {
@@ -26,13 +26,13 @@ fn provisions(draft: &Draft) -> Vec<(Option<usize>, Part)> {
     provided
 }
 
-/// Whether a rule means something beyond who stops whom.
+/// Returns `true` if a rule is more than one about obstacles.
 fn is_mechanic(rule: &Rule) -> bool {
     rule.gene.is_some() || rule.phase >= Phase::Strike
 }
 
-/// How many mechanics of a complete draft depend on another one: what is held is spent, what is made is used, what is
-/// pushed fits somewhere, what is in the way is cleared, what wounds is healed, what goes wrong adds up.
+/// Counts the mechanics of a complete draft that another one depends on: for example, collected things are spent, created
+/// ones are used, pushed ones fit somewhere, wounds are healed and losses are counted.
 pub(crate) fn dependencies(draft: &Draft) -> usize {
     let mut count = usize::from(matches!(draft.stamina, Stamina::Hearts(_)));
     for (from, part) in provisions(draft) {
@@ -53,8 +53,8 @@ pub(crate) fn dependencies(draft: &Draft) -> usize {
     count
 }
 
-/// Whether nothing hangs in the air: what is collected is good for something, what is needed can be had, what is shut can be
-/// opened, and all that levels place plays a part.
+/// Tests whether everything in a draft is connected: collected things have a use, required ones can be obtained, shut
+/// ones can be opened, and everything that levels place plays a part.
 pub(crate) fn is_whole(draft: &Draft) -> bool {
     let parts = || draft.parts().filter(|&part| !draft.sprite(part).gone);
     let mechanics = || draft.rules.iter().filter(|rule| is_mechanic(rule));
@@ -104,7 +104,7 @@ mod tests {
     use crate::games::{ConstructiveGames, GameConfig, Kind};
     use engine::Seed;
 
-    /// Every constructive game of every kind: something in the way, and two mechanics that have to do with each other.
+    /// Every constructive game of every kind has an obstacle and two mechanics that interact.
     #[test]
     fn mechanics_depend_on_each_other() {
         for &kind in Kind::ALL {

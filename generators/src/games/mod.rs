@@ -1,9 +1,9 @@
-//! Game generators: rules, mapping and fiction.
+//! Game generators: rules, mapping and theme.
 //!
 //! A game is composed of typed patterns: a way of moving, a goal, threats, obstacles and boons ([`ConstructiveGames`]). A
-//! pattern (`pattern.rs`) adds sprite types and rules to a draft (`draft.rs`) and says what it brings, needs and rules
-//! out. What stops whom follows from the bodies of the sprite types (`body.rs`); what they are called from a fiction
-//! (`theme.rs`, `themes/`). The draft is laid out as a syntax tree (`assemble.rs`): no text is pasted together.
+//! pattern (`pattern.rs`) adds sprite types and rules to a draft (`draft.rs`) and declares the features it gives, needs
+//! and bars. The rules about obstacles follow from the bodies of the sprite types (`body.rs`); names come from a theme
+//! (`theme.rs`, `themes/`). The draft becomes a syntax tree (`assemble.rs`): no text is concatenated.
 
 mod assemble;
 mod body;

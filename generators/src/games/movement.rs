@@ -1,4 +1,4 @@
-//! How the hero moves, and what it strikes with.
+//! The hero's ways of moving, and its weapons.
 
 use super::body::Body;
 use super::draft::{AVATAR, Draft, HERO, Harm, Phase, Value, Weapon, draw};
@@ -133,9 +133,9 @@ fn blade(draft: &mut Draft, sampler: &mut Sampler) {
     draft.outfit = format!("armed with {}", draft.one(blade));
 }
 
-/// A shot, and the hero who shoots it.
+/// Adds a shot, and makes the hero shoot it.
 fn shooter(draft: &mut Draft, sampler: &mut Sampler, ammo: Option<Value>) {
-    // One shot in the air at a time makes every miss cost.
+    // With at most one shot in the air, every miss has a cost.
     let alone = sampler.ratio(1, 2);
     let alone = alone.then_some(("singleton", Value::Flag(true)));
     let params: Vec<_> = alone.into_iter().collect();
@@ -179,11 +179,11 @@ fn shoot_rack(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// A charge goes off a few ticks after it is laid, to all four sides.
+/// A charge explodes a few ticks after it is laid, in all four directions.
 fn blast(draft: &mut Draft, sampler: &mut Sampler) {
     let params = [("limit", Value::Count(draw(sampler, 1, 2)))];
     let blast = draft.spawn(Role::Blast, SpriteClass::Flicker, Body::Puff, &params);
-    // A spreader spreads at age 2: a negative age is a longer fuse.
+    // A Spreader spreads at age 2: a negative age makes a longer fuse.
     let fuse = draw(sampler, 2, 4) as i32;
     let params = [
         ("stype", Value::Part(blast)),
@@ -224,7 +224,7 @@ fn climb(draft: &mut Draft, _: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// A vehicle: it can be turned, not stopped.
+/// A vehicle: it can be turned, but not stopped.
 fn drive(draft: &mut Draft, sampler: &mut Sampler) {
     draft.set_hero(SpriteClass::OngoingAvatar, &[("cooldown", Value::Count(draw(sampler, 2, 3)))]);
     draft.outfit = "unable to stop".into();

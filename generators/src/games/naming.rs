@@ -1,10 +1,10 @@
-//! Names of one game: each role gets a word of the fiction, no word twice.
+//! Names for one game: each role gets a word of the theme, and no word is used twice.
 
 use super::role::Role;
 use super::theme::Theme;
 use engine::Sampler;
 
-/// Gives out names.
+/// Assigns the names.
 pub(crate) struct Naming {
     theme: &'static Theme,
     sampler: Sampler,
@@ -20,10 +20,10 @@ impl Naming {
         self.theme
     }
 
-    /// A word for the role that the game does not use yet.
+    /// Draws a word for the role that the game does not use yet.
     ///
     /// # Panics
-    /// If all are in use: a game gives no role to more sprite types than a fiction has words for it.
+    /// If all are in use: a game gives no role to more sprite types than a theme has words for it.
     pub(crate) fn word(&mut self, role: Role) -> String {
         let mut free = self.theme.words(role);
         free.retain(|word| !self.taken.contains(word));

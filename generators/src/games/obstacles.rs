@@ -1,4 +1,4 @@
-//! What is in the hero's way, and how it is overcome.
+//! Obstacles in the hero's way, with the means to overcome them.
 
 use super::body::Body;
 use super::draft::{AVATAR, Draft, Part, Phase, Value, draw};
@@ -17,7 +17,7 @@ const fn obstacle(
     Pattern { name, weight, roles, gives: &[], needs: &[Feature::Four], bars: &[], build }
 }
 
-/// What shuts off a part of the level.
+/// An obstacle that shuts off a part of the level.
 const fn shut(
     name: &'static str,
     weight: u32,
@@ -52,7 +52,7 @@ pub(crate) const OBSTACLES: &[Pattern] = &[
     Pattern { gives: &[Feature::Crates], ..obstacle("obstacle/ford", 2, &[Role::Crate, Role::Pool], ford) },
 ];
 
-/// Doors that open to the key: it is used up, or opens them all.
+/// Doors that open to a key: each uses up one, or one key opens them all.
 fn lock(draft: &mut Draft, sampler: &mut Sampler) {
     let subtract = sampler.ratio(1, 2);
     let key = draft.place(Role::Key, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(3))]);
@@ -126,7 +126,7 @@ fn cart(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// Something that the hero can push, but that nothing else can pass.
+/// Crates that the hero can push, and that nothing else can pass.
 fn crates(draft: &mut Draft, _: &mut Sampler) {
     let block = pushable(draft);
     let clause = format!("{} can be pushed", draft.many(block));
@@ -139,7 +139,7 @@ fn pushable(draft: &mut Draft) -> Part {
     block
 }
 
-/// Coins that lie about pay for the way on.
+/// Coins on the board pay for opening gates.
 fn toll(draft: &mut Draft, sampler: &mut Sampler) {
     let price = draw(sampler, 1, 3);
     let params = [("limit", Value::Count(price + 2))];
@@ -154,7 +154,7 @@ fn toll(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// What is pushed in fills it, and the way is free.
+/// A crate pushed into the pool fills it and clears the way.
 fn ford(draft: &mut Draft, _: &mut Sampler) {
     let block = pushable(draft);
     let pool = draft.place(Role::Pool, SpriteClass::Immovable, Body::Solid, &[]);

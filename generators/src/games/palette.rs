@@ -1,4 +1,4 @@
-//! Level characters and colours: told apart within a game, and alike from game to game.
+//! Level characters and colours: distinct within a game, and consistent across games.
 
 use super::role::Role;
 use super::theme::Theme;
@@ -6,14 +6,14 @@ use super::theme::Theme;
 /// Characters for types whose letters are all taken.
 const SPARE: &str = "123456789*+=%&@?!^~$";
 
-/// A level character for a type: the first free letter of its name, small or large, or a free sign.
+/// Returns a level character for a type: the first free letter of its name, small or capital, or a free sign.
 ///
 /// `.`, `w` and `A` are for floor, wall and hero in every game.
 pub(crate) fn symbol(name: &str, taken: &[char]) -> char {
     free_symbol(name, taken).expect("a game has fewer types than there are characters")
 }
 
-/// The same; none if no letter of the name and no sign is free.
+/// The same; returns `None` if no letter of the name and no sign is free.
 pub(crate) fn free_symbol(name: &str, taken: &[char]) -> Option<char> {
     let small = name.chars().map(|letter| letter.to_ascii_lowercase());
     let large = name.chars().map(|letter| letter.to_ascii_uppercase());
@@ -48,7 +48,8 @@ const COLORS: [&str; 20] = [
     "DARKGRAY",
 ];
 
-/// A colour for a type: for the ground that of the fiction; else what suits its role, if it is free, else the first that is.
+/// Returns a colour for a type: for floors and walls that of the theme; otherwise a free one that suits its role, or else
+/// the first free one.
 pub(crate) fn color(role: Role, theme: &Theme, taken: &[&'static str]) -> &'static str {
     match role {
         Role::Floor => return theme.floor,
@@ -63,7 +64,7 @@ pub(crate) fn color(role: Role, theme: &Theme, taken: &[&'static str]) -> &'stat
 fn suiting(role: Role) -> &'static [&'static str] {
     use Role as R;
     match role {
-        // Of the fiction.
+        // Set by the theme.
         R::Floor | R::Wall => &[],
         R::Hero => &["GREEN", "LIGHTGREEN"],
         R::Exit | R::Haven | R::PortalOut => &["LIGHTBLUE", "BLUE"],

@@ -1,11 +1,11 @@
-//! Patterns: named fragments of games, with what they need and what they rule out.
+//! Patterns: named fragments of games, with the features they need and bar.
 
 use super::draft::Draft;
 use super::kind::Kind;
 use super::role::Role;
 use engine::Sampler;
 
-/// What a pattern brings into a game, needs of it, or does not go with.
+/// A feature that a pattern gives to a game, needs in it, or bars from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Feature {
     /// The hero walks in four directions.
@@ -14,39 +14,39 @@ pub(crate) enum Feature {
     Row,
     /// The hero moves along one column.
     Column,
-    /// What the hero can take is settled.
+    /// The hero's stamina is determined.
     Health,
-    /// The hero strikes or shoots.
+    /// The hero has a weapon.
     Armed,
-    /// What it strikes with flies or swings: no explosions.
+    /// The weapon is a projectile or a blade, not an explosive.
     Strikes,
-    /// It blows things up.
+    /// The weapon is an explosive.
     Blasts,
-    /// Its ammunition is limited.
+    /// The ammunition is limited.
     Scarce,
     /// Something moves by itself.
     Movers,
     /// Something harms the hero.
     Harm,
-    /// Something is there for a weapon to hit.
+    /// There is something for a weapon to hit.
     Prey,
-    /// The hero changes its state.
+    /// The hero changes its state, such as when it carries something.
     States,
-    /// Something is pushed.
+    /// Crates are pushed.
     Crates,
-    /// Someone walks who must arrive.
+    /// Moving friends must reach a place.
     Followers,
-    /// The hero comes back to the same places.
+    /// The hero returns to the same places.
     Errands,
-    /// A foe must not vanish but by the hero's weapon.
+    /// A foe must not vanish except by the hero's weapon.
     Precious,
     /// Touching a foe may make it vanish.
     Wards,
     /// There is something to blow up.
     Ruins,
-    /// Lanes of traffic, which leave no room to shut anything away.
+    /// Lanes of traffic, which leave no room to shut off a part of the level.
     Lanes,
-    /// Harm that no touch ends.
+    /// A hazard that stays when it is touched.
     Stains,
 }
 
@@ -54,32 +54,32 @@ pub(crate) enum Feature {
 pub(crate) struct Pattern {
     /// Its name, with its family: `threat/patrol`.
     pub(crate) name: &'static str,
-    /// How often it is drawn, relative to others.
+    /// The relative weight in the draw.
     pub(crate) weight: u32,
     /// The roles of the sprite types it may introduce; no two patterns of a game share one.
     pub(crate) roles: &'static [Role],
-    /// What it brings.
+    /// The features it gives.
     pub(crate) gives: &'static [Feature],
-    /// What must be there.
+    /// The features that other patterns must give.
     pub(crate) needs: &'static [Feature],
-    /// What must not be there, before or after.
+    /// The features that no other pattern may give.
     pub(crate) bars: &'static [Feature],
     /// Adds it to a draft.
     pub(crate) build: fn(&mut Draft, &mut Sampler),
 }
 
-/// A pattern that says how the game is won, and what goes with that.
+/// A pattern that defines how the game is won, with its requirements on the other patterns.
 pub(crate) struct Goal {
-    /// The fragment.
+    /// The pattern.
     pub(crate) pattern: Pattern,
-    /// The sort of game that it makes.
+    /// The kind of game that it makes.
     pub(crate) kind: Kind,
-    /// What the hero must be able to do.
+    /// The features that the way of moving must give.
     pub(crate) hero: &'static [Feature],
-    /// Threats besides its own: at least, at most.
+    /// Threats besides its own: minimum and maximum.
     pub(crate) threats: (usize, usize),
-    /// Obstacles: at least, at most.
+    /// Obstacles: minimum and maximum.
     pub(crate) obstacles: (usize, usize),
-    /// Ticks until time is up: at least, at most.
+    /// Units of time until the game ends: minimum and maximum.
     pub(crate) ticks: (u32, u32),
 }

@@ -1,7 +1,7 @@
-//! A game in a fresh fiction: the same rules under names, characters, colours and words that nobody has read of.
+//! Rethemed games: the same rules under new names, characters, colours and texts.
 //!
-//! Who has learnt a game by heart knows what its `conch` is for. Retold, it has to be read again: what its types are called
-//! follows from what the rules make of them (`casting.rs`), and from a fiction and words that are drawn.
+//! A player who knows a game by heart knows the purpose of its `conch`. The rethemed game has to be read again: the names
+//! of its types follow from their use in the rules (`casting.rs`), and from a theme and words that are drawn.
 
 use super::casting;
 use super::english::{capital, one, plural, series, spaced};
@@ -17,33 +17,33 @@ use engine::syntax::{MappingLine, SpriteLine};
 use engine::{Description, Game, Sampler, Seed, SpriteType};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Names that a clause of a summary tells at most.
+/// The maximum number of names in a clause of a summary.
 const TOLD: usize = 4;
-/// Titles that are drawn before a plain one is taken.
+/// The number of titles to draw before a plain one is used.
 const TITLES: usize = 32;
-/// What tells types apart when a fiction has no more words for their part.
+/// Adjectives that distinguish types if a theme has no more words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
 
-/// A game in a fresh fiction, and how its levels are written.
+/// A game under a new theme, with the characters of its levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Retold {
     /// The rules. Lines are in the order of the game, so that the two play alike, state hashes included.
     pub description: Description,
-    /// Title in the new fiction.
+    /// The title under the new theme.
     pub title: String,
-    /// Who the player is, what there is to do and what to beware of, in one sentence.
+    /// The player's character, the tasks and the dangers, in one sentence.
     pub summary: String,
-    /// How to win, in one sentence.
+    /// The instructions for winning, in one sentence.
     pub goal: String,
-    /// The fiction, such as `fiction/harbour`.
+    /// The name of the theme, such as `fiction/harbour`.
     pub fiction: &'static str,
     symbols: Symbols,
 }
 
 impl Retold {
-    /// Tells a game anew: sprite types get words of one fiction by what they are for, level characters, colours, title and
-    /// texts follow. No name of the game is used again, `wall` and `avatar` apart, as the engine knows them by these;
-    /// pictures and comments go. Pure; cost: about that of analysing the game twice.
+    /// Rethemes a game: sprite types get words of one theme according to their use; level characters, colours, title and
+    /// texts follow. No name of the game is reused except `wall` and `avatar`, since the engine depends on them; images
+    /// and comments are removed. Pure; cost: about that of analysing the game twice.
     ///
     /// # Errors
     /// [`GenerateError::Unsuitable`], whatever the seed: the game does not compile under other names (it was loaded with the
@@ -73,13 +73,13 @@ impl Retold {
         Ok(Retold { goal: goal(&analysis), title, summary, fiction: theme.name, symbols, description })
     }
 
-    /// A level of the game, in the new characters. Characters that mean nothing become blanks.
+    /// Translates a level of the game to the new characters. Characters without a meaning become blanks.
     pub fn level(&self, text: &str) -> String {
         self.symbols.level(text)
     }
 }
 
-/// The names that must not be used again, by their words: without capitals and the ending of the plural.
+/// The stems of the words that must not be used again: lower case, without the ending of the plural.
 struct Old(BTreeSet<String>);
 
 impl Old {
@@ -89,12 +89,12 @@ impl Old {
         Old(names.flat_map(|name| words(name).chain([stem(name)])).collect())
     }
 
-    /// Whether one of them is in a text.
+    /// Returns `true` if a text contains one of them.
     fn is_told(&self, text: &str) -> bool {
         words(text).any(|word| self.0.contains(&word)) || self.0.contains(&stem(text))
     }
 
-    /// A fiction, one with few of these words rather than one with many.
+    /// Draws a theme, with a preference for those that share few of these words.
     fn theme(&self, sampler: &mut Sampler) -> &'static Theme {
         let shared = |theme: &Theme| {
             let words = Role::ALL.iter().flat_map(|&role| theme.words(role));
@@ -110,7 +110,7 @@ impl Old {
     }
 }
 
-/// The words of a name or text, as they are compared.
+/// The stems of the words of a name or text, for comparison.
 fn words(text: &str) -> impl Iterator<Item = String> {
     let spaced = spaced(text);
     let words: Vec<String> =
@@ -123,13 +123,13 @@ fn stem(word: &str) -> String {
     word.strip_suffix('s').filter(|stem| stem.len() > 2).unwrap_or(&word).to_owned()
 }
 
-/// What a type is called from now on, and as what.
+/// The new name and role of a type.
 struct Part {
     word: String,
     role: Role,
 }
 
-/// Gives every type of a SpriteSet a word.
+/// Assigns a word to every type of a SpriteSet.
 struct Casting<'a> {
     analysis: &'a Analysis,
     theme: &'static Theme,
@@ -178,7 +178,7 @@ impl Casting<'_> {
         self.analysis.game().sprite_type(name)
     }
 
-    /// One of these words, with an adjective or a number if all are in use.
+    /// Draws one of these words, with an adjective or a number if all are in use.
     fn word(&mut self, words: Vec<&'static str>) -> String {
         let free = self.free(words.clone());
         if !free.is_empty() {
@@ -204,7 +204,7 @@ impl Casting<'_> {
     }
 }
 
-/// The first line below a group that is no group.
+/// Returns the name of the first line below a group that is not a group.
 fn first_leaf(line: &SpriteLine) -> &str {
     let mut line = line;
     while let Some(child) = line.children.first() {
@@ -217,7 +217,7 @@ fn names_back(names: &BTreeMap<String, String>) -> BTreeMap<&str, &str> {
     names.iter().map(|(old, new)| (new.as_str(), old.as_str())).collect()
 }
 
-/// Colours of the fiction, where the game has colours.
+/// Recolours the game with the colours of the theme, where it has colours.
 fn recolor(
     lines: &mut [SpriteLine],
     theme: &Theme,
@@ -237,15 +237,15 @@ fn recolor(
         let old = back.get(name).copied().unwrap_or(name);
         let role = cast.get(old).map_or(Role::Rubble, |part| part.role);
         let own = palette::color(role, theme, &taken);
-        // Of several floors or walls, the first is in the colour of the fiction.
+        // Among several floors or walls, the first has the colour of the theme.
         let color = if taken.contains(&own) { palette::color(Role::Rubble, theme, &taken) } else { own };
         taken.push(color);
         color
     });
 }
 
-/// New level characters: `.`, `w` and `A` for the first characters that place nothing but floor, a wall, and an avatar, as in
-/// generated games; for the others a letter of the name of what they place.
+/// New level characters: `.`, `w` and `A` for the first characters that place only floor, a wall, and an avatar, as in
+/// generated games; for the others a letter of the name of the type that they place.
 fn symbols(analysis: &Analysis, cast: &BTreeMap<String, Part>) -> Result<Symbols, GenerateError> {
     let description = analysis.game().description();
     let lines = description.mapping.iter().map(|line: &MappingLine| {
@@ -283,7 +283,7 @@ fn symbols(analysis: &Analysis, cast: &BTreeMap<String, Part>) -> Result<Symbols
             continue;
         }
         let word = names.last().and_then(|name| cast.get(*name)).map_or("x", |part| part.word.as_str());
-        // Another one than before, if there is another.
+        // A different character from before, if there is one.
         let avoided: Vec<char> = taken.iter().copied().chain([*old]).collect();
         let any = || ('!'..='~').find(|symbol| *symbol != '#' && !taken.contains(symbol));
         let new = palette::free_symbol(word, &avoided).or_else(any);
@@ -321,7 +321,7 @@ fn title(analysis: &Analysis, theme: &Theme, hero: &str, old: &Old, sampler: &mu
     titles.find(|title| !old.is_told(title)).unwrap_or_else(|| format!("The {hero}"))
 }
 
-/// Who is where, what there is to do, and what to beware of.
+/// Describes the hero and the place, the tasks and the dangers.
 fn summary(analysis: &Analysis, theme: &Theme, hero: &str) -> String {
     let game = analysis.game();
     let types = |fits: &dyn Fn(SpriteType, Use) -> bool| -> Vec<String> {
@@ -363,7 +363,7 @@ fn summary(analysis: &Analysis, theme: &Theme, hero: &str) -> String {
     if clauses.is_empty() { format!("{start}.") } else { format!("{start} has to {}.", clauses.join("; ")) }
 }
 
-/// What wins, in the words of the guide, with names as English writes them.
+/// The winning conditions in the words of the guide, with names as English writes them.
 fn goal(analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
     let word = |word: &str| {
@@ -394,7 +394,7 @@ mod tests {
         Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"))
     }
 
-    /// Nothing that a text tells is a name of the game.
+    /// Checks that no text contains a name of the game.
     fn forgets(name: &str, game: &Game, retold: &Retold) {
         let text = syntax::print(&retold.description);
         let texts = [text.as_str(), &retold.title, &retold.summary, &retold.goal];
@@ -434,7 +434,7 @@ mod tests {
         for (name, source, levels) in checks::corpus() {
             let game = game(&source);
             let retold = check(&name, &game, &levels);
-            // Another seed gives other names, but for the general ones.
+            // Another seed gives other names, except for the general ones.
             let other = Retold::of(&game, seed().child(&name, 1)).unwrap();
             let names = surface::own_names(&retold.description);
             let others = surface::own_names(&other.description);
@@ -496,7 +496,7 @@ mod tests {
         assert!(level.starts_with("wwww\nwA.w\nw") && !level.contains(['p', 's']), "{level}");
     }
 
-    /// As many types and characters as a game may have find a word and a character each.
+    /// Games with the maximum number of types and characters get a word and a character for each.
     #[test]
     fn crowded_games_have_words_enough() {
         let symbols: Vec<char> = ('!'..='~').filter(|c| !"#wA".contains(*c)).collect();

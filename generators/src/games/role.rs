@@ -1,20 +1,20 @@
-//! The parts that sprite types play in the patterns, and the words that a fiction has for them.
+//! The roles that sprite types play in the patterns, and the words that a theme has for them.
 
 /// Declares the roles once: the variant and the field of [`Words`] that names it.
 macro_rules! roles {
     ($($(#[doc = $doc:literal])+ $role:ident $field:ident;)*) => {
-        /// What a sprite type is in the game, whatever the fiction calls it.
+        /// The role of a sprite type in the game, independent of its name in the theme.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub(crate) enum Role { $($(#[doc = $doc])+ $role),* }
 
         impl Role {
-            /// All of them.
+            /// All roles.
             pub(crate) const ALL: &[Role] = &[$(Role::$role),*];
         }
 
-        /// The words that one fiction has for every role: two or more each, separated by blanks.
+        /// The words that one theme has for every role: two or more each, separated by blanks.
         ///
-        /// A word is an ASCII name as VGDL takes it, `camelCase` where English writes two words.
+        /// A word is an ASCII name that is valid in VGDL, `camelCase` where English writes two words.
         pub(crate) struct Words { $($(#[doc = $doc])+ pub(crate) $field: &'static str),* }
 
         impl Words {
@@ -29,142 +29,142 @@ macro_rules! roles {
 roles! {
     /// The player's character.
     Hero hero;
-    /// What lies under everything; a mass noun.
+    /// The ground under everything; a mass noun.
     Floor floor;
-    /// What stops everything; a mass noun or a thing.
+    /// An obstacle to everything; a mass noun or a thing.
     Wall wall;
-    /// Where the hero leaves, or what it is after.
+    /// A place where the hero leaves, or a destination.
     Exit exit;
-    /// What opens something.
+    /// A thing that opens something.
     Key key;
-    /// What a key opens on the way.
+    /// An obstacle that a key opens.
     Door door;
-    /// What is gathered.
+    /// A thing to gather.
     Gem gem;
-    /// What is gathered too, and worth more.
+    /// Another thing to gather, worth more.
     Charm charm;
-    /// The one precious thing.
+    /// A unique, precious thing.
     Relic relic;
-    /// What stands still until the relic is taken, then gives chase.
+    /// A figure that stands still until the relic is taken, then chases the hero.
     Statue statue;
-    /// What opens something elsewhere.
+    /// A thing that opens something elsewhere.
     Lever lever;
-    /// What a crate must be pushed onto.
+    /// A target that a crate must be pushed onto.
     Plate plate;
-    /// What is pushed.
+    /// A thing to push.
     Crate pushed;
-    /// Where crates belong.
+    /// A target for crates.
     Socket socket;
-    /// What stops all until something pushed fills it.
+    /// An obstacle to everything until something pushed fills it.
     Pool pool;
-    /// What is carried, one at a time.
+    /// A load that is carried, one at a time.
     Parcel parcel;
-    /// Where loads are due.
+    /// A destination for loads.
     Address address;
-    /// What only a key opens.
+    /// A container that only a key opens.
     Chest chest;
-    /// What lies ready in the raw, and never runs out.
+    /// A source of raw material that never runs out.
     Ore ore;
-    /// Where the raw becomes the finished.
+    /// A place where raw material is processed.
     Forge forge;
-    /// The finished.
+    /// The processed material.
     Ingot ingot;
-    /// What is lit by touch.
+    /// A thing that is lit by touch.
     Lamp lamp;
-    /// What puts lamps out.
+    /// A creature that puts lamps out.
     Snuffer snuffer;
-    /// Where seed is fetched; it never runs out.
+    /// A source of seed that never runs out.
     Seed seed;
-    /// Where seed is sown.
+    /// A place to sow seed.
     Plot plot;
-    /// What grows there.
+    /// A plant that grows from seed.
     Sprout sprout;
-    /// What eats what grows.
+    /// A creature that eats plants.
     Pest pest;
-    /// What is to be guarded.
+    /// A thing to guard.
     Crop crop;
-    /// What a beaten foe leaves.
+    /// A thing that a beaten foe leaves.
     Trophy trophy;
-    /// Who is in need of help.
+    /// A creature in need of help.
     Friend friend;
-    /// Where friends are safe.
+    /// A place where friends are safe.
     Haven haven;
-    /// What lets things fall.
+    /// A source of falling things.
     Tree tree;
-    /// What falls, and should be caught.
+    /// A falling thing that should be caught.
     Fruit fruit;
-    /// What shelters from above.
+    /// A shelter from above.
     Cover cover;
-    /// What is to be blown up.
+    /// A thing to blow up.
     Idol idol;
-    /// What is laid, and goes off.
+    /// An explosive to lay.
     Charge charge;
-    /// What it goes off in; a mass noun.
+    /// The explosion of a charge; a mass noun.
     Blast blast;
-    /// What lies in wait.
+    /// A stationary danger.
     Trap trap;
-    /// What goes to and fro.
+    /// A foe that moves to and fro.
     Patroller patroller;
-    /// What goes to and fro another way.
+    /// A foe that moves to and fro another way.
     Rover rover;
-    /// What strays about.
+    /// A foe that moves about at random.
     Wanderer wanderer;
-    /// What comes after the hero.
+    /// A foe that chases the hero.
     Chaser chaser;
-    /// What flies above and lets fall.
+    /// A foe that flies above and drops things.
     Bomber bomber;
-    /// What it lets fall.
+    /// A thing that a bomber drops.
     Drop drop;
-    /// What strays about and leaves a trail.
+    /// A foe that moves about at random and leaves a trail.
     Slug slug;
     /// The trail; a mass noun.
     Slime slime;
-    /// What stands and shoots.
+    /// A foe that stands and shoots.
     Turret turret;
-    /// What it shoots.
+    /// A shot of a turret.
     Dart dart;
-    /// Where foes come from.
+    /// A source of foes.
     Nest nest;
-    /// What bursts out now and then.
+    /// A source of occasional bursts.
     Vent vent;
-    /// What bursts out of it; a mass noun.
+    /// A burst from a vent; a mass noun.
     Steam steam;
-    /// What spreads; a mass noun.
+    /// A spreading hazard; a mass noun.
     Creep creep;
-    /// What can be dug away; a mass noun.
+    /// An obstacle that can be dug away; a mass noun.
     Soil soil;
-    /// What bars a way for good; a mass noun.
+    /// A permanent obstacle; a mass noun.
     Rubble rubble;
-    /// What falls in behind whoever passes.
+    /// A passage that collapses behind the hero.
     Archway archway;
-    /// Where one vanishes.
+    /// An entrance of a portal.
     PortalIn portal_in;
-    /// Where one comes out.
+    /// An exit of a portal.
     PortalOut portal_out;
-    /// What carries along.
+    /// A vehicle.
     Cart cart;
-    /// What is used up to pass the dark.
+    /// A thing that is used up to pass the dark.
     Torch torch;
-    /// What stops whoever has no light; a mass noun.
+    /// An obstacle for a hero without light; a mass noun.
     Dark dark;
-    /// What a lever opens on the way.
+    /// An obstacle that a lever opens.
     Gate gate;
-    /// What is nice to have.
+    /// A thing that is useful or worth points.
     Coin coin;
-    /// What heals.
+    /// A thing that heals.
     Medicine medicine;
-    /// What protects once.
+    /// A thing that protects once.
     Ward ward;
-    /// What bears berries.
+    /// A source of berries.
     Bush bush;
-    /// What it bears.
+    /// A fruit of a bush.
     Berry berry;
-    /// What strikes close by.
+    /// A weapon for close combat.
     Blade blade;
-    /// What flies at the foe.
+    /// A shot of the hero.
     Bolt bolt;
-    /// What is needed to shoot.
+    /// Ammunition for shooting.
     Ammo ammo;
-    /// Where ammunition is found again and again.
+    /// A source of ammunition.
     Rack rack;
 }

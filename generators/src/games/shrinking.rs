@@ -1,4 +1,4 @@
-//! Smaller games: what is left when one thing is taken away.
+//! Smaller games: reductions of a game by one thing at a time.
 
 use super::edit::{Edit, RuleAt};
 use super::genome::GameGenome;
@@ -6,10 +6,10 @@ use super::{assemble, composition};
 use std::collections::BTreeSet;
 
 impl GameGenome {
-    /// All genomes with one thing less that still build, none of them twice: without an edit, without a pattern, without a
-    /// sprite type and the rules about it, without a rule, or with a rule for one partner less. Taking away the edit that took
-    /// something away is not among them: whoever goes from genome to smaller genome comes to an end. Whether what is gone
-    /// was missed, others judge. Cost: some tens of builds.
+    /// All genomes with one thing less that still build, without duplicates: one edit, one pattern, one sprite type with
+    /// the rules about it, one rule, or one partner of a rule is removed. Every result is strictly smaller than this
+    /// genome, so repeated shrinking terminates. Callers judge whether the removed thing was redundant. Cost: some tens
+    /// of builds.
     pub fn shrunk_once(&self) -> Vec<GameGenome> {
         let mut smaller: Vec<GameGenome> = Vec::new();
         for at in (0..self.edits.len()).rev() {
@@ -44,7 +44,7 @@ impl GameGenome {
         smaller
     }
 
-    /// Sprite types and pairs with a rule, then what it takes to say them.
+    /// The number of sprite types and of pairs with a rule, then the number of genes and edits.
     fn size(&self) -> (usize, usize) {
         let game = assemble::describe(&self.draft().0);
         let pairs: usize = game.interactions.iter().map(|line| line.second.len()).sum();

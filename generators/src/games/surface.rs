@@ -1,14 +1,15 @@
-//! The surface of a game: names, level characters, pictures and comments. Who changes it leaves the rules as they are.
+//! The surface of a game: names, level characters, images and comments. Changes of the surface leave the rules as they
+//! are.
 
 use engine::Description;
 use engine::syntax::{MappingLine, SpriteLine, Trivia};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Names that the engine gives a meaning to: they stay.
+/// Names that the engine gives a meaning to, and that are never changed.
 pub(super) const RESERVED: [&str; 2] = ["wall", "avatar"];
 
-/// The same rules with sprite types renamed, without comments and pictures. The order of all lines stays, so that the two
-/// play alike, state hashes included.
+/// Returns the same rules with sprite types renamed, without comments and images. The order of all lines stays, so that
+/// the two play alike, state hashes included.
 pub(super) fn undressed(description: &Description, names: &BTreeMap<String, String>) -> Description {
     let mut bare = description.renamed(names);
     bare.header.trivia = Trivia::default();
@@ -30,7 +31,7 @@ fn undress(lines: &mut [SpriteLine]) {
     }
 }
 
-/// The names of the types that the file declares, each once, without those that stay.
+/// The names of the types that the file declares, each once, without the reserved ones.
 pub(super) fn own_names(description: &Description) -> Vec<&str> {
     let (mut own, mut seen) = (Vec::new(), BTreeSet::new());
     for (_, line) in description.sprite_lines() {
@@ -42,20 +43,20 @@ pub(super) fn own_names(description: &Description) -> Vec<&str> {
     own
 }
 
-/// The characters that levels of a game can use: those of the LevelMapping in its order, then those that every game has,
-/// if this one declares the type and does not map them itself.
+/// The characters that levels of a game can use: those of the LevelMapping in its order, then the built-in ones whose
+/// type this game declares and which it does not map itself.
 pub(super) fn symbols(description: &Description) -> Vec<char> {
     let own = description.mapping.iter().map(|line| line.symbol);
     own.chain(['w', 'A'].into_iter().filter(|&symbol| builtin(symbol, description).is_some())).collect()
 }
 
-/// What a character stands for in this game though it has no line.
+/// Returns the type that a built-in character places in this game without a line of its own.
 pub(super) fn builtin(symbol: char, description: &Description) -> Option<&'static str> {
     let name = unmapped(symbol, description)?;
     declares_sprites(&description.sprites, name, false).then_some(name)
 }
 
-/// Whether one of the lines declares the type, and a class for it or above it.
+/// Tests whether one of the lines declares the type, with a class of its own or of a parent.
 fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
     lines.iter().any(|line| {
         let class = above || line.class.is_some();
@@ -63,8 +64,8 @@ fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
     })
 }
 
-/// Characters that place types which the file neither maps nor declares with a class, with these: they stay as they are, because a line
-/// for them would be one rule more.
+/// The built-in characters whose types the file neither maps nor declares with a class, with these types. They stay as
+/// they are, because a line for them would add a rule.
 pub(super) fn silent(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
     let undeclared = |symbol: char| {
         let name = unmapped(symbol, description)?;
@@ -73,13 +74,13 @@ pub(super) fn silent(description: &Description) -> impl Iterator<Item = (char, &
     ['w', 'A'].into_iter().filter_map(undeclared)
 }
 
-/// Characters that place something in every game, and that this one maps otherwise: a twin has to map them too, or they
-/// would get a meaning that nothing has in this game.
+/// The built-in characters that this game maps itself. A twin has to map them too, or they would get a meaning that
+/// nothing has in this game.
 pub(super) fn overridden(description: &Description) -> impl Iterator<Item = char> {
     ['w', 'A'].into_iter().filter(|&symbol| unmapped(symbol, description).is_none())
 }
 
-/// What a character places in every game that does not map it.
+/// Returns the type that a character places in every game that does not map it.
 fn unmapped(symbol: char, description: &Description) -> Option<&'static str> {
     let name = match symbol {
         'w' => "wall",
@@ -89,12 +90,12 @@ fn unmapped(symbol: char, description: &Description) -> Option<&'static str> {
     (!description.mapping.iter().any(|line| line.symbol == symbol)).then_some(name)
 }
 
-/// Other characters for levels.
+/// The mapping from old to new level characters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Symbols(pub(super) BTreeMap<char, char>);
 
 impl Symbols {
-    /// A level in the new characters. Characters that mean nothing become blanks.
+    /// Translates a level to the new characters. Characters without a meaning become blanks.
     pub(super) fn level(&self, text: &str) -> String {
         let symbol = |c: char| match self.0.get(&c) {
             Some(&new) => new,
@@ -104,7 +105,7 @@ impl Symbols {
         text.chars().map(symbol).collect()
     }
 
-    /// Writes the LevelMapping of a game in the new characters; those that every game has get lines.
+    /// Writes the LevelMapping of a game in the new characters; built-in characters get lines.
     pub(super) fn write(&self, description: &mut Description) {
         let lines = self.0.iter().filter_map(|(&symbol, &new)| {
             let names = vec![builtin(symbol, description)?.into()];
@@ -118,14 +119,14 @@ impl Symbols {
     }
 }
 
-/// What tests of changed surfaces share.
+/// Helpers shared by the tests of changed surfaces.
 #[cfg(test)]
 pub(super) mod checks {
     use engine::{Game, Seed};
     use std::fs;
     use std::path::Path;
 
-    /// Every corpus game: name, text, levels.
+    /// Every corpus game: name, text and levels.
     pub(in super::super) fn corpus() -> Vec<(String, String, Vec<String>)> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora");
         let mut games = Vec::new();
@@ -139,7 +140,7 @@ pub(super) mod checks {
         games
     }
 
-    /// The same hashes, scores and outcomes under the same actions.
+    /// Tests that the twin has the same hashes, scores and outcomes under the same actions.
     pub(in super::super) fn play_alike(
         name: &str,
         game: &Game,

@@ -1,29 +1,29 @@
-//! A fiction: where games take place, and what things are called there.
+//! Themes: the setting of a game, and the names of its things.
 
 use super::role::{Role, Words};
 use super::themes;
 use engine::Sampler;
 
-/// One fiction.
+/// A theme.
 pub(crate) struct Theme {
-    /// One word, for configurations and provenance.
+    /// The identifier, for configurations and provenance.
     pub(crate) name: &'static str,
-    /// Where the game takes place, with its preposition.
+    /// The place where the game is set, with its preposition.
     pub(crate) place: &'static str,
     /// Adjectives for titles, separated by blanks.
     pub(crate) adjectives: &'static str,
     /// Nouns for titles, separated by blanks.
     pub(crate) nouns: &'static str,
-    /// The colour of the floor, a light one: what lies and moves on it has others.
+    /// The colour of the floor, a light one; things on it have other colours.
     pub(crate) floor: &'static str,
     /// The colour of walls.
     pub(crate) walls: &'static str,
-    /// What things are called.
+    /// The words for the roles.
     pub(crate) words: Words,
 }
 
 impl Theme {
-    /// All fictions, in a fixed order: draws depend on it.
+    /// All themes, in a fixed order that draws depend on.
     pub(crate) const ALL: &[&Theme] = &[
         &themes::tidepool::THEME,
         &themes::library::THEME,
@@ -44,7 +44,7 @@ impl Theme {
         self.words.of(role).split(' ').collect()
     }
 
-    /// A title in the fiction: of the place, of what one does there, or of who does it.
+    /// Draws a title under the theme: one of the place, of the task there, or of the hero.
     pub(crate) fn title(&self, hero: &str, deed: &str, sampler: &mut Sampler) -> String {
         let adjectives: Vec<&str> = self.adjectives.split(' ').collect();
         let nouns: Vec<&str> = self.nouns.split(' ').collect();
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// Any patterns may meet in one game: each role has a word of its own, fit to be a sprite type in VGDL.
+    /// Any patterns may be combined in one game, so each role has words of its own, valid as sprite types in VGDL.
     #[test]
     fn no_word_serves_two_roles() {
         let reserved = ["wall", "avatar", "eos", "time", "up", "down", "left", "right", "none", "nil"];
@@ -78,8 +78,8 @@ mod tests {
         }
     }
 
-    /// Sentences put an article before a word or make it plural ("bear traps lie in wait"): a word that is plural
-    /// already reads wrong in them. Ground, walls and rubble are told as they stand.
+    /// Sentences put an article before a word or make it plural ("bear traps lie in wait"), so plural words would be
+    /// ungrammatical in them. The words for floor, walls and rubble are used unchanged.
     #[test]
     fn words_are_singular() {
         let singular = |word: &str| {

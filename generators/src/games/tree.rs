@@ -1,4 +1,4 @@
-//! What a draft is made of: sprite types, rules, endings and words, as typed data.
+//! The elements of a draft: sprite types, rules, endings and words, as typed data.
 
 use super::body::Body;
 use super::effect::Effect;
@@ -10,21 +10,22 @@ use engine::SpriteClass;
 pub(crate) struct Part(pub(crate) usize);
 
 impl Part {
-    /// Its place among the sprite types of its draft.
+    /// Its index among the sprite types of its draft.
     pub(crate) fn index(self) -> usize {
         self.0
     }
 }
 
-/// A sprite type of any draft that has it: no two patterns of a game share a role, so this holds whatever else changes.
+/// A reference to a sprite type that is valid in any draft: no two patterns of a game share a role, so other changes do
+/// not affect it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Site {
     pub(crate) role: Role,
-    /// Among the types of that role, in the order of their making.
+    /// The index among the types of that role, in the order of creation.
     pub(crate) nth: usize,
 }
 
-/// The type under everything.
+/// The floor.
 pub(crate) const FLOOR: Part = Part(0);
 /// The parent of the wall.
 pub(crate) const WALL: Part = Part(1);
@@ -33,17 +34,17 @@ pub(crate) const AVATAR: Part = Part(2);
 /// The hero as it starts.
 pub(crate) const HERO: Part = Part(3);
 
-/// The partner of rules that run by the clock.
+/// The partner of rules that run on a timer.
 pub(crate) const CLOCK: Part = Part(usize::MAX);
 
 /// The value of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Value {
-    /// A number of things, ticks, points.
+    /// A number of things, ticks or points.
     Count(u32),
     /// Points, which may be negative.
     Score(i32),
-    /// A share of one, in hundredths.
+    /// A fraction, in hundredths.
     Hundredths(u32),
     /// `True` or `False`.
     Flag(bool),
@@ -58,31 +59,31 @@ pub(crate) enum Value {
 pub(crate) struct Sprite {
     pub(crate) name: String,
     pub(crate) role: Role,
-    /// None: as the parent.
+    /// `None` inherits the parent's class.
     pub(crate) class: Option<SpriteClass>,
     pub(crate) params: Vec<(&'static str, Value)>,
     pub(crate) parent: Option<Part>,
     pub(crate) body: Body,
-    /// Whether levels can place it; else it comes into being during play.
+    /// `true` if levels can place it; otherwise it is created only during play.
     pub(crate) placed: bool,
-    /// The number of the pattern that it belongs to; none for floor, wall and hero.
+    /// The number of the pattern that it belongs to; `None` for floor, wall and hero.
     pub(crate) gene: Option<usize>,
-    /// An edit took it out again.
+    /// `true` if an edit has removed it.
     pub(crate) gone: bool,
 }
 
-/// When in a tick a rule has its turn: the order of the InteractionSet.
+/// The phase of a tick in which a rule applies: the order of the InteractionSet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Phase {
-    /// What carries moves what it carries.
+    /// Carriers move what they carry.
     Carry,
-    /// What is pushed moves.
+    /// Pushed things move.
     Push,
-    /// What can be opened opens, before it stops anyone.
+    /// Locked things open, before they stop anyone.
     Open,
-    /// What cannot pass goes back.
+    /// Stopped things move back.
     Block,
-    /// What was hit falls.
+    /// Things that were hit are killed.
     Strike,
     /// Sprites that meet change each other.
     Meet,
@@ -102,38 +103,38 @@ pub(crate) struct Rule {
     pub(crate) second: Vec<Part>,
     pub(crate) effect: Effect,
     pub(crate) score: i32,
-    /// The number of the pattern that it belongs to; none if it follows from bodies, or was added by an edit.
+    /// The number of the pattern that it belongs to; `None` if it follows from bodies or was added by an edit.
     pub(crate) gene: Option<usize>,
 }
 
-/// Something to know, in words.
+/// A statement about the game, in words.
 #[derive(Clone, Debug)]
 pub(crate) struct Clause {
     pub(crate) text: String,
-    /// The number of the pattern that says so.
+    /// The number of the pattern that it describes.
     pub(crate) gene: Option<usize>,
     pub(crate) claim: Claim,
 }
 
-/// What a clause is about: when it changes, the words do.
+/// The subject of a clause: clauses about a subject are removed when it changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Claim {
-    /// How the pattern works.
+    /// The working of the pattern.
     Fact,
-    /// How a sprite type moves.
+    /// The movement of a sprite type.
     Way(Part),
-    /// What something is worth.
+    /// The value of something in points.
     Points,
 }
 
 /// A termination.
 #[derive(Clone, Debug)]
 pub(crate) enum Ending {
-    /// None of these is left.
+    /// No sprite of these types is left.
     Gone(Vec<Part>),
-    /// There are so many of these.
+    /// The number of sprites of a type has reached this.
     Many(Part, u32),
-    /// Time is up.
+    /// The time limit, in ticks.
     Timeout(u32),
 }
 
@@ -148,33 +149,33 @@ impl Ending {
     }
 }
 
-/// What touching a sprite does to it, besides harming the hero, when the hero survives.
+/// The effect of a touch on a harmful sprite, if the hero survives it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Harm {
     /// Nothing.
     Lasting,
-    /// It is gone.
+    /// It is removed.
     Spent,
 }
 
-/// What the hero can take.
+/// The amount of harm that the hero can survive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stamina {
-    /// One touch is the end.
+    /// The first touch kills.
     Fragile,
-    /// So many touches are.
+    /// The hero has this many health points.
     Hearts(u32),
-    /// A touch is the end unless one of these wards it off.
+    /// A touch kills unless it uses up one of this resource.
     Warded(Part),
 }
 
-/// What the hero strikes with: the part that hits, and how.
+/// The hero's weapon: the part that hits, and its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Weapon {
-    /// Strikes close by, and stays.
+    /// Hits close by, and stays.
     Blade(Part),
-    /// Flies, and is gone when it hits.
+    /// Flies, and is removed when it hits.
     Bolt(Part),
-    /// Goes off, and hits all around.
+    /// Explodes, and hits all around.
     Blast(Part),
 }

@@ -1,4 +1,4 @@
-//! Games varied by typed edits, and crossed: what search over games is made of.
+//! Variation of games for search: typed edits, and crossover.
 
 use super::changes::{Change, edit, pick};
 use super::composition::{self, family};
@@ -11,31 +11,31 @@ use super::pattern::{Goal, Pattern};
 use crate::Variation;
 use engine::{Sampler, Seed};
 
-/// Draws of a change, or of a crossing, before a candidate is given back as it was.
+/// The number of draws of a change, or of a crossover, before a candidate is returned unchanged.
 const ATTEMPTS: usize = 40;
-/// Seeds that are tried for a candidate from nothing.
+/// The number of seeds to try for a candidate from nothing.
 const SEEDS: u64 = 8;
-/// Edits of one game at most: beyond that, one has to go before another comes.
+/// The maximum number of edits of a game: beyond that, one has to be removed before another is added.
 const EDITS_AT_MOST: usize = 12;
 
-/// Games as candidates of a search: drawn as [`ConstructiveGames`](super::ConstructiveGames) does, changed by typed edits,
-/// crossed by their patterns.
+/// Games as candidates of a search: drawn like those of [`ConstructiveGames`](super::ConstructiveGames), changed by typed
+/// edits, crossed by their patterns.
 ///
-/// Whatever comes out builds: rules that compile without problems or warnings, one avatar, a way to win by the rules, and
-/// words that are true of them. Nothing is judged here: whether anyone wins, and whether it is any fun, is for others to
-/// say. Cost: about a millisecond for a mutation.
+/// All results build: their rules compile without errors or warnings, with one avatar, a way to win by the rules, and
+/// texts that are true of them. Nothing is evaluated here: other code judges whether the games are winnable in play, and
+/// fun. Cost: about a millisecond for a mutation.
 #[derive(Clone, Debug, Default)]
 pub struct GameVariation {
     config: GameConfig,
 }
 
 impl GameVariation {
-    /// Games of these kinds.
+    /// Creates a variation of games of these kinds.
     pub fn new(config: GameConfig) -> GameVariation {
         GameVariation { config }
     }
 
-    /// A genome with one change of that kind; none if this draw finds nothing to change so.
+    /// Returns a genome with one change of that kind; `None` if this draw finds nothing to change.
     fn changed(&self, parent: &GameGenome, change: Change, sampler: &mut Sampler) -> Option<GameGenome> {
         let mut genome = parent.clone();
         match change {
@@ -73,8 +73,7 @@ impl GameVariation {
         Some(genome)
     }
 
-    /// Another pattern of the same family in the place of one; with another goal, the company that it does not go with
-    /// leaves.
+    /// Replaces a pattern by another of the same family. With another goal, patterns that do not go with it are removed.
     fn replace(&self, genome: &mut GameGenome, sampler: &mut Sampler) -> Option<()> {
         let at = sampler.below(genome.genes.len());
         let old = genome.genes[at].pattern;
@@ -106,7 +105,7 @@ impl GameVariation {
         self.config.kinds.contains(&goal.kind)
     }
 
-    /// The way of moving, the goal and the fiction of one; company and edits of both.
+    /// Takes the way of moving, the goal and the theme of one; other patterns and edits come from both.
     fn crossed(&self, one: &GameGenome, two: &GameGenome, sampler: &mut Sampler) -> GameGenome {
         let mut child = one.clone();
         let mut rest: Vec<Gene> = child.genes.split_off(2);
@@ -127,7 +126,7 @@ fn fitting(goal: &Goal) -> Vec<&'static Pattern> {
     MOVEMENTS.iter().filter(fits).collect()
 }
 
-/// Takes in those genes that the others go with; twice over, for those that need what comes later.
+/// Adds those genes that the others go with; in two passes, for those that need a later one.
 fn join(genome: &mut GameGenome, mut genes: Vec<Gene>) {
     for _ in 0..2 {
         genes.retain(|&gene| {
@@ -149,7 +148,7 @@ impl Variation for GameVariation {
         genomes.into_iter().find(|genome| genome.build().is_ok())
     }
 
-    /// One change; the parent itself if none of many draws gives a game.
+    /// Makes one change; returns the parent itself if none of many draws gives a game.
     fn mutate(&self, parent: &GameGenome, sampler: &mut Sampler) -> GameGenome {
         let key = parent.key();
         let changed = (0..ATTEMPTS).find_map(|_| {
@@ -160,7 +159,8 @@ impl Variation for GameVariation {
         changed.unwrap_or_else(|| parent.clone())
     }
 
-    /// A game with the goal of the first and company from both; a mutation of the first if none of several draws gives one.
+    /// Returns a game with the goal of one parent and patterns from both; a mutation of the first parent if none of
+    /// several draws gives one.
     fn cross(&self, one: &GameGenome, two: &GameGenome, sampler: &mut Sampler) -> GameGenome {
         let keys = [one.key(), two.key()];
         let crossed = (0..ATTEMPTS).find_map(|_| {
@@ -172,7 +172,7 @@ impl Variation for GameVariation {
     }
 }
 
-/// The genome without the edits that change nothing any more, if it makes sense, is new and builds.
+/// Returns the genome without the edits that have no effect any more, if it is coherent, new and builds.
 fn settled(mut genome: GameGenome, is_new: impl Fn(&engine::Digest) -> bool) -> Option<GameGenome> {
     if !composition::is_coherent(genome.goal, &genome.patterns()) {
         return None;
@@ -199,7 +199,7 @@ mod tests {
         Seed::from_text("game variation").child(name, 0)
     }
 
-    /// Builds, can be won by the rules, has one avatar and words that are sentences.
+    /// Checks that a genome builds a game that can be won by the rules, with one avatar and well-formed sentences.
     fn check(genome: &GameGenome) {
         let made = genome.build().unwrap_or_else(|error| panic!("{genome:?}: {error}"));
         let game = Game::compile(&made.description).unwrap();

@@ -1,4 +1,4 @@
-//! What a class, a parameter or an effect can be exchanged for, within what makes sense, and the words for it.
+//! Alternatives for a class, a parameter or an effect, within sensible limits, with the clauses to describe them.
 
 use super::body::Body;
 use super::draft::{AVATAR, Claim, Draft, Part, Phase, Rule, Value};
@@ -6,12 +6,12 @@ use super::effect::Effect;
 use super::role::Role;
 use engine::SpriteClass;
 
-/// How strays and pursuers may move instead.
+/// The alternative classes of strays and pursuers.
 const WALKERS: &[SpriteClass] = &[SpriteClass::RandomNPC, SpriteClass::Chaser, SpriteClass::Fleeing];
-/// How shots may fly instead.
+/// The alternative classes of shots.
 const SHOTS: &[SpriteClass] = &[SpriteClass::Missile, SpriteClass::RandomMissile];
 
-/// The classes that a sprite type may have instead, if any.
+/// The other classes that a sprite type may have, if any.
 pub(crate) fn siblings(draft: &Draft, part: Part) -> Vec<SpriteClass> {
     let sprite = draft.sprite(part);
     let Some(class) = sprite.class else { return Vec::new() };
@@ -26,12 +26,12 @@ pub(crate) fn siblings(draft: &Draft, part: Part) -> Vec<SpriteClass> {
     family.iter().copied().filter(|&other| other != class).collect()
 }
 
-/// Whether a class has to know whom it is after, or from whom it runs.
+/// Returns `true` if a class needs a target to chase or to flee from.
 pub(crate) fn has_target(class: SpriteClass) -> bool {
     class.is_a(SpriteClass::Chaser)
 }
 
-/// Gives a sprite type another class, with the parameters that this one has; none if it does not fit.
+/// Gives a sprite type another class, with the parameters of that class; returns `None` if it does not fit.
 pub(crate) fn set_class(
     draft: &mut Draft,
     part: Part,
@@ -71,8 +71,8 @@ pub(crate) fn set_class(
     Some(())
 }
 
-/// The least and the most that a parameter can sensibly be, and the step between values; none if it is not to be changed:
-/// words speak of it, or the pattern lives by it.
+/// The sensible minimum and maximum of a parameter; `None` if it must not change because a clause mentions it or the
+/// pattern depends on it.
 pub(crate) fn range(draft: &Draft, part: Part, key: &str) -> Option<(u32, u32)> {
     use SpriteClass as C;
     let sprite = draft.sprite(part);
@@ -90,7 +90,7 @@ pub(crate) fn range(draft: &Draft, part: Part, key: &str) -> Option<(u32, u32)> 
     }
 }
 
-/// What a rule might do instead.
+/// The alternative effects of a rule.
 pub(crate) fn effects(draft: &Draft, rule: &Rule) -> Vec<Effect> {
     if rule.phase != Phase::Strike || draft.is_counted(rule.first) {
         return Vec::new();
@@ -110,7 +110,7 @@ pub(crate) fn effects(draft: &Draft, rule: &Rule) -> Vec<Effect> {
     }
 }
 
-/// What is to be known of a rule that has a new effect.
+/// The clause about a rule with a new effect.
 pub(crate) fn changed(draft: &Draft, rule: &Rule, effect: Effect) -> Option<String> {
     match effect {
         Effect::TransformTo { stype, .. } => {

@@ -1,4 +1,4 @@
-//! Furnishing levels that the avatar walks through: exits, keys, goods, dangers.
+//! Furnishes levels that the avatar walks through: exits, keys, goods, dangers.
 
 use super::builder::{Builder, back};
 use super::grid::FAR;
@@ -7,7 +7,7 @@ use engine::analysis::{Key, Motion, Role};
 use engine::{Direction, SpriteType};
 
 impl Builder<'_> {
-    /// Furnishes a board that has walls and nothing else.
+    /// Furnishes a board that has only walls.
     pub(crate) fn adventure(&mut self) {
         let start = self.choose_start();
         self.put_avatar(start);
@@ -15,7 +15,7 @@ impl Builder<'_> {
         self.furnish(&gates);
     }
 
-    /// Everything but the avatar, the gates and what has been placed already.
+    /// Places everything except the avatar, the gates and the types that have been placed already.
     pub(crate) fn furnish(&mut self, gates: &[SpriteType]) {
         let wishes = self.wishes();
         let done: Vec<SpriteType> = self.log.iter().map(|(_, stype)| *stype).collect();
@@ -41,9 +41,9 @@ impl Builder<'_> {
         self.soil();
     }
 
-    /// Puts as many as it can of what is wished.
+    /// Places as many of the wished sprites as it can.
     pub(crate) fn fulfil(&mut self, wish: Wish) {
-        // Exact numbers include what is there already, and so do keys.
+        // Exact numbers include the sprites that are there already, and so do those of keys.
         let exact =
             wish.role == Role::Key || self.config.counts.iter().any(|(asked, _)| *asked == wish.stype);
         let before = if exact { 0 } else { self.board.count(self.analysis, wish.stype) };
@@ -58,7 +58,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Puts one sprite where its role wants it: first as it should be, then as it may be.
+    /// Places one sprite: first by the strict rules for its role, then by relaxed ones.
     pub(crate) fn place(&mut self, stype: SpriteType, role: Role) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
@@ -70,7 +70,7 @@ impl Builder<'_> {
                 if beside(builder, cell) != grouped {
                     0
                 } else if grouped {
-                    // What the role says of distances is said of groups.
+                    // For groups, the distances of the role apply to the whole group.
                     let from_start = builder.board.grid.manhattan(cell, builder.board.start);
                     u32::from(steps[cell] != FAR && from_start > 2 && !builder.cuts(cell, stype))
                 } else {
@@ -94,7 +94,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Where avatars fall, most things stand on the ground; goods may hang in the air.
+    /// The weight of the footing. If avatars fall, most things stand on the ground; goods may hang in the air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
             _ if !self.falls() => 1,
@@ -105,7 +105,7 @@ impl Builder<'_> {
         }
     }
 
-    /// How well a cell suits a sprite; 0: not at all.
+    /// The suitability of a cell for a sprite; 0: unsuitable.
     fn weigh(&self, cell: usize, stype: SpriteType, role: Role, steps: &[u32], radius: u32) -> u32 {
         let zone = self.board.zone[cell];
         let reached = steps[cell] != FAR;
@@ -118,7 +118,7 @@ impl Builder<'_> {
         let walls = self.board.walls_around(cell) as u32;
         match role {
             Role::Exit => {
-                // Behind the first gate if there is one; else far away, farther where it is hard.
+                // Behind the first gate if there is one; otherwise far away, farther with higher difficulty.
                 let wanted = u8::from(self.board.zone.contains(&1));
                 let far = share >= 55 + (30.0 * self.difficulty()) as u32;
                 if zone != wanted || !(far || zone > 0) { 0 } else { (1 + walls) * share / 10 }
@@ -131,7 +131,7 @@ impl Builder<'_> {
             Role::Prey => own_kind * (2 + share / 20),
             Role::Spawner => self.weigh_spawner(cell, stype, walls),
             Role::Hazard if from_start < 3 || self.apart_from(cell, Role::Exit) < 2 => 0,
-            // What is deadly and sends out what is deadly.
+            // Deadly things that spawn deadly things.
             Role::Hazard
                 if self.target.is_some()
                     && self.analysis.makes_harm(stype)
@@ -143,7 +143,7 @@ impl Builder<'_> {
                 if from_start < 2 {
                     0
                 } else {
-                    // In little groups.
+                    // In small groups.
                     match self.apart(cell, |other| other == stype) {
                         1 if self.crowd(cell, stype) <= 2 => 12,
                         1 => 0,
@@ -153,7 +153,7 @@ impl Builder<'_> {
                 }
             }
             Role::Boulder => u32::from(own_kind > 0),
-            // Near to each other, so that there is room for what threatens them.
+            // Close to each other, so that there is room for their threats.
             Role::Ward => 1 + 12 / (1 + own_kind),
             Role::Pushable | Role::Socket => {
                 if walls == 0 && from_start > 1 {
@@ -167,7 +167,7 @@ impl Builder<'_> {
                 if from_start < 3 || pair < 5 { 0 } else { share }
             }
             Role::Key => {
-                // Not on the way to the exit, nor where one stumbles over it.
+                // Neither on the way to the exit, nor next to the start.
                 let apart = self.apart_from(cell, Role::Exit).min(8) as u32;
                 if from_start < 3 { 0 } else { own_kind * apart * (1 + share) / 16 }
             }
@@ -179,13 +179,14 @@ impl Builder<'_> {
         }
     }
 
-    /// How far from what is to be protected anything that might threaten it should stand, in cells.
+    /// The minimum distance of threats from a protected thing, in cells.
     fn guard(&self) -> usize {
         let grid = self.board.grid;
         if self.target.is_some() { ((grid.columns + grid.rows) / 5).max(4) } else { 4 }
     }
 
-    /// Close to what it chases, if that is not the avatar: there should be time to step in.
+    /// Returns `true` if the cell is close to the target of a chaser other than the avatar: the player needs time to step
+    /// in.
     fn is_on_prey(&self, cell: usize, stype: SpriteType) -> bool {
         let Motion::Chasing(target) = self.analysis.facts(stype).motion else { return false };
         let hunted = |other: SpriteType| {
@@ -194,7 +195,7 @@ impl Builder<'_> {
         self.apart(cell, hunted) < self.respect(stype).max(4)
     }
 
-    /// For what moves by itself: room to move, and not straight at the avatar.
+    /// The weight of a cell for a mover: it needs room to move, and must not move straight at the avatar.
     fn weigh_mover(&self, cell: usize, stype: SpriteType, share: u32) -> u32 {
         let others = self.apart_from(cell, Role::Enemy).min(6) as u32;
         let spread = 1 + others + share / 20;
@@ -203,7 +204,7 @@ impl Builder<'_> {
         if room < 2 || self.aims_at_start(cell, way) || self.aims_at_start(cell, back(way)) {
             return 0;
         }
-        // One to a lane.
+        // One to a row or column.
         let lane = self.log.iter().any(|&(other, kind)| {
             let grid = self.board.grid;
             let same = if way.0 != 0 { grid.y(other) == grid.y(cell) } else { grid.x(other) == grid.x(cell) };
@@ -212,7 +213,7 @@ impl Builder<'_> {
         if lane { 0 } else { spread * room.min(12) as u32 }
     }
 
-    /// For what makes others: at a wall or the edge, with a free line of fire that does not meet the avatar.
+    /// The weight of a cell for a spawner: at a wall or the edge, with a free line of fire that does not meet the avatar.
     fn weigh_spawner(&self, cell: usize, stype: SpriteType, walls: u32) -> u32 {
         let from_start = self.board.grid.manhattan(cell, self.board.start);
         let others = self.apart_from(cell, Role::Spawner).min(8) as u32;
@@ -230,19 +231,19 @@ impl Builder<'_> {
         }
     }
 
-    /// What comes out should not reach the avatar at once.
+    /// The minimum distance of a spawner from the avatar's start, so that its sprites do not reach the avatar at once.
     fn spawn_respect(&self, stype: SpriteType) -> usize {
         let made = self.analysis.facts(stype).makes.iter().map(|&made| self.respect(made));
         made.max().unwrap_or(2).max(4)
     }
 
-    /// How many sprites of a type stand right around a cell.
+    /// The number of sprites of a type in the eight cells around a cell.
     fn crowd(&self, cell: usize, stype: SpriteType) -> usize {
         let around = self.board.grid.around(cell).into_iter().flatten();
         around.filter(|&next| self.log.contains(&(next, stype))).count()
     }
 
-    /// Where the avatar starts: near an end of the longest way, or in the middle if the aim is to survive.
+    /// Chooses the avatar's start: near an end of the longest way, or in the middle if the aim is to survive.
     fn choose_start(&mut self) -> usize {
         let grid = self.board.grid;
         let cells: Vec<usize> = self.board.free().collect();
@@ -266,7 +267,7 @@ impl Builder<'_> {
             let far = cells.iter().copied().max_by_key(|&cell| (steps[cell], cell));
             far.unwrap_or(some)
         };
-        // Not always the very end. Where avatars fall, on the ground next to it.
+        // Not always the very end. If avatars fall, on the ground next to it.
         let grounded = |cell: &usize| !self.falls() || self.has_footing(*cell);
         let near = |cell: &usize| grid.manhattan(*cell, target) <= 1;
         let close: Vec<usize> = cells.iter().copied().filter(|cell| near(cell) && grounded(cell)).collect();
@@ -278,12 +279,12 @@ impl Builder<'_> {
         best.unwrap_or(some)
     }
 
-    /// As many keys as the locks that were placed need, each before its lock.
+    /// Places the keys that the placed locks need, each before its lock.
     pub(crate) fn keys(&mut self, gates: &[SpriteType]) {
         let placed = self.log.iter().map(|(_, stype)| *stype);
         let exits: Vec<SpriteType> = placed.filter(|&stype| self.role(stype) == Role::Exit).collect();
         let keyed = plan::furnishable(self.analysis, self.palette, Role::Key);
-        // Keys that are locked themselves, and what is opened from afar, count as locked things too.
+        // Keys that are locked themselves, and things that are opened from afar, count as locked things too.
         let chained: Vec<SpriteType> = self
             .analysis
             .locks()
@@ -338,11 +339,11 @@ impl Builder<'_> {
         }
     }
 
-    /// A key goes before the gates that it opens: into zone 0, or behind a gate of another kind.
+    /// Places a key before the gates that it opens: in zone 0, or behind a gate of another kind.
     fn place_key(&mut self, giver: SpriteType) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
-        // The zones of gates that this key opens, and those placed before them, whose keys may lie behind.
+        // The zones of the gates that this key opens, and those placed before them, whose keys may lie behind.
         let own = self.log.iter().filter_map(|&(cell, stype)| {
             let opened = self.lock_of(stype)?.givers.iter().any(|(key, _)| *key == giver);
             (opened && self.role(stype) == Role::Gate).then_some(self.board.zone[cell])
@@ -363,7 +364,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Walls of other kinds than the structure: a few, as obstacles.
+    /// Places a few walls of other kinds than the structure, as obstacles.
     pub(crate) fn other_walls(&mut self) {
         let structure = self.palette.wall;
         let types = plan::furnishable(self.analysis, self.palette, Role::Wall);
@@ -396,7 +397,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Where the ground itself eats up a resource, refills lie so close that no way is longer than the supply.
+    /// Places refills of a resource that the ground itself drains, so densely that no way is longer than the supply.
     fn fuel(&mut self) {
         let Some(start) = self.analysis.start_avatar() else { return };
         for resource in self.analysis.resources() {
@@ -441,7 +442,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Fills most of what is left with soil, leaving burrows around what moves.
+    /// Fills most of the remaining cells with soil, leaving burrows around moving things.
     pub(crate) fn soil(&mut self) {
         let types = plan::furnishable(self.analysis, self.palette, Role::Soil);
         let Some(&stype) = types.first() else { return };
@@ -463,7 +464,7 @@ impl Builder<'_> {
                 self.put(cell, stype);
             }
         }
-        // Nothing hangs over the avatar, or has nothing under it, from the start.
+        // At the start, nothing hangs over the avatar or without support.
         let falls: Vec<usize> = self
             .log
             .iter()

@@ -1,4 +1,4 @@
-//! A level under construction: which cells are wall, what stands where, what can still be reached.
+//! A level under construction: walls, placed characters and reachable cells.
 
 use super::grid::{FAR, Grid};
 use super::palette::{Palette, Walk};
@@ -9,28 +9,28 @@ use engine::{Analysis, SpriteType};
 #[derive(Clone, Debug)]
 pub(crate) struct Board {
     pub(crate) grid: Grid,
-    /// By cell: part of the structure.
+    /// By cell: `true` for cells of the structure.
     pub(crate) wall: Vec<bool>,
     /// By cell: the character placed, if any.
     pub(crate) placed: Vec<Option<u8>>,
-    /// By cell: nothing may be placed here.
+    /// By cell: `true` if nothing may be placed there.
     pub(crate) kept: Vec<bool>,
-    /// By cell: behind which of the gates placed so far it lies; 0: behind none.
+    /// By cell: the number of the gate that it lies behind, of those placed so far; 0: none.
     pub(crate) zone: Vec<u8>,
-    /// Where the avatar starts.
+    /// The cell where the avatar starts.
     pub(crate) start: usize,
-    /// Things that are pushed do not count as obstacles.
+    /// `true` if pushed things do not count as obstacles.
     pub(crate) pushing: bool,
 }
 
 impl Board {
-    /// An empty board with these walls.
+    /// Creates an empty board with these walls.
     pub(crate) fn new(grid: Grid, wall: Vec<bool>) -> Board {
         let (placed, kept, zone) = (vec![None; grid.len()], vec![false; grid.len()], vec![0; grid.len()]);
         Board { grid, wall, placed, kept, zone, start: 0, pushing: false }
     }
 
-    /// No wall, nothing placed, not kept free.
+    /// Returns `true` if a cell has no wall, no character, and is not kept free.
     pub(crate) fn is_free(&self, cell: usize) -> bool {
         !self.wall[cell] && self.placed[cell].is_none() && !self.kept[cell]
     }
@@ -39,17 +39,17 @@ impl Board {
         (0..self.grid.len()).filter(|&cell| self.is_free(cell))
     }
 
-    /// Whether a wall goes all around.
+    /// Returns `true` if the whole border is wall.
     pub(crate) fn is_closed(&self) -> bool {
         (0..self.grid.len()).all(|cell| self.wall[cell] || !self.grid.on_border(cell))
     }
 
-    /// Cells without wall.
+    /// The number of cells without wall.
     pub(crate) fn area(&self) -> usize {
         self.wall.iter().filter(|&&wall| !wall).count()
     }
 
-    /// Whether the avatar can walk there as it starts, shots allowed.
+    /// Returns `true` if the avatar can walk there at its start, including through breakable things.
     pub(crate) fn is_walkable(&self, palette: &Palette, cell: usize) -> bool {
         let open = |symbol: u8| match palette.walk(symbol) {
             Walk::Open | Walk::Breakable => true,
@@ -59,30 +59,30 @@ impl Board {
         !self.wall[cell] && self.placed[cell].is_none_or(open)
     }
 
-    /// Steps from the avatar's start, locked and deadly cells left out.
+    /// The distances from the avatar's start, in steps, without locked and deadly cells.
     pub(crate) fn steps(&self, palette: &Palette) -> Vec<u32> {
         self.grid.flood(&[self.start], |cell| self.is_walkable(palette, cell))
     }
 
-    /// Whether putting an obstacle here would cut off cells. Locked cells count as open: they will be.
+    /// Returns `true` if an obstacle here would cut off cells. Locked cells count as open, since they will be opened.
     pub(crate) fn would_cut(&self, palette: &Palette, cell: usize) -> bool {
         let locked = |symbol: u8| matches!(palette.walk(symbol), Walk::Locked(_));
         let open = |cell: usize| self.is_walkable(palette, cell) || self.placed[cell].is_some_and(locked);
         self.grid.is_cut(cell, open)
     }
 
-    /// How many of the eight cells around are wall or off the board.
+    /// The number of the eight surrounding cells that are wall or off the board.
     pub(crate) fn walls_around(&self, cell: usize) -> usize {
         self.grid.around(cell).iter().filter(|next| next.is_none_or(|next| self.wall[next])).count()
     }
 
-    /// How many sprites of a type the placed characters hold.
+    /// The number of sprites of a type that the placed characters hold.
     pub(crate) fn count(&self, analysis: &Analysis, stype: SpriteType) -> usize {
         let placed = self.placed.iter().flatten();
         placed.flat_map(|&symbol| analysis.game().places(symbol)).filter(|&&placed| placed == stype).count()
     }
 
-    /// The level's text.
+    /// The text of the level.
     pub(crate) fn text(&self, palette: &Palette) -> String {
         let wall = palette.wall.unwrap_or(palette.base);
         let mut text = String::with_capacity(self.grid.len() + self.grid.rows);
@@ -96,8 +96,8 @@ impl Board {
         text
     }
 
-    /// Which cells the avatar can reach when it takes every key that it can get and opens what they open: keys that are
-    /// used up are counted. Cost: O(locks × cells).
+    /// The cells that the avatar can reach when it takes every reachable key and opens their locks; used-up keys are
+    /// counted. Cost: O(locks × cells).
     pub(crate) fn reach(&self, analysis: &Analysis, palette: &Palette) -> Vec<bool> {
         let mut opened = vec![false; self.grid.len()];
         let mut spent: Vec<i64> = vec![0; analysis.locks().len()];

@@ -1,4 +1,4 @@
-//! The tools for furnishing a board: putting sprites down where they make sense.
+//! The tools for furnishing a board: they place sprites where they make sense.
 
 use super::board::Board;
 use super::config::LevelConfig;
@@ -10,26 +10,26 @@ use super::stance::{NICHE, nook};
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, Sampler, SpriteType};
 
-/// How much better a cell is beside what such a sprite is hardly ever seen without.
+/// The weight factor of a cell next to a companion that such a sprite almost always has in the examples.
 const COMPANY: u32 = 1000;
-/// How much better a cell is in a row with others of the kind, where those stand in rows.
+/// The weight factor of a cell in a row with others of the type, if those stand in rows.
 const LINE: u32 = 40;
 
-/// A level in the making, with everything that a decision about it needs.
+/// A level under construction, with everything that decisions about it need.
 pub(crate) struct Builder<'a> {
     pub(crate) analysis: &'a Analysis,
     pub(crate) palette: &'a Palette,
     pub(crate) config: &'a LevelConfig,
     pub(crate) sampler: Sampler,
     pub(crate) board: Board,
-    /// What has been put where, in order.
+    /// The cells and types of all sprites placed, in order.
     pub(crate) log: Vec<(usize, SpriteType)>,
-    /// What it is to be like, if there are examples.
+    /// The target drawn from the examples, if there are any.
     pub(crate) target: Option<Target>,
 }
 
 impl Builder<'_> {
-    /// Puts a sprite of the type on a cell. What it covers beyond that is kept free.
+    /// Puts a sprite of the type on a cell. Further cells that it covers are kept free.
     pub(crate) fn put(&mut self, cell: usize, stype: SpriteType) {
         self.board.placed[cell] = self.palette.symbol(stype);
         self.log.push((cell, stype));
@@ -38,8 +38,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Puts the avatar down, one of those that levels can start with: on that cell, or as near to it as the board has room
-    /// for one that is larger than a cell. A wall around the board stays closed.
+    /// Places one of the avatars that levels can start with: on that cell, or as near to it as possible if it is larger
+    /// than a cell. A wall around the board stays closed.
     pub(crate) fn put_avatar(&mut self, cell: usize) {
         let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
         let grid = self.board.grid;
@@ -57,12 +57,12 @@ impl Builder<'_> {
         }
     }
 
-    /// The cells that a sprite of the type covers, the one that it is put on first.
+    /// The cells that a sprite of the type covers, its own cell first.
     fn covered_by(&self, cell: usize, stype: SpriteType) -> impl Iterator<Item = usize> + use<> {
         self.board.grid.block(cell, self.analysis.facts(stype).span)
     }
 
-    /// Whether all that a sprite of the type would cover is free, and on the board.
+    /// Returns `true` if all cells that a sprite of the type would cover are free, and on the board.
     pub(crate) fn fits(&self, cell: usize, stype: SpriteType) -> bool {
         let (columns, rows) = self.analysis.facts(stype).span;
         if (columns, rows) == (1, 1) {
@@ -103,7 +103,7 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// Lets a sprite into the wall around the board, where the board is open beside it.
+    /// Puts a sprite into the wall around the board, at a cell with an open neighbour.
     fn put_in_border(&mut self, stype: SpriteType) -> Option<usize> {
         let grid = self.board.grid;
         let open = |cell: usize| !self.board.wall[cell] && !grid.on_border(cell);
@@ -119,7 +119,7 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// Puts a sprite into a niche, or hollows one out of a wall: far from the start, and not where somebody else is.
+    /// Puts a sprite into a niche, or hollows one out of a wall: far from the start, and away from other sprites.
     fn put_in_niche(&mut self, stype: SpriteType) -> Option<usize> {
         self.palette.wall?;
         let grid = self.board.grid;
@@ -145,12 +145,12 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// The levels that this one is to be like.
+    /// The example levels, if there are any.
     pub(crate) fn examples(&self) -> Option<&Examples> {
         self.config.like.as_deref()
     }
 
-    /// How well a cell agrees with where examples have such sprites.
+    /// The weight of a cell according to the places of such sprites in the examples.
     pub(crate) fn habit(&self, cell: usize, stype: SpriteType) -> u32 {
         let (Some(examples), Some(target)) = (self.examples(), &self.target) else { return 1 };
         let grid = self.board.grid;
@@ -161,7 +161,7 @@ impl Builder<'_> {
                 weight = weight.saturating_mul(COMPANY);
             }
         }
-        // What is already there may want this one beside it.
+        // Sprites that are already there may want this one next to them.
         for &(there, kind) in &self.log {
             let wants = |&(way, other): &((i32, i32), SpriteType)| {
                 other == stype && grid.shift(there, way) == Some(cell)
@@ -180,20 +180,21 @@ impl Builder<'_> {
         weight
     }
 
-    /// The types that it should hold, if there are examples.
+    /// The types that the level should hold, if there are examples.
     pub(crate) fn expected(&self) -> Vec<SpriteType> {
         let Some(target) = &self.target else { return Vec::new() };
         self.analysis.game().sprite_types().filter(|stype| target.counts[stype.index()].0 > 0).collect()
     }
 
-    /// Draws whether a sprite is to stand beside another of its kind, as often as in the examples; None if it does not matter.
+    /// Draws whether a sprite is to stand next to another of its type, as often as in the examples; `None` if it does not
+    /// matter.
     pub(crate) fn draw_group(&mut self, stype: SpriteType) -> Option<bool> {
         let share = self.examples()?.stance(stype).grouped();
         let first = self.log.iter().all(|(_, kind)| *kind != stype);
         (!first).then(|| self.sampler.unit() < 0.8 * share)
     }
 
-    /// The cell on the other side, left and right, if examples have such sprites in pairs and there is room.
+    /// The mirrored cell, left and right, if examples have such sprites in pairs and there is room.
     pub(crate) fn twin(&self, cell: usize, stype: SpriteType) -> Option<usize> {
         self.examples().filter(|examples| examples.stance(stype).is_mirrored())?;
         let grid = self.board.grid;
@@ -201,7 +202,7 @@ impl Builder<'_> {
         (self.fits(twin, stype) && !self.cuts(twin, stype)).then_some(twin)
     }
 
-    /// How many of which type the level is to hold: by their roles, or as in examples, and as the configuration says.
+    /// Decides the number of sprites of each type: by their roles or as in the examples, and as the configuration says.
     pub(crate) fn wishes(&mut self) -> Vec<Wish> {
         let (analysis, palette) = (self.analysis, self.palette);
         let (area, difficulty) = (self.board.area(), self.difficulty());
@@ -221,12 +222,12 @@ impl Builder<'_> {
         wishes
     }
 
-    /// Whether the avatar falls, so that things are best put on the ground.
+    /// Returns `true` if the avatar falls, so that things are best put on the ground.
     pub(crate) fn falls(&self) -> bool {
         self.analysis.start_avatar().is_some_and(|avatar| avatar.steering == Steering::Jumping)
     }
 
-    /// Whether something to stand on is right below.
+    /// Returns `true` if there is something to stand on right below.
     pub(crate) fn has_footing(&self, cell: usize) -> bool {
         self.board.grid.shift(cell, (0, 1)).is_none_or(|below| self.board.wall[below])
     }
@@ -239,12 +240,12 @@ impl Builder<'_> {
         self.analysis.role(stype)
     }
 
-    /// Steps from the avatar's start.
+    /// The distances from the avatar's start, in steps.
     pub(crate) fn steps(&self) -> Vec<u32> {
         self.board.steps(self.palette)
     }
 
-    /// Cells without obstacles to the nearest sprite that `like` accepts; large if there is none.
+    /// The distance in cells, ignoring obstacles, to the nearest sprite that `like` accepts; large if there is none.
     pub(crate) fn apart(&self, cell: usize, like: impl Fn(SpriteType) -> bool) -> usize {
         let distances = self.log.iter().filter(|(_, stype)| like(*stype));
         distances.map(|(other, _)| self.board.grid.manhattan(cell, *other)).min().unwrap_or(99)
@@ -255,7 +256,7 @@ impl Builder<'_> {
         self.apart(cell, |stype| self.analysis.role(stype) == role)
     }
 
-    /// Whether a sprite of the type, put here, would stand in the way and cut off cells.
+    /// Returns `true` if a sprite of the type, put here, would be an obstacle and cut off cells.
     pub(crate) fn cuts(&self, cell: usize, stype: SpriteType) -> bool {
         let in_the_way = self
             .palette
@@ -264,7 +265,7 @@ impl Builder<'_> {
         in_the_way && self.board.would_cut(self.palette, cell)
     }
 
-    /// Cells ahead of `cell` in a direction, up to the next wall or obstacle.
+    /// The number of cells ahead of `cell` in a direction, up to the next wall or obstacle.
     pub(crate) fn run(&self, cell: usize, way: (i32, i32)) -> usize {
         let mut length = 0;
         let mut at = cell;
@@ -282,7 +283,7 @@ impl Builder<'_> {
         length
     }
 
-    /// Whether nothing stands between `cell` and the avatar's start, ahead in a direction.
+    /// Returns `true` if the avatar's start is ahead of `cell` in a direction, with nothing in between.
     pub(crate) fn aims_at_start(&self, cell: usize, way: (i32, i32)) -> bool {
         let grid = self.board.grid;
         let (dx, dy) = (
@@ -293,7 +294,7 @@ impl Builder<'_> {
         ahead && self.run(cell, way) >= (dx.abs() + dy.abs()) as usize
     }
 
-    /// Where a type moves or shoots by itself, straight ahead.
+    /// The direction in which a type moves or shoots by itself, straight ahead.
     pub(crate) fn heading(&self, stype: SpriteType) -> Option<(i32, i32)> {
         if let Motion::Straight(direction) = self.analysis.facts(stype).motion {
             return way(direction);
@@ -301,7 +302,7 @@ impl Builder<'_> {
         self.analysis.launches(stype).and_then(|(_, direction)| way(direction))
     }
 
-    /// How far from the avatar's start something that can harm it should stand, in cells.
+    /// The minimum distance from the avatar's start of something that can harm it, in cells.
     pub(crate) fn respect(&self, stype: SpriteType) -> usize {
         let facts = self.analysis.facts(stype);
         let near = match facts.motion {
@@ -310,24 +311,24 @@ impl Builder<'_> {
             Motion::Straight(_) => 4.0,
             _ => 3.0 + 4.0 * facts.pace,
         };
-        // Hard levels are not unfair ones: the distance shrinks by a fifth at most.
+        // Difficulty changes the distance by at most a tenth, so that hard levels stay fair.
         let near = near * (1.1 - 0.2 * self.difficulty());
         let room = (self.board.grid.columns + self.board.grid.rows) as f64 * 0.45;
         near.min(room) as usize
     }
 
-    /// The farthest steps that are reached.
+    /// The largest distance among the cells that are reached.
     pub(crate) fn radius(&self, steps: &[u32]) -> u32 {
         steps.iter().copied().filter(|&steps| steps != FAR).max().unwrap_or(0).max(1)
     }
 }
 
-/// A direction along an axis as a step.
+/// Converts a direction along an axis into a step.
 pub(crate) fn way(direction: Direction) -> Option<(i32, i32)> {
     WAYS.into_iter().find(|&(x, y)| direction == Direction { x: f64::from(x), y: f64::from(y) })
 }
 
-/// The other way round.
+/// The opposite direction.
 pub(crate) fn back((x, y): (i32, i32)) -> (i32, i32) {
     (-x, -y)
 }

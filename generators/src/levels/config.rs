@@ -1,31 +1,32 @@
-//! How large and how hard levels are to be.
+//! The configuration of level generators: size, difficulty and contents.
 
 use super::examples::Examples;
 use engine::SpriteType;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Columns and rows at least: below, a border leaves no room.
+/// The minimum of columns and rows: with fewer, a border leaves no room.
 const LEAST: usize = 4;
-/// Columns and rows at most: the cost of a level grows with the square of its cells.
+/// The maximum of columns and rows: the cost of a level grows with the square of its cells.
 const MOST: usize = 64;
 
-/// What a level generator is asked for.
+/// The configuration of a level generator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LevelConfig {
-    /// Columns, from and to, both included; the border counts. Between 4 and 64.
+    /// The minimum and maximum number of columns, including the border; between 4 and 64.
     pub columns: (usize, usize),
-    /// Rows, from and to, both included; the border counts. Between 4 and 64.
+    /// The minimum and maximum number of rows, including the border; between 4 and 64.
     pub rows: (usize, usize),
-    /// From 0.0, the easiest, to 1.0, the hardest: more that harms, longer ways, fewer helps.
+    /// From 0.0, the easiest, to 1.0, the hardest: more dangers, longer ways, fewer aids.
     pub difficulty: f64,
-    /// The share of cells with more than floor, from and to, from 0.0 to 1.0: met where the rules leave room for it.
+    /// The minimum and maximum share of cells with more than floor, from 0.0 to 1.0: met where the rules leave room for
+    /// it.
     pub cover: Option<(f64, f64)>,
-    /// So many sprites of a type, neither more nor fewer, where there is room for them.
+    /// The exact numbers of sprites of some types, where there is room for them.
     #[serde(skip)]
     pub counts: Vec<(SpriteType, usize)>,
-    /// Levels that new ones are to be like.
+    /// The examples that new levels should resemble.
     #[serde(skip)]
     pub like: Option<Arc<Examples>>,
 }
@@ -44,7 +45,7 @@ impl Default for LevelConfig {
 }
 
 impl LevelConfig {
-    /// Levels like these: of their size and cover, with as many of each type, in such places, between such walls.
+    /// Levels that resemble these in size, cover, numbers of each type, placement and walls.
     pub fn like(examples: Arc<Examples>) -> LevelConfig {
         let side = |(low, high): (usize, usize)| (low.clamp(LEAST, MOST), high.clamp(LEAST, MOST));
         LevelConfig {
@@ -56,7 +57,7 @@ impl LevelConfig {
         }
     }
 
-    /// What is wrong with it, if anything is.
+    /// Returns a description of the first problem, if there is any.
     pub(crate) fn problem(&self) -> Option<String> {
         for (name, (low, high)) in [("columns", self.columns), ("rows", self.rows)] {
             if low < LEAST || low > high || high > MOST {

@@ -1,4 +1,4 @@
-//! The constructive level generator: walls first, then furniture by role, then a last look.
+//! The constructive level generator: makes the walls, furnishes them by role, then inspects the result.
 
 use super::board::Board;
 use super::builder::Builder;
@@ -14,28 +14,29 @@ use crate::{GenerateError, Generator};
 use engine::analysis::{Condition, Deed, Goal, Motion, Reason, Role, Steering};
 use engine::{Action, Analysis, Game, Level, Sampler, Seed, SpriteType};
 
-/// Boards tried for one seed.
+/// The number of boards to try for one seed.
 const ATTEMPTS: u64 = 40;
-/// Boards tried, beyond the first, for what is wished rather than needed: cover, company as in the examples, some difficulty.
+/// The number of boards to try, after the first, for optional wishes: cover, companions as in the examples, some
+/// difficulty.
 const COVERS: u64 = 6;
-/// The same in cells, of all these boards together: large ones take their time.
+/// The same limit in cells, over all these boards together: large ones take longer.
 const PATIENCE: u64 = 2600;
-/// Boards tried for a puzzle before it is furnished like any other level.
+/// The number of boards to try for a puzzle before it is furnished like any other level.
 const PUZZLES: u64 = 30;
 
-/// The rank of a board that has all that was asked for.
+/// The rank of a board that meets all wishes.
 const ALL: u32 = 0b1111;
-/// Layouts drawn, of which the one whose walls are nearest to the examples' in number is taken.
+/// The number of layouts to draw; the one closest to the examples in its walls is used.
 const LAYOUTS: usize = 2;
-/// Boards with a smaller share of walls inside have none on purpose.
+/// Boards with a smaller share of inner walls have none on purpose.
 const BARE: f64 = 0.02;
 
-/// Makes levels for one game, any game: what its sprite types are for is derived from the rules.
+/// Generates levels for any game: the roles of its sprite types are derived from the rules.
 ///
-/// Levels fit the game's LevelMapping and hold one avatar; no termination holds at the start; what counts for a win can
-/// be reached on foot (locks opened with keys that can be reached before, and shots, included); and a player who does
-/// nothing lives through the first ticks if the game allows it at all. Puzzles of pushed things come with a solution that
-/// has been played through.
+/// Levels fit the game's LevelMapping and hold one avatar; no termination holds at the start; everything that counts for
+/// a win can be reached on foot (including by shooting, and through locks whose keys can be reached before); and a player
+/// who does nothing survives the first ticks if the game allows it at all. Puzzles of pushed things come with a solution
+/// that has been played through.
 ///
 /// Cost: about a millisecond for a level of usual size; it grows with the square of the cells.
 pub struct ConstructiveLevels<'a> {
@@ -45,23 +46,23 @@ pub struct ConstructiveLevels<'a> {
     pub(super) config: LevelConfig,
 }
 
-/// A level with the actions that win it, where the generator knows them.
+/// A level with the actions that win it, if the generator knows them.
 #[derive(Clone, Debug)]
 pub struct Solved {
     /// The level.
     pub level: Level,
-    /// Actions that win it: known for puzzles of pushed things, in games without chance.
+    /// The actions that win it: known for puzzles of pushed things, in games without chance.
     pub solution: Option<Vec<Action>>,
 }
 
 /// A furnished board.
 pub(super) struct Made {
     pub(super) board: Board,
-    /// What wins it.
+    /// The actions that win it, if known.
     solution: Option<Vec<Action>>,
-    /// Its puzzle has been played through.
+    /// `true` if its puzzle has been played through.
     pub(super) played: bool,
-    /// Types that it should hold, if there are examples.
+    /// The types that it should hold, if there are examples.
     pub(super) expected: Vec<SpriteType>,
 }
 
@@ -73,11 +74,11 @@ impl Made {
 }
 
 impl<'a> ConstructiveLevels<'a> {
-    /// A generator for a game. Cost: one analysis.
+    /// Creates a generator for a game. Cost: one analysis.
     ///
     /// # Errors
-    /// [`GenerateError::Unsuitable`] if the configuration is not sensible, if no level can be won by play, if every level is
-    /// won by waiting, if no character places exactly one avatar, or if a termination holds in every level that the
+    /// [`GenerateError::Unsuitable`] if the configuration is not sensible, if no level can be won by play, if every level
+    /// is won by waiting, if no character places exactly one avatar, or if a termination holds in every level that the
     /// LevelMapping can express.
     pub fn new(game: &'a Game, config: LevelConfig) -> Result<Self, GenerateError> {
         if let Some(problem) = config.problem() {
@@ -127,12 +128,12 @@ impl<'a> ConstructiveLevels<'a> {
         &self.analysis
     }
 
-    /// Makes the level of this seed, with its solution if the generator knows one.
+    /// Generates the level of this seed, with its solution if the generator knows one.
     ///
     /// # Errors
-    /// [`GenerateError::Unlucky`] if all boards that were tried had a fault.
+    /// [`GenerateError::Unlucky`] if all boards that were tried have a fault.
     pub fn generate_solved(&self, seed: Seed) -> Result<Solved, GenerateError> {
-        // By how much of what was asked for it has.
+        // Ranked by the wishes that it meets.
         let mut second_best: Option<(u32, Solved)> = None;
         let mut tried = 0;
         let mut fault = "no board could be furnished".to_owned();
@@ -150,7 +151,7 @@ impl<'a> ConstructiveLevels<'a> {
                         && (self.config.like.is_none() || self.is_served(&made.board));
                     let trivial = self.config.like.is_some() && self.is_trivial(&level, seed);
                     let solved = Solved { level, solution: made.solution };
-                    // In the order of what is worst to be missing.
+                    // The most important wish first.
                     let rank = [survivable, covered, !trivial, company];
                     let rank = rank.into_iter().fold(0, |rank, met| 2 * rank + u32::from(met));
                     if rank == ALL {
@@ -159,7 +160,7 @@ impl<'a> ConstructiveLevels<'a> {
                     if second_best.as_ref().is_none_or(|(best, _)| rank > *best) {
                         second_best = Some((rank, solved));
                     }
-                    // What was not met a few times will hardly be.
+                    // Wishes that several boards have missed are unlikely to be met.
                     tried += u64::from(survivable);
                     if tried > COVERS || tried * cells > PATIENCE {
                         break;
@@ -171,7 +172,7 @@ impl<'a> ConstructiveLevels<'a> {
         second_best.map(|(_, solved)| solved).ok_or(GenerateError::Unlucky(fault))
     }
 
-    /// One board, furnished.
+    /// Makes one furnished board.
     fn attempt(&self, seed: Seed, attempt: u64) -> Option<Made> {
         let mut layout = seed.child("layout", 0).sampler();
         let examples = self.config.like.as_deref();
@@ -224,17 +225,17 @@ impl<'a> ConstructiveLevels<'a> {
             family = Family::Arena;
         }
         if family == Family::Maze && target.is_none() {
-            // Mazes want odd sides.
+            // Mazes need odd sides.
             grid.columns -= usize::from(grid.columns & 1 == 0 && grid.columns > self.config.columns.0);
             grid.rows -= usize::from(grid.rows & 1 == 0 && grid.rows > self.config.rows.0);
         }
-        // Where something chases, a way round is a matter of life and death.
+        // If something chases the avatar, survival depends on alternative routes.
         let chased = furnishable(&self.analysis, &self.palette, Role::Enemy)
             .into_iter()
             .any(|stype| matches!(self.analysis.facts(stype).motion, Motion::Chasing(_)));
         let loops =
             if chased { 0.8 - 0.3 * self.config.difficulty } else { 0.5 - 0.5 * self.config.difficulty };
-        // Closed layouts have a border even where nothing could leave; unless things come in again at the other side.
+        // Closed layouts have a border even if nothing could leave, unless things wrap around to the other side.
         let wraps =
             self.analysis.encounters().iter().any(|encounter| encounter.does(|deed| *deed == Deed::Wrap));
         let closed = self.palette.wall.is_some() && !wraps && grid.columns > 4 && grid.rows > 4;
@@ -252,7 +253,7 @@ impl<'a> ConstructiveLevels<'a> {
         Some(Made::plain(builder))
     }
 
-    /// Whether the avatar has its aim above it, as far as examples tell.
+    /// Returns `true` if the avatar's goal is above it, as far as examples tell.
     fn crosses(&self) -> bool {
         let exits = furnishable(&self.analysis, &self.palette, Role::Exit);
         let avatar = self.palette.avatars[0].0;
@@ -269,7 +270,8 @@ impl<'a> ConstructiveLevels<'a> {
         }
     }
 
-    /// Walls like those of the examples: assembled of their windows, or of a family that suits the game; as many as they have.
+    /// Draws walls like those of the examples: assembled from their windows, or of a family that suits the game, in
+    /// similar numbers.
     fn walls_like(&self, target: &Target, ring: bool, loops: f64, layout: &mut Sampler) -> Vec<bool> {
         let grid = target.grid;
         let patterns = self.config.like.as_deref().map(|examples| examples.patterns());
@@ -286,7 +288,7 @@ impl<'a> ConstructiveLevels<'a> {
                 layout::walls(family, grid, ring, loops, layout)
             })
         };
-        // As many walls as asked for, and such as the examples might have.
+        // The number of walls as asked for, in windows that the examples might have.
         let off = |wall: &Vec<bool>| {
             let strange = patterns.map_or(0.0, |patterns| 1.0 - patterns.familiar(grid, wall));
             let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
@@ -305,7 +307,7 @@ impl<'a> ConstructiveLevels<'a> {
         wall
     }
 
-    /// Walls for a puzzle of pushed things.
+    /// Draws the walls for a puzzle of pushed things.
     fn puzzle_walls(
         &self,
         plan: &Jobs,
@@ -318,7 +320,7 @@ impl<'a> ConstructiveLevels<'a> {
             let loops = if plan.is_barred() { 0.0 } else { 0.4 };
             return Board::new(grid, self.walls_like(target, ring, loops, layout));
         }
-        // Puzzles gain nothing from wide halls.
+        // Puzzles do not benefit from wide halls.
         let grid = Grid {
             columns: grid.columns.min(self.config.columns.0.max(9 + plan.jobs.len())),
             rows: grid.rows.min(self.config.rows.0.max(9)),
@@ -336,7 +338,7 @@ impl<'a> ConstructiveLevels<'a> {
         Board::new(grid, layout::walls(family, grid, ring, loops, layout))
     }
 
-    /// A puzzle of pushed things, played through; None: this board does not work out.
+    /// Makes a puzzle of pushed things and plays it through; returns `None` if this board does not work.
     fn puzzle(&self, plan: &Jobs, mut builder: Builder<'_>, seed: Seed) -> Option<Made> {
         let ways = builder.warehouse(plan)?;
         let bare = self.play(&builder.board, &ways, plan.is_all, seed)?;
@@ -348,7 +350,7 @@ impl<'a> ConstructiveLevels<'a> {
             return Some(Made { board: builder.board, solution: None, played: true, expected });
         }
         let garnished = self.play(&builder.board, &ways, plan.is_all, seed);
-        // If what came after the puzzle is in its way, the level does without; unless it only spoils the timing.
+        // If later furniture blocks the puzzle, the level omits it, unless it only spoils the timing.
         let (board, actions) = match garnished {
             None if self.analysis.is_turn_based() => (puzzle, Some(bare)),
             actions => (builder.board, actions),
@@ -369,7 +371,7 @@ impl<'a> ConstructiveLevels<'a> {
     }
 }
 
-/// An exact number that no level can meet, in words.
+/// Describes an exact number that no level can meet, if there is one.
 fn unmet_count(analysis: &Analysis, palette: &Palette, config: &LevelConfig) -> Option<String> {
     let room = config.columns.1 * config.rows.1;
     let sum: usize = config.counts.iter().fold(0, |sum, (_, count)| sum.saturating_add(*count));

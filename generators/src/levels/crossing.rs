@@ -1,4 +1,4 @@
-//! Furnishing a crossing: the avatar starts at the bottom, its aim lies at the top, and in between lanes of traffic run
+//! Furnishes a crossing: the avatar starts at the bottom, its goal lies at the top, and in between traffic runs in lanes
 //! from edge to edge.
 
 use super::builder::{Builder, way};
@@ -8,27 +8,27 @@ use super::plan;
 use engine::analysis::{Deed, Motion, Role};
 use engine::{Analysis, SpriteType};
 
-/// What a row is for.
+/// The use of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Row {
     /// Wall.
     Border,
-    /// Nothing drives here.
+    /// Safe ground without traffic.
     Verge,
     /// Sprites of this type drive here.
     Lane(SpriteType),
 }
 
-/// What drives across the board.
+/// The sprites that drive across the board.
 #[derive(Clone, Debug)]
 pub(crate) struct Traffic {
     pub(crate) types: Vec<SpriteType>,
-    /// It comes in again at the other side; else it turns at the walls.
+    /// `true` if it wraps around to the other side; otherwise it turns at the walls.
     pub(crate) wraps: bool,
 }
 
-/// The enemies that drive left or right, if they make the game a crossing: they come in again at the other side, or some
-/// go left and some right, turning at walls, on the way to an exit.
+/// Returns the enemies that drive left or right, if they make the game a crossing: they wrap around to the other side, or
+/// some go left and some right, turning at walls, in a game with an exit.
 pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic> {
     let enemies = plan::furnishable(analysis, palette, Role::Enemy);
     let sideways = |stype: &SpriteType| match analysis.facts(*stype).motion {
@@ -50,7 +50,7 @@ pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic>
 }
 
 impl Builder<'_> {
-    /// Draws what each row is for: lanes in groups of one to three between verges.
+    /// Draws the use of each row: lanes in groups of one to three between verges.
     pub(crate) fn rows(&mut self, grid: Grid, ring: bool, traffic: &Traffic) -> Vec<Row> {
         let edge = usize::from(ring);
         let (first, last) = (edge, grid.rows - 1 - edge);
@@ -72,7 +72,7 @@ impl Builder<'_> {
         rows
     }
 
-    /// Walls above and below; at the sides of verges, and of lanes whose traffic turns there.
+    /// The walls above and below, at the sides of verges, and at the sides of lanes whose traffic turns there.
     pub(crate) fn lane_walls(grid: Grid, rows: &[Row], ring: bool, traffic: &Traffic) -> Vec<bool> {
         let side = |cell: usize| grid.x(cell) == 0 || grid.x(cell) + 1 == grid.columns;
         let wall = |cell: usize| match rows[grid.y(cell)] {
@@ -93,7 +93,7 @@ impl Builder<'_> {
         self.put_avatar(start);
         let in_row = |row: usize| (0..grid.columns).map(move |x| grid.at(x, row));
         for exit in plan::furnishable(self.analysis, self.palette, Role::Exit) {
-            // Rather not straight ahead.
+            // Preferably not straight ahead.
             self.put_where(exit, |builder, cell| {
                 let aside = grid.x(cell).abs_diff(grid.x(builder.board.start)) as u32;
                 if in_row(top).any(|other| other == cell) { 1 + aside * aside } else { 0 }
@@ -104,7 +104,7 @@ impl Builder<'_> {
                 self.drive(row, stype);
             }
         }
-        // The other things lie on verges and, where they are small gains, on lanes; other traffic is left out.
+        // Other things lie on verges and, if they are collectables, on lanes; other traffic is left out.
         let lanes: Vec<usize> =
             (0..grid.len()).filter(|&cell| matches!(rows[grid.y(cell)], Row::Lane(_))).collect();
         for &cell in &lanes {
@@ -127,7 +127,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Vehicles of one type along a lane, with gaps of at least two cells, none in the avatar's column just before it.
+    /// Puts vehicles of one type along a lane, with gaps of at least two cells, and none next to the avatar's start.
     fn drive(&mut self, row: usize, stype: SpriteType) {
         let grid = self.board.grid;
         let least = 3 + plan::round(3.0 * (1.0 - self.difficulty()), &mut self.sampler);

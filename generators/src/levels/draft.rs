@@ -1,4 +1,4 @@
-//! A level that is being edited: its characters, what they are for, and whether an edit has spoilt anything.
+//! A level under edit: its characters, their kinds, and the faults that an edit may have caused.
 
 use super::config::LevelConfig;
 use super::constructive::ConstructiveLevels;
@@ -10,44 +10,44 @@ use engine::analysis::{Harm, Reason, Role, Steering};
 use engine::{Level, Sampler, Seed, SpriteType};
 use std::collections::VecDeque;
 
-/// Levels from which the usual numbers are taken.
+/// The number of levels from which the usual counts are taken.
 const SAMPLES: u64 = 16;
-/// Closer to the avatar's start than so many cells, nothing that harms is put.
+/// The minimum distance of harmful things from the avatar's start, in cells.
 const RESPECT: usize = 3;
-/// Open cells that hang together, hold nothing and cannot be reached become wall, if they are fewer.
+/// Unreachable regions of empty cells with fewer cells than this become wall.
 const POCKET: usize = 4;
 
-/// What a level character is for.
+/// The kind of a level character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// What can lie anywhere: the empty cell, floor, soil.
+    /// Ground that can lie anywhere: the empty cell, floor, soil.
     Ground,
-    /// It blocks the avatar always.
+    /// An obstacle that always blocks the avatar.
     Wall,
-    /// It places the avatar.
+    /// A character that places the avatar.
     Avatar,
     /// Anything else, with the first of its roles.
     Thing(Role),
 }
 
-/// What the characters of a game are for, and how many of each levels hold.
+/// The kinds of the characters of a game, and the number of each that levels hold.
 #[derive(Clone, Debug)]
 pub(crate) struct Vocabulary {
     /// By character.
     kinds: Vec<Kind>,
-    /// By character: it harms, or makes what harms.
+    /// By character: `true` if it is harmful or makes harmful things.
     harmful: Vec<bool>,
-    /// By character: at least and at most so many, where levels agree exactly so many.
+    /// By character: the minimum and maximum number; equal if all sampled levels agree.
     bounds: Vec<(usize, usize)>,
-    /// By character: from where to where it stands on the way across the line that the avatar keeps to, in thousandths;
-    /// empty if it goes anywhere.
+    /// By character: the range of its positions across the avatar's line of movement, in thousandths; empty if the avatar
+    /// is not bound to a line.
     bands: Vec<(usize, usize)>,
-    /// The share of cells with more than floor that is asked for.
+    /// The requested minimum and maximum share of cells with more than floor.
     cover: Option<(f64, f64)>,
 }
 
 impl Vocabulary {
-    /// Cost: that of 16 levels.
+    /// Derives the vocabulary from sample levels. Cost: that of 16 levels.
     pub(crate) fn of(levels: &ConstructiveLevels<'_>, config: &LevelConfig) -> Vocabulary {
         let (game, analysis, palette) = (levels.game, &levels.analysis, &levels.palette);
         let kind = |symbol: u8| {
@@ -115,7 +115,7 @@ impl Vocabulary {
         self.kinds[usize::from(symbol)]
     }
 
-    /// At least and at most so many of a character.
+    /// The minimum and maximum number of a character.
     pub(crate) fn bounds(&self, symbol: u8) -> (usize, usize) {
         self.bounds[usize::from(symbol)]
     }
@@ -126,23 +126,23 @@ impl Vocabulary {
     }
 }
 
-/// What may be wrong with a level, each as a number; 0 is best.
+/// The faults of a level, each as a number; 0 is best.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Faults {
-    /// By how many sprites the requirements of the game are missed, or numbers are unusual.
+    /// The number of sprites by which the level misses the requirements of the game, or the usual numbers.
     pub(crate) amiss: usize,
-    /// Cells without wall that cannot be reached through cells without wall.
+    /// The number of cells without wall that cannot be reached through cells without wall.
     pub(crate) stranded: usize,
-    /// How much too close what harms is to the avatar.
+    /// The total amount by which harmful things are too close to the avatar.
     pub(crate) crowded: usize,
-    /// Blocks of wall by themselves, gates in the open, and things where they never are.
+    /// The number of isolated wall blocks, gates in the open, and things in unusual positions.
     pub(crate) untidy: usize,
-    /// Cells with more than floor, too many or too few.
+    /// The number of cells with more than floor that are too many or too few.
     pub(crate) uncovered: usize,
 }
 
 impl Faults {
-    /// None is worse than there.
+    /// Returns `true` if no fault is worse than in the other.
     pub(crate) fn no_worse_than(&self, other: &Faults) -> bool {
         self.amiss <= other.amiss
             && self.stranded <= other.stranded
@@ -151,7 +151,7 @@ impl Faults {
             && self.uncovered <= other.uncovered
     }
 
-    /// The worse of each.
+    /// The worse of the two for each fault.
     pub(crate) fn or(&self, other: &Faults) -> Faults {
         Faults {
             amiss: self.amiss.max(other.amiss),
@@ -163,7 +163,7 @@ impl Faults {
     }
 }
 
-/// A level that is being edited.
+/// A level under edit.
 #[derive(Clone)]
 pub(crate) struct Draft<'v> {
     pub(crate) levels: &'v ConstructiveLevels<'v>,
@@ -171,7 +171,7 @@ pub(crate) struct Draft<'v> {
     pub(crate) grid: Grid,
     /// Row-major characters.
     pub(crate) cells: Vec<u8>,
-    /// The border is wall, all around, and stays so.
+    /// `true` if the whole border is wall, and has to stay so.
     closed: bool,
 }
 
@@ -196,12 +196,12 @@ impl<'v> Draft<'v> {
         self.kind(cell) == Kind::Ground
     }
 
-    /// Whether edits may touch it: all but a closed border.
+    /// Returns `true` if edits may change the cell: all except a closed border.
     pub(crate) fn is_editable(&self, cell: usize) -> bool {
         !(self.closed && self.grid.on_border(cell))
     }
 
-    /// The cells that edits may touch and that are as wanted.
+    /// The cells that edits may change and that `wanted` accepts.
     pub(crate) fn cells_where(&self, wanted: impl Fn(&Self, usize) -> bool) -> Vec<usize> {
         (0..self.grid.len()).filter(|&cell| self.is_editable(cell) && wanted(self, cell)).collect()
     }
@@ -214,18 +214,18 @@ impl<'v> Draft<'v> {
         (0..self.grid.len()).find(|&cell| self.kind(cell) == Kind::Avatar)
     }
 
-    /// How many cells hold a character.
+    /// The number of cells that hold a character.
     pub(crate) fn count(&self, symbol: u8) -> usize {
         self.cells.iter().filter(|&&other| other == symbol).count()
     }
 
-    /// How many sprites of a type it places.
+    /// The number of sprites of a type that it places.
     fn sprites(&self, stype: SpriteType) -> usize {
         let places = self.cells.iter().flat_map(|&symbol| self.levels.game.places(symbol));
         places.filter(|&&placed| placed == stype).count()
     }
 
-    /// The ground around a cell, for one that is cleared.
+    /// The ground next to a cell, for clearing it.
     pub(crate) fn ground_at(&self, cell: usize) -> u8 {
         let mut beside = self.grid.beside(cell).filter(|&next| self.is_ground(next));
         beside.next().map_or(self.levels.palette.base, |next| self.cells[next])
@@ -235,12 +235,12 @@ impl<'v> Draft<'v> {
         self.cells[cell] = self.ground_at(cell);
     }
 
-    /// Puts the content of a cell on another one, whose ground goes the other way.
+    /// Exchanges the contents of two cells.
     pub(crate) fn exchange(&mut self, one: usize, two: usize) {
         self.cells.swap(one, two);
     }
 
-    /// What is wrong with it.
+    /// Computes the faults.
     pub(crate) fn faults(&self) -> Faults {
         Faults {
             amiss: self.amiss(),
@@ -277,7 +277,7 @@ impl<'v> Draft<'v> {
         amiss + self.words.things().map(unusual).sum::<usize>()
     }
 
-    /// Pushed things that have to go and find no place to go to.
+    /// The number of pushed things that have to go and have no place to go to.
     fn homeless(&self) -> usize {
         let analysis = &self.levels.analysis;
         let wanted = |stype: &SpriteType| analysis.aims().remove.contains(stype);
@@ -328,18 +328,18 @@ impl<'v> Draft<'v> {
         over.ceil() as usize
     }
 
-    /// What is wall beside a cell, in the order of [`WAYS`]; so is what lies off the board.
+    /// The sides of a cell with walls, in the order of [`WAYS`]; off the board counts as wall.
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_wall(next)))
     }
 
-    /// Whether there is wall on two opposite sides of it and none on the others.
+    /// Returns `true` if a cell has wall on two opposite sides and none on the others.
     pub(crate) fn is_between(&self, cell: usize) -> bool {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// Whether a character is at home in a cell: gates want walls to both sides, and where the avatar keeps to a line,
-    /// everything has its distance from that.
+    /// Returns `true` if a character belongs in a cell: gates need walls on both sides, and if the avatar moves along a
+    /// line, everything keeps its usual distance from that line.
     pub(crate) fn belongs(&self, symbol: u8, cell: usize) -> bool {
         let gate = self.words.kind(symbol) == Kind::Thing(Role::Gate);
         let place = || across(self.levels, self.grid, cell);
@@ -348,12 +348,12 @@ impl<'v> Draft<'v> {
         in_band && (!gate || self.is_between(cell))
     }
 
-    /// Whether it is ground where a character is at home.
+    /// Returns `true` if the cell is ground where a character belongs.
     pub(crate) fn suits(&self, symbol: u8, cell: usize) -> bool {
         self.is_ground(cell) && self.belongs(symbol, cell)
     }
 
-    /// Opens walls to what cannot be reached, along the fewest walls, and fills small empty pockets.
+    /// Opens the fewest possible walls to unreachable regions, and fills small empty ones.
     pub(crate) fn open_ways(&mut self) {
         let Some(wall) = self.levels.palette.wall else { return };
         for _ in 0..self.grid.len() {
@@ -370,7 +370,7 @@ impl<'v> Draft<'v> {
         }
     }
 
-    /// Opens the fewest walls between the avatar and a cell.
+    /// Opens the fewest possible walls between the avatar and a cell.
     fn open_way(&mut self, to: usize) -> Option<()> {
         let avatar = self.avatar()?;
         let mut opened = vec![FAR; self.grid.len()];
@@ -397,7 +397,7 @@ impl<'v> Draft<'v> {
         (opened[to] != FAR).then_some(())
     }
 
-    /// Adds and removes things until numbers are usual, where there is room.
+    /// Adds and removes things until the numbers are usual, as far as there is room.
     pub(crate) fn recount(&mut self, sampler: &mut Sampler) {
         for symbol in self.words.things() {
             let (low, high) = self.words.bounds(symbol);
@@ -422,7 +422,7 @@ impl<'v> Draft<'v> {
         }
     }
 
-    /// The level, if it is one and no termination holds at its start.
+    /// Returns the level, if it is valid and no termination holds at its start.
     pub(crate) fn level(&self) -> Option<Level> {
         let mut text = String::with_capacity(self.cells.len() + self.grid.rows);
         for row in self.cells.chunks(self.grid.columns) {
@@ -435,7 +435,7 @@ impl<'v> Draft<'v> {
     }
 }
 
-/// How far across the line that the avatar keeps to a cell is, in thousandths of the board.
+/// The position of a cell across the avatar's line of movement, in thousandths of the board.
 fn across(levels: &ConstructiveLevels<'_>, grid: Grid, cell: usize) -> usize {
     let steering = levels.analysis.start_avatar().map(|avatar| avatar.steering);
     let (place, length) = match steering {

@@ -1,4 +1,4 @@
-//! Small changes to a level, each with a meaning: what a designer would do next.
+//! Small, meaningful changes to a level, such as a designer would make next.
 
 use super::draft::{Draft, Kind};
 use super::grid::{Grid, WAYS};
@@ -6,45 +6,45 @@ use super::layout::{self, Family};
 use engine::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 
-/// Cells that a thing goes when it moves a little.
+/// The maximum distance that a thing moves in a small move, in cells.
 const NEAR: usize = 2;
-/// Cells of wall that are moved together at most.
+/// The maximum number of wall cells that move together.
 const SEGMENT: usize = 6;
-/// The smallest side of a part that is grown again.
+/// The smallest side of a part that is regrown.
 const PART: usize = 4;
 
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edit {
-    /// A thing goes to a cell close by; what moves straight ahead stays in its lane.
+    /// Moves a thing to a cell close by; a straight mover stays in its row or column.
     Nudge,
-    /// A thing goes anywhere.
+    /// Moves a thing anywhere.
     Carry,
-    /// One more thing of a kind; with something to push, a place to push it to.
+    /// Adds a thing; for one that is pushed, also a place to push it to.
     Add,
-    /// One thing less; with a place to push to, something to push.
+    /// Removes a thing; for a place to push to, also one of the pushed things.
     Remove,
-    /// Two things of different kinds change places.
+    /// Exchanges two things of different kinds.
     Swap,
-    /// The avatar starts elsewhere.
+    /// Moves the avatar's start.
     Restart,
-    /// A line of wall grows at its end.
+    /// Extends a line of wall at its end.
     Extend,
-    /// A line of wall shrinks at its end.
+    /// Shortens a line of wall at its end.
     Shorten,
-    /// A gap in a wall between two open cells.
+    /// Opens a gap in a wall between two open cells.
     Open,
-    /// A gap in a wall is closed.
+    /// Closes a gap in a wall.
     Close,
-    /// A piece of wall moves sideways.
+    /// Moves a piece of wall sideways.
     Shift,
-    /// One half gets the walls of the other.
+    /// Copies the walls of one half to the other.
     Mirror,
-    /// The walls of a part are drawn anew; its things stay in it.
+    /// Draws the walls of a part anew; its things stay in it.
     Regrow,
 }
 
-/// All kinds, with how often each is drawn.
+/// All kinds, with their weights in the draw.
 const EDITS: [(Edit, u32); 13] = [
     (Edit::Nudge, 5),
     (Edit::Carry, 4),
@@ -61,12 +61,12 @@ const EDITS: [(Edit, u32); 13] = [
     (Edit::Regrow, 1),
 ];
 
-/// How one half of the walls is like the other.
+/// A symmetry of the walls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Symmetry {
     LeftRight,
     UpDown,
-    /// Turned by half a turn.
+    /// A rotation by half a turn.
     Turn,
 }
 
@@ -92,8 +92,8 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Makes a change of that kind; none: there is nothing to change so, or this draw does not work. The draft is then to
-    /// be thrown away.
+    /// Makes a change of that kind; returns `None` if there is nothing to change, or if this draw does not work. The
+    /// draft must then be discarded.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::Nudge => self.nudge(sampler),
@@ -130,7 +130,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Where a thing goes or shoots straight ahead, the line on which it is at home.
+    /// The direction of a thing that moves straight ahead, and so the line to which it belongs.
     fn lane(&self, cell: usize) -> Option<(i32, i32)> {
         let analysis = &self.levels.analysis;
         self.levels.game.places(self.cells[cell]).iter().find_map(|&stype| {
@@ -150,7 +150,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// What gives shelter or is to be broken lies together: the others of a thing's kind, if it is such a thing.
+    /// The other things of the same character, if it gives shelter or is breakable: such things lie together.
     fn flock(&self, thing: usize) -> Vec<usize> {
         let symbol = self.cells[thing];
         let lies =
@@ -158,7 +158,7 @@ impl Draft<'_> {
         self.cells_where(|draft, cell| lies && cell != thing && draft.cells[cell] == symbol)
     }
 
-    /// Whether a cell is beside one of a flock, if there is any.
+    /// Returns `true` if a cell is next to a member of the flock, or if the flock is empty.
     fn joins(&self, flock: &[usize], cell: usize) -> bool {
         flock.is_empty() || flock.iter().any(|&other| self.grid.manhattan(other, cell) == 1)
     }
@@ -178,7 +178,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Puts one more of a character on the ground: beside its like, or anywhere.
+    /// Puts one more of a character on the ground: near others of its kind, or anywhere.
     fn put(&mut self, symbol: u8, sampler: &mut Sampler) -> Option<()> {
         let like: Vec<usize> = self.cells_where(|draft, cell| draft.cells[cell] == symbol);
         let near = sampler.ratio(1, 2) && !like.is_empty();
@@ -201,7 +201,7 @@ impl Draft<'_> {
         let cell = pick(&things, sampler)?;
         let symbol = self.cells[cell];
         self.clear(cell);
-        // With what was pushed there, if it would have nowhere to go.
+        // Together with a pushed thing, if that would have no place to go.
         let pushed = self.cells_where(|draft, cell| draft.partners(draft.cells[cell]).contains(&symbol));
         let homes = self.count(symbol);
         if pushed.len() > homes {
@@ -211,7 +211,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// The characters of what fills up when something of that character is pushed there.
+    /// The characters of the places that fill up when something of that character is pushed there.
     fn partners(&self, symbol: u8) -> Vec<u8> {
         let (levels, mut partners) = (self.levels, Vec::new());
         for pushable in levels.analysis.pushables() {
@@ -237,7 +237,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// An avatar that only goes along a line stays on it.
+    /// Moves the avatar's start. An avatar that moves along a line stays on it.
     fn restart(&mut self, sampler: &mut Sampler) -> Option<()> {
         let avatar = self.avatar().filter(|&cell| self.is_editable(cell))?;
         let steering = self.levels.analysis.start_avatar().map(|avatar| avatar.steering);
@@ -254,8 +254,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Turns a cell of the kind wanted from wall into ground, or the other way round; on boards with symmetrical walls the
-    /// cell's image as well.
+    /// Turns a cell that `wanted` accepts from wall into ground, or the other way round; if the walls are symmetric, also
+    /// its image.
     fn toggle(&mut self, sampler: &mut Sampler, wanted: impl Fn(&Self, usize) -> bool) -> Option<()> {
         let wall = self.levels.palette.wall?;
         let symmetry = self.symmetry();
@@ -281,7 +281,7 @@ impl Draft<'_> {
         cells
     }
 
-    /// How the walls are symmetrical, if there are enough of them to tell.
+    /// The symmetry of the walls, if there are enough of them to tell.
     fn symmetry(&self) -> Option<Symmetry> {
         let inner = self.cells_where(Draft::is_wall).len();
         let holds = |symmetry: &Symmetry| {
@@ -291,12 +291,12 @@ impl Draft<'_> {
         Symmetry::ALL.into_iter().find(holds).filter(|_| inner >= 4)
     }
 
-    /// Ground ahead of the end of a line, with nothing to its sides.
+    /// Returns `true` for ground ahead of the end of a line, with nothing to its sides.
     fn extends(&self, cell: usize) -> bool {
         self.is_ground(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() == 1
     }
 
-    /// The end of a line, or a block by itself.
+    /// Returns `true` for the end of a line, or an isolated block.
     fn is_end(&self, cell: usize) -> bool {
         self.is_wall(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() <= 1
     }
@@ -306,7 +306,7 @@ impl Draft<'_> {
         let symmetry = self.symmetry();
         let cell = pick(&self.cells_where(Draft::is_wall), sampler)?;
         let (dx, dy) = *sampler.choose(&WAYS);
-        // Along the line, both ways from the cell; it goes sideways.
+        // Collects the line in both directions from the cell; the line then moves sideways.
         let mut line = vec![cell];
         for along in [(dy, dx), (-dy, -dx)] {
             let mut next = self.grid.shift(cell, along);
@@ -404,7 +404,7 @@ impl Draft<'_> {
     }
 }
 
-/// One of them, if there are any.
+/// Picks one of the options, if there are any.
 pub(crate) fn pick<T: Copy>(options: &[T], sampler: &mut Sampler) -> Option<T> {
     if options.is_empty() { None } else { Some(*sampler.choose(options)) }
 }

@@ -1,4 +1,4 @@
-//! What a game's own levels are like, so that new ones can be like them: sizes, numbers, where things stand, how walls run.
+//! Statistics of a game's own levels, so that new ones can resemble them: sizes, numbers, placement, wall structure.
 
 use super::grid::Grid;
 use super::layout::Patterns;
@@ -7,59 +7,59 @@ use super::stance::{NOOKS, Scene, Stance, nook};
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, Game, Level, Sampler, SpriteType};
 
-/// What a game's own levels are like.
+/// Statistics of a game's own levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Examples {
     boards: Vec<Sketch>,
-    /// By type: where it stands.
+    /// By type: its placement.
     stances: Vec<Stance>,
-    /// How walls run.
+    /// The structure of the walls.
     patterns: Patterns,
-    /// The border is wall.
+    /// `true` if the border is wall.
     closed: bool,
-    /// How many of them have walls that are the same on the left and on the right.
+    /// The number of examples whose walls are the same on the left and on the right.
     mirrored: usize,
-    /// The character of empty cells, where it is not what the rules alone suggest.
+    /// The character of empty cells, if it differs from the one that the rules suggest.
     base: Option<u8>,
-    /// How many open cells have walls beside them in which way; see [`nook`].
+    /// The number of open cells by the arrangement of walls around them; see [`nook`].
     nooks: [usize; NOOKS],
-    /// Types that mean nothing to the rules and are seen nevertheless.
+    /// Visible types without a meaning in the rules.
     decor: Vec<SpriteType>,
 }
 
-/// One example in numbers.
+/// The statistics of one example.
 #[derive(Clone, Debug, PartialEq)]
 struct Sketch {
     columns: usize,
     rows: usize,
-    /// Share of all cells with more than floor.
+    /// The share of all cells with more than floor.
     cover: f64,
-    /// Share of the cells inside the border that are wall.
+    /// The share of the cells inside the border that are wall.
     walls: f64,
-    /// By type: how many sprites.
+    /// By type: the number of sprites.
     counts: Vec<usize>,
-    /// How much there is of each type of [`Examples::decor`].
+    /// The amount of each type of [`Examples::decor`].
     decor: Vec<usize>,
 }
 
-/// What one new level is to be like: something between two examples.
+/// The desired properties of one new level, interpolated between two examples.
 #[derive(Clone, Debug)]
 pub(crate) struct Target {
     pub(crate) grid: Grid,
-    /// The example that it takes after in where things stand.
+    /// The example to follow in the placement of sprites.
     pub(crate) model: usize,
-    /// Share of the cells inside the border that are wall.
+    /// The share of the cells inside the border that are wall.
     pub(crate) walls: f64,
-    /// By type: how many sprites; then the fewest, the median and the most of all examples.
+    /// By type: the number of sprites; then the minimum, the median and the maximum of all examples.
     pub(crate) counts: Vec<(usize, [usize; 3])>,
-    /// What lies about without a meaning, and how much of it.
+    /// The types without a meaning in the rules, and the amount of each.
     pub(crate) decor: Vec<(SpriteType, usize)>,
 }
 
 impl Examples {
-    /// Looks at a game's own levels. None if there are none, or if the game has no character to start with.
+    /// Analyses a game's own levels. `None` if there are none, or if the game has no character to start with.
     ///
-    /// Cost: one analysis, O(types × cells) for each level, and some milliseconds for how walls run.
+    /// Cost: one analysis, O(types × cells) for each level, and some milliseconds for the structure of the walls.
     pub fn of(game: &Game, levels: &[Level]) -> Option<Examples> {
         let analysis = Analysis::of(game);
         let mut palette = Palette::of(&analysis)?;
@@ -95,7 +95,7 @@ impl Examples {
         (!levels.is_empty()).then_some(examples)
     }
 
-    /// Looks at one level; whether its border is wall, but for a few cells.
+    /// Analyses one level; returns `true` if its border is wall, except for a few cells.
     fn add(
         &mut self,
         analysis: &Analysis,
@@ -110,7 +110,7 @@ impl Examples {
         let border = || (0..grid.len()).filter(|&cell| grid.on_border(cell));
         let closed = palette.wall.is_some()
             && border().filter(|&cell| wall[cell]).count() * 10 >= border().count() * 8;
-        // What is let into the wall around a board makes no hole in it.
+        // A thing that is let into the wall around a board makes no hole in it.
         let let_in = |cell: usize| closed && grid.on_border(cell) && cells[cell] != palette.base;
         let whole: Vec<bool> = (0..grid.len()).map(|cell| wall[cell] || let_in(cell)).collect();
         self.patterns.learn(grid, &whole);
@@ -141,43 +141,43 @@ impl Examples {
         closed
     }
 
-    /// Columns, from and to.
+    /// The minimum and maximum number of columns.
     pub fn columns(&self) -> (usize, usize) {
         range(self.boards.iter().map(|board| board.columns))
     }
 
-    /// Rows, from and to.
+    /// The minimum and maximum number of rows.
     pub fn rows(&self) -> (usize, usize) {
         range(self.boards.iter().map(|board| board.rows))
     }
 
-    /// The share of cells that hold more than floor, from and to.
+    /// The minimum and maximum share of cells that hold more than floor.
     pub fn cover(&self) -> (f64, f64) {
         let covers = self.boards.iter().map(|board| board.cover);
         covers
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), cover| (low.min(cover), high.max(cover)))
     }
 
-    /// The share of the cells inside the border that are wall, from and to.
+    /// The minimum and maximum share of the cells inside the border that are wall.
     pub fn walls(&self) -> (f64, f64) {
         let walls = self.boards.iter().map(|board| board.walls);
         walls.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), walls| (low.min(walls), high.max(walls)))
     }
 
-    /// Sprites of a type in a level: the fewest, the median, the most.
+    /// The number of sprites of a type in a level: minimum, median and maximum.
     pub fn count(&self, stype: SpriteType) -> (usize, usize, usize) {
         let mut counts: Vec<usize> = self.boards.iter().map(|board| board.counts[stype.index()]).collect();
         counts.sort_unstable();
         (counts[0], counts[counts.len() / 2], counts[counts.len() - 1])
     }
 
-    /// Whether the border is wall.
+    /// Returns `true` if the border is wall.
     pub(crate) fn is_closed(&self) -> bool {
         self.closed
     }
 
-    /// Whether sprites of the one type stand lower than those of the other, by a third of the board on the mean. Unknown
-    /// types are taken to.
+    /// Returns `true` if sprites of the one type stand lower than those of the other, by a third of the board on average,
+    /// or if either type does not occur.
     pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
         match (self.stance(one).height(), self.stance(two).height()) {
             (Some(one), Some(two)) => one > two + 1.0 / 3.0,
@@ -185,12 +185,12 @@ impl Examples {
         }
     }
 
-    /// The character of empty cells, where it is not what the rules alone suggest.
+    /// The character of empty cells, if it differs from the one that the rules suggest.
     pub(crate) fn base(&self) -> Option<u8> {
         self.base
     }
 
-    /// Draws whether walls are to be the same on the left and on the right, as often as in the examples.
+    /// Draws whether walls are to be mirrored left to right, as often as in the examples.
     pub(crate) fn draw_mirrored(&self, sampler: &mut Sampler) -> bool {
         sampler.ratio(self.mirrored, self.boards.len())
     }
@@ -199,7 +199,7 @@ impl Examples {
         &self.stances[stype.index()]
     }
 
-    /// How many open cells have walls beside them in which way.
+    /// The number of open cells by the arrangement of walls around them.
     pub(crate) fn nooks(&self) -> &[usize; NOOKS] {
         &self.nooks
     }
@@ -208,7 +208,7 @@ impl Examples {
         &self.patterns
     }
 
-    /// Draws what a level of the given size, or of a size between those of two examples, is to be like.
+    /// Draws the target for a level of the given size, or of a size between those of two examples.
     pub(crate) fn draw(
         &self,
         columns: (usize, usize),
@@ -225,7 +225,7 @@ impl Examples {
             rows: nearest(one.rows, two.rows).clamp(rows.0, rows.1),
         };
         let own = between((one.columns * one.rows) as f64, (two.columns * two.rows) as f64);
-        // A board of another size than the examples holds more or less, in proportion; but not fewer than one.
+        // A board of another size than the examples holds more or fewer in proportion, but at least one.
         let scale = if own > 0.0 { grid.len() as f64 / own } else { 1.0 };
         let scale = if (0.8..=1.25).contains(&scale) { 1.0 } else { scale };
         let scaled = |count: usize| (count as f64 * scale + 0.5) as usize;
@@ -251,7 +251,7 @@ fn range(values: impl Iterator<Item = usize> + Clone) -> (usize, usize) {
     (values.clone().min().unwrap_or(0), values.max().unwrap_or(0))
 }
 
-/// The commonest character that the avatar can walk over without any gain.
+/// The commonest character that the avatar can walk over, and that gives it nothing.
 fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
     let mut counts = [0usize; 128];
     for &symbol in levels.iter().flat_map(|level| level.cells()) {
@@ -262,7 +262,7 @@ fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
     symbols.max_by_key(|&symbol| (counts[usize::from(symbol)], std::cmp::Reverse(symbol)))
 }
 
-/// Characters that place nothing but floor that players see, other than the empty cell's; each with the rarest of its types.
+/// The characters that place only visible floor, except that of the empty cell; each with the rarest of its types.
 fn decor(analysis: &Analysis, palette: &Palette, levels: &[Level]) -> Vec<(u8, SpriteType)> {
     let game = analysis.game();
     let seen = |symbol: &u8| levels.iter().any(|level| level.cells().contains(symbol));
@@ -285,7 +285,7 @@ pub fn cover(analysis: &Analysis, level: &Level) -> f64 {
     covered as f64 / level.cells().len().max(1) as f64
 }
 
-/// Whether a character places more than floor.
+/// Returns `true` if a character places more than floor.
 pub(crate) fn is_cover(analysis: &Analysis, symbol: u8) -> bool {
     analysis.game().places(symbol).iter().any(|&stype| analysis.role(stype) != Role::Floor)
 }

@@ -1,4 +1,4 @@
-//! Which family of layouts suits a game.
+//! The choice of a layout family for a game.
 
 use super::constructive::ConstructiveLevels;
 use super::layout::Family;
@@ -7,7 +7,7 @@ use engine::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 
 impl ConstructiveLevels<'_> {
-    /// Walls that suit the game.
+    /// Draws a layout family that suits the game.
     pub(super) fn family(&self, sampler: &mut Sampler) -> Family {
         let has = |role: Role| !furnishable(&self.analysis, &self.palette, role).is_empty();
         let mover = |role: Role| {

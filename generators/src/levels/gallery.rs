@@ -1,11 +1,12 @@
-//! Furnishing an open field for an avatar that moves along one edge: its enemies at the far side, cover in between.
+//! Furnishes an open field for an avatar that moves along one edge: its enemies at the far side, cover in between.
 
 use super::builder::Builder;
 use super::plan::Wish;
 use engine::SpriteType;
 use engine::analysis::{Motion, Role, Steering};
 
-/// A field seen from the avatar: `along` the line on which it moves, `deep` rows from the far side.
+/// A field from the avatar's point of view: `along` is the position on its line of movement, `deep` the row from the far
+/// side.
 struct Field {
     upright: bool,
     edge: usize,
@@ -13,13 +14,13 @@ struct Field {
 }
 
 impl Field {
-    /// The cell at a place.
+    /// Returns the cell at a position.
     fn cell(&self, builder: &Builder<'_>, along: usize, deep: usize) -> usize {
         let grid = builder.board.grid;
         if self.upright {
             grid.at(self.edge + along, self.edge + deep)
         } else {
-            // An avatar that moves up and down has its home at the left.
+            // An avatar that moves up and down stands at the left.
             grid.at(grid.columns - 1 - self.edge - deep, self.edge + along)
         }
     }
@@ -50,7 +51,7 @@ impl Builder<'_> {
         let field = Field { upright, edge, length };
         let wishes = self.wishes();
         let wards = wishes.iter().any(|wish| wish.role == Role::Ward && self.is_still(wish.stype));
-        // What is to be protected stands behind the avatar, if there is room.
+        // Things to protect stand behind the avatar, if there is room.
         let home = if wards && depth >= 6 { depth - 2 } else { depth - 1 };
         let middle = length / 2;
         let along = (middle + self.sampler.below(3)).saturating_sub(1).min(length - 1);
@@ -71,7 +72,7 @@ impl Builder<'_> {
         self.analysis.facts(stype).motion == Motion::Still
     }
 
-    /// Evenly along a row, a little out of step.
+    /// Places sprites evenly along a row, with small random offsets.
     fn line_up(&mut self, field: &Field, wish: Wish, deep: usize) {
         for at in 0..wish.count {
             let middle = (2 * at + 1) * field.length / (2 * wish.count);
@@ -85,7 +86,7 @@ impl Builder<'_> {
         }
     }
 
-    /// In blocks of two to four along a band before the avatar, mirrored.
+    /// Places sprites in blocks of two to four along a band in front of the avatar, mirrored.
     fn bases(&mut self, field: &Field, wish: Wish, home: usize) {
         if home < 4 {
             return;
@@ -99,7 +100,8 @@ impl Builder<'_> {
         let mut offset = self.sampler.below(pitch);
         let thick = if left > field.length { 2 } else { 1 };
         if self.target.is_some() {
-            // From the middle to both sides, with a base or a gap in the middle, so that few bases are not all on one side.
+            // From the middle to both sides, with a base or a gap in the middle, so that a few bases are not all on one
+            // side.
             let middle = if self.sampler.ratio(1, 2) { width / 2 } else { (width + pitch) / 2 };
             offset = (middle + pitch * field.length - (field.length - 1) / 2) % pitch;
         }
@@ -119,7 +121,7 @@ impl Builder<'_> {
         }
     }
 
-    /// In ranks at the far side, a type to a rank, evenly spaced.
+    /// Places sprites in ranks at the far side, one type to a rank, evenly spaced.
     fn formation(&mut self, field: &Field, wish: Wish, home: usize) {
         let deepest = (home / 2).max(1);
         let grid = self.board.grid;
@@ -129,7 +131,7 @@ impl Builder<'_> {
         };
         let ranks: Vec<usize> = (0..deepest).filter(|&deep| !taken(self, deep)).collect();
         let rank = if ranks.is_empty() { self.sampler.below(deepest) } else { *self.sampler.choose(&ranks) };
-        // A rank is not too full to move in.
+        // A rank keeps enough room to move.
         let fits = (field.length / 3).max(1);
         let mut left = wish.count;
         let mut deep = rank;
@@ -138,7 +140,7 @@ impl Builder<'_> {
             for at in 0..now {
                 let middle = (2 * at + 1) * field.length / (2 * now);
                 let mut along = (middle + self.sampler.below(2)).min(field.length - 1);
-                // Nothing starts right over the avatar.
+                // Nothing starts directly above the avatar.
                 let home = field.along(self, self.board.start);
                 if along.abs_diff(home) < 3 {
                     along =
@@ -154,7 +156,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Near the corners of the far side.
+    /// Places sprites near the corners of the far side.
     fn at_far_side(&mut self, field: &Field, wish: Wish, home: usize) {
         for _ in 0..wish.count {
             let length = field.length;
@@ -173,7 +175,7 @@ impl Builder<'_> {
         }
     }
 
-    /// What does not move and is to be touched lies on the avatar's line; the rest in between.
+    /// Places other sprites: still things to touch on the avatar's line, the rest in between.
     fn somewhere(&mut self, field: &Field, wish: Wish, home: usize) {
         let touched = matches!(
             wish.role,

@@ -2,11 +2,11 @@
 
 use std::collections::VecDeque;
 
-/// One step up, left, down or right: (columns, rows).
+/// The steps up, left, down and right: (columns, rows).
 pub(crate) const WAYS: [(i32, i32); 4] = [(0, -1), (-1, 0), (0, 1), (1, 0)];
 /// The eight cells around a cell, clockwise from the top.
 const AROUND: [(i32, i32); 8] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
-/// Not reached.
+/// The distance of cells that are not reached.
 pub(crate) const FAR: u32 = u32::MAX;
 
 /// The size of a board.
@@ -33,26 +33,26 @@ impl Grid {
         cell / self.columns
     }
 
-    /// The cell so far away, if it is on the board.
+    /// Returns the cell at an offset, if it is on the board.
     pub(crate) fn shift(self, cell: usize, (dx, dy): (i32, i32)) -> Option<usize> {
         let x = usize::try_from(self.x(cell) as i32 + dx).ok().filter(|&x| x < self.columns)?;
         let y = usize::try_from(self.y(cell) as i32 + dy).ok().filter(|&y| y < self.rows)?;
         Some(self.at(x, y))
     }
 
-    /// The cells of a rectangle whose top left corner is `cell`, as far as they are on the board, row by row.
+    /// The cells of a rectangle with the top left corner `cell`, as far as they are on the board, row by row.
     pub(crate) fn block(self, cell: usize, (columns, rows): (usize, usize)) -> impl Iterator<Item = usize> {
         let (right, bottom) = (self.x(cell) + columns, self.y(cell) + rows);
         let (right, bottom) = (right.min(self.columns), bottom.min(self.rows));
         (self.y(cell)..bottom).flat_map(move |y| (self.x(cell)..right).map(move |x| self.at(x, y)))
     }
 
-    /// The up to four cells beside a cell.
+    /// The neighbours of a cell, four at most.
     pub(crate) fn beside(self, cell: usize) -> impl Iterator<Item = usize> {
         WAYS.into_iter().filter_map(move |way| self.shift(cell, way))
     }
 
-    /// The eight cells around a cell, clockwise from the top; none: off the board.
+    /// The eight cells around a cell, clockwise from the top; `None` off the board.
     pub(crate) fn around(self, cell: usize) -> [Option<usize>; 8] {
         AROUND.map(|shift| self.shift(cell, shift))
     }
@@ -62,13 +62,13 @@ impl Grid {
         x == 0 || y == 0 || x + 1 == self.columns || y + 1 == self.rows
     }
 
-    /// Steps between two cells without obstacles.
+    /// The number of steps between two cells, ignoring obstacles.
     pub(crate) fn manhattan(self, one: usize, two: usize) -> usize {
         self.x(one).abs_diff(self.x(two)) + self.y(one).abs_diff(self.y(two))
     }
 
-    /// Steps from the nearest of `from` to every cell through open cells; [`FAR`] where there is no way. The cells of
-    /// `from` need not be open. Cost: O(cells).
+    /// The distance of every cell from the nearest of `from` through open cells, in steps; [`FAR`] if there is no way.
+    /// The cells of `from` need not be open. Cost: O(cells).
     pub(crate) fn flood(self, from: &[usize], open: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut steps = vec![FAR; self.len()];
         let mut queue: VecDeque<usize> = from.iter().copied().collect();
@@ -101,7 +101,7 @@ impl Grid {
         Some(way)
     }
 
-    /// The open cells in groups that hang together, largest first (by their first cells if equal). Cost: O(cells).
+    /// The connected regions of the open cells, largest first (by their first cells if equal). Cost: O(cells).
     pub(crate) fn regions(self, open: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let mut seen = vec![false; self.len()];
         let mut regions: Vec<Vec<usize>> = Vec::new();
@@ -128,13 +128,14 @@ impl Grid {
         regions
     }
 
-    /// Whether the open cells beside `cell` would fall apart without it. Cost: O(1) mostly, else O(cells).
+    /// Returns `true` if the open cells next to `cell` would be disconnected without it. Cost: O(1) mostly, else
+    /// O(cells).
     pub(crate) fn is_cut(self, cell: usize, open: impl Fn(usize) -> bool) -> bool {
         let beside: Vec<usize> = self.beside(cell).filter(|&next| open(next)).collect();
         if beside.len() < 2 {
             return false;
         }
-        // Runs of open cells around the cell that touch it with a side: with one run, all are connected around it.
+        // Runs of open cells around the cell that share a side with it: with one run, all are connected around it.
         let around = self.around(cell).map(|next| next.is_some_and(&open));
         let runs = (0..8).filter(|&at| around[at] && !around[(at + 7) % 8]).filter(|&at| {
             let run = (0..8).map(|more| (at + more) % 8).take_while(|&place| around[place]);

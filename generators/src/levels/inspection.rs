@@ -1,21 +1,21 @@
-//! The last look at a board, and the playing through of puzzles.
+//! The final inspection of a board, and the playthrough of puzzles.
 
 use super::board::Board;
 use super::constructive::{ConstructiveLevels, Made};
 use engine::analysis::{Harm, Motion, Reason, Role, Steering};
 use engine::{Action, Level, Outcome, Seed, SpriteType, State};
 
-/// Ticks that a player who does nothing should live through.
+/// The number of ticks that a player who does nothing should survive.
 const GRACE: usize = 12;
-/// Futures in which that is tried.
+/// The number of futures in which that is tested.
 const FUTURES: u64 = 4;
-/// Ticks in which a game should not be won by doing nothing.
+/// The number of ticks in which a game should not be won by doing nothing.
 const PATIENCE: usize = 300;
-/// The same where staying alive wins, at most, and for random steps where chance plays no part.
+/// The upper limit of the same if survival wins, and the number of random steps if chance plays no part.
 const ENDURANCE: usize = 1000;
 
 impl ConstructiveLevels<'_> {
-    /// Whether a board makes a level; and whether the player has time to look around.
+    /// Makes the level of a board, or returns its fault; the `bool` is `true` if an idle player survives the first ticks.
     pub(super) fn inspect(&self, made: &Made, seed: Seed) -> Result<(Level, bool), String> {
         let board = &made.board;
         let text = board.text(&self.palette);
@@ -64,7 +64,7 @@ impl ConstructiveLevels<'_> {
         Ok((level, self.is_survivable(&state, seed)))
     }
 
-    /// Whether a level is won by doing nothing, or, where chance plays no part, by random steps.
+    /// Returns `true` if a level is won by doing nothing, or, in games without chance, by random steps.
     pub(super) fn is_trivial(&self, level: &Level, seed: Seed) -> bool {
         let start = self.game.start(level, seed);
         let wins = |ticks: usize, seed: Seed, act: &mut dyn FnMut(&State) -> Action| {
@@ -88,7 +88,8 @@ impl ConstructiveLevels<'_> {
             })
     }
 
-    /// Whether everything on a board, or expected there, has beside it what it is hardly ever without in the examples.
+    /// Returns `true` if the types on a board, or expected there, have the companions that they almost always have in the
+    /// examples.
     pub(super) fn keeps_company(&self, made: &Made) -> bool {
         let Some(examples) = self.config.like.as_deref() else { return true };
         let board = &made.board;
@@ -112,8 +113,8 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Whether what is sent out to chase something other than the avatar, and harms nobody, gets there: by steps that each bring
-    /// it nearer, since chasers know no others.
+    /// Returns `true` if all harmless spawned chasers of something other than the avatar can reach their targets by steps
+    /// that each bring them nearer, since chasers make no others.
     pub(super) fn is_served(&self, board: &Board) -> bool {
         let grid = board.grid;
         let types = |cell: usize| {
@@ -139,7 +140,7 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Whether steps through open cells, each towards the aim, lead there.
+    /// Returns `true` if the aim can be reached through open cells by steps that each bring it nearer.
     fn is_approached(&self, board: &Board, from: usize, aim: usize, open: impl Fn(usize) -> bool) -> bool {
         let grid = board.grid;
         let mut reached = vec![from];
@@ -154,7 +155,7 @@ impl ConstructiveLevels<'_> {
         reached.contains(&aim)
     }
 
-    /// Whether a character places something that a win asks the avatar to touch.
+    /// Returns `true` if a character places something that the avatar must touch for a win.
     fn is_goal(&self, symbol: u8) -> bool {
         let horizontal = self
             .analysis
@@ -168,7 +169,7 @@ impl ConstructiveLevels<'_> {
             })
     }
 
-    /// Whether doing nothing loses in none of a few futures before the grace is over.
+    /// Returns `true` if doing nothing does not lose within the grace period, in any of a few futures.
     fn is_survivable(&self, state: &State, seed: Seed) -> bool {
         (0..FUTURES).all(|future| {
             let mut state = state.fork(seed.child("future", future));
@@ -178,8 +179,8 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Plays steps of the avatar on a board; the actions, if they win, or can be played at all if they need not win. An
-    /// avatar that turns before it moves gets the time.
+    /// Plays steps of the avatar on a board. Returns the actions, if they win, or if `wins` is `false` and all can be
+    /// played. An avatar that turns before it moves gets the time for it.
     pub(super) fn play(
         &self,
         board: &Board,

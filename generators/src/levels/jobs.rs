@@ -1,48 +1,48 @@
-//! What is to be done with pushed things in a game: which go where, what that opens, what then remains to be visited.
+//! The tasks with pushed things in a game: the pushes, the way that they open, and the places to visit afterwards.
 
 use super::palette::{Palette, Walk};
 use super::plan::{furnishable, round};
 use engine::analysis::{Fate, Key, Lock, Pushable, Role, Sink, Steering};
 use engine::{Analysis, Sampler, SpriteType};
 
-/// Push a sprite onto a partner.
+/// A task: push a sprite onto a partner.
 #[derive(Clone, Debug)]
 pub(crate) struct Job {
     pub(crate) pushed: SpriteType,
     pub(crate) partner: SpriteType,
-    /// The partner is pushed too, and both go.
+    /// `true` if the partner is pushed too, and both are removed.
     pub(crate) merges: bool,
-    /// The pushed sprite, or what it turns into, remains there.
+    /// `true` if the pushed sprite, or the one it turns into, remains there.
     pub(crate) stays: bool,
-    /// The partner goes.
+    /// `true` if the partner is removed.
     pub(crate) fills: bool,
-    /// The avatar can walk over the partner.
+    /// `true` if the avatar can walk over the partner.
     pub(crate) walkable: bool,
 }
 
 /// The plan of a level with pushed things.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Jobs {
-    /// What to push onto what, in order.
+    /// The pushes, in order.
     pub(crate) jobs: Vec<Job>,
-    /// The last job bridges the way to what is to be visited.
+    /// `true` if the last job bridges the way to the places to visit.
     pub(crate) bridge: bool,
     /// A door that the last job opens.
     pub(crate) door: Option<SpriteType>,
-    /// A gate before what is to be visited at last, if neither a bridge nor a door is in the way.
+    /// A gate on the way to the places to visit, if there is neither a bridge nor a door.
     pub(crate) gate: Option<SpriteType>,
-    /// How many of the visits are to the keys of the gate; they come first.
+    /// The number of visits to the keys of the gate; they come first.
     pub(crate) keys: usize,
-    /// Things to push that are merely in the way, with their types.
+    /// The types of pushable things that are merely obstacles.
     pub(crate) loose: Vec<SpriteType>,
-    /// What the avatar has to touch at last, in order: keys, then exits and goods.
+    /// The things that the avatar has to touch at the end, in order: keys, then exits and goods.
     pub(crate) visits: Vec<SpriteType>,
-    /// Nothing else is needed for a win.
+    /// `true` if nothing else is needed for a win.
     pub(crate) is_all: bool,
 }
 
 impl Jobs {
-    /// None if pushed things play no such part in the game. `asked`: exact numbers of sprites, where any are asked for.
+    /// Draws a plan; `None` if pushed things play no such part in the game. `asked`: the exact numbers of some sprites.
     pub(crate) fn draw(
         analysis: &Analysis,
         palette: &Palette,
@@ -104,7 +104,7 @@ impl Jobs {
         Some(plan)
     }
 
-    /// Every type that must go gets its jobs.
+    /// Adds jobs for every type that must go.
     fn removals(&mut self, wanted: &[Job], remove: &[SpriteType], count: usize, sampler: &mut Sampler) {
         let mut types: Vec<SpriteType> = wanted.iter().map(|job| job.pushed).collect();
         types.sort_unstable();
@@ -117,13 +117,13 @@ impl Jobs {
                 self.jobs.push((*job).clone());
             }
         }
-        // Two that merge are two of what must go: fewer jobs do.
+        // Two that merge count as two of those that must go, so fewer jobs suffice.
         let pairs = self.jobs.iter().filter(|job| job.merges && remove.contains(&job.partner)).count();
         self.jobs.truncate(self.jobs.len() - pairs / 2);
         sampler.shuffle(&mut self.jobs);
     }
 
-    /// A door that pushing opens, or a ditch that it fills, bars the way.
+    /// Bars the way with a door that pushing opens, or with a ditch that it fills.
     fn bar(
         &mut self,
         analysis: &Analysis,
@@ -144,7 +144,7 @@ impl Jobs {
             .collect();
         if !switches.is_empty() {
             let (door, job) = sampler.choose(&switches);
-            // What is opened may be the exit itself.
+            // The opened thing may be the exit itself.
             self.door = Some(*door).filter(|door| !self.visits.contains(door));
             self.jobs.push((*job).clone());
         } else {
@@ -161,12 +161,12 @@ impl Jobs {
 }
 
 impl Jobs {
-    /// Whether something bars the way to what is to be visited at last.
+    /// Returns `true` if something bars the way to the places to visit.
     pub(crate) fn is_barred(&self) -> bool {
         self.bridge || self.door.is_some() || self.gate.is_some()
     }
 
-    /// A gate bars the way to the exit, if there is one to be had and nothing else does.
+    /// Bars the way with a gate, if there is a suitable one and nothing else bars the way.
     fn guard(&mut self, analysis: &Analysis, palette: &Palette, sampler: &mut Sampler) {
         if self.is_barred() || self.visits.is_empty() {
             return;
@@ -197,12 +197,12 @@ impl Jobs {
     }
 }
 
-/// Whether a lock opens by pushing something onto something.
+/// Returns `true` if a lock opens by pushing something onto something.
 fn is_pushed_open(lock: &Lock) -> bool {
     matches!(lock.key, Key::Switch(_, Some(_)))
 }
 
-/// The partner can be placed, and pushing onto it spoils nothing.
+/// Returns `true` if the partner can be placed, and pushing onto it does no damage.
 fn is_fair(analysis: &Analysis, palette: &Palette, sink: &Sink) -> bool {
     let aims = analysis.aims();
     let spoils =
@@ -225,12 +225,12 @@ fn job(analysis: &Analysis, palette: &Palette, pushed: SpriteType, sink: &Sink) 
     }
 }
 
-/// Filling the partner makes a way.
+/// Returns `true` if filling the partner clears a way.
 fn bridges(job: &Job) -> bool {
     job.fills && !job.stays && !job.merges && !job.walkable
 }
 
-/// Keys of locked exits, then exits; else the goods that count for a win.
+/// The keys of locked exits, then exits; without exits, the goods that count for a win.
 fn visits(analysis: &Analysis, palette: &Palette) -> Vec<SpriteType> {
     let exits = furnishable(analysis, palette, Role::Exit);
     let mut visits: Vec<SpriteType> = Vec::new();

@@ -1,4 +1,4 @@
-//! What a level looks like, in numbers that need no play.
+//! Static measures of levels, which need no play.
 
 use super::grid::{FAR, Grid};
 use super::palette::{Palette, Walk};
@@ -6,43 +6,43 @@ use super::symmetry::{Likeness, Mirror};
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Level};
 
-/// Goal things, or full enemies beside the avatar, at which their measures are half of what they can be.
+/// The number of goal things, or of full enemies next to the avatar, at which their measures reach half of the maximum.
 const HALF: f64 = 4.0;
-/// Steps at which nearness is half of what it is on the spot.
+/// The number of steps at which nearness is half of its maximum.
 const NEAR: f64 = 4.0;
 
-/// A static measure of a level, from 0.0 to 1.0. Where a share is of nothing, it is 0.0.
+/// A static measure of a level, from 0.0 to 1.0. A share of nothing is 0.0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LevelMeasure {
     /// The share of cells that are neither empty nor ground.
     Cover,
     /// The share of cells that the avatar, as it starts, can never enter nor clear.
     Walls,
-    /// The mean number of open neighbours of the cells that the avatar can reach on foot, of four. Locks count as open, what is
-    /// deadly does not.
+    /// The mean number of open neighbours of the cells that the avatar can reach on foot, divided by four. Locks count as
+    /// open, deadly cells do not.
     Openness,
-    /// Steps to the furthest cell that the avatar can reach on foot, as a share of all that it can reach: 1.0 in a single
-    /// corridor, small in a hall.
+    /// The distance to the farthest cell that the avatar can reach on foot, in steps, as a share of all cells that it can
+    /// reach: 1.0 in a single corridor, small in a hall.
     Linearity,
-    /// How near harm is: s / (s + 4), where each cell with something harmful adds to s the mean of 4 / (4 + d) for its distance d
-    /// to the avatar and the same to the nearest goal thing (once, if there is none), as the crow flies by rows and
-    /// columns. What stays where it is and makes nothing adds half.
+    /// The nearness of harm: s / (s + 4), where each cell with something harmful adds to s the mean of 4 / (4 + d) for
+    /// its Manhattan distance d to the avatar and the same for the nearest goal thing (for the avatar only, if there is
+    /// none). Things that stay where they are and spawn nothing count half.
     Pressure,
-    /// How many goal things there are: n / (n + 4), where n counts cells with what must go for a win, with what must be
+    /// The number of goal things: n / (n + 4), where n counts cells with things that must be removed for a win or must be
     /// protected, or with an exit.
     Goals,
-    /// How alike the left and the right half are: 1.0 less the distance ([`Likeness::distance`]) of the level, as it
-    /// stands, to its mirror image.
+    /// The left-right symmetry: 1.0 minus the distance ([`Likeness::distance`]) of the level, unmoved, to its mirror
+    /// image.
     LeftRight,
-    /// How alike the upper and the lower half are, likewise.
+    /// The up-down symmetry, likewise.
     UpDown,
-    /// The share of walls, the border's left out, that have no wall beside them: high where walls are sprinkled rather than
-    /// built.
+    /// The share of walls, without those of the border, that have no wall next to them: high if walls are scattered
+    /// rather than built.
     Sprinkle,
 }
 
 impl LevelMeasure {
-    /// All of them, in the order of [`LevelMeasures::of`].
+    /// All measures, in the order of [`LevelMeasures::of`].
     pub const ALL: [LevelMeasure; 9] = [
         LevelMeasure::Cover,
         LevelMeasure::Walls,
@@ -55,7 +55,7 @@ impl LevelMeasure {
         LevelMeasure::Sprinkle,
     ];
 
-    /// Its name in reports.
+    /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
             LevelMeasure::Cover => "cover",
@@ -71,7 +71,7 @@ impl LevelMeasure {
     }
 }
 
-/// Takes the measures of the levels of one game.
+/// Computes the measures of the levels of one game.
 #[derive(Clone, Debug)]
 pub struct LevelMeasures {
     likeness: Likeness,
@@ -79,28 +79,28 @@ pub struct LevelMeasures {
     marks: Vec<Mark>,
 }
 
-/// What a character means for the measures.
+/// The meaning of a character for the measures.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mark {
     is_avatar: bool,
     is_ground: bool,
     is_wall: bool,
-    /// The avatar can walk there, sooner or later.
+    /// `true` if the avatar can walk there, sooner or later.
     is_open: bool,
     is_goal: bool,
-    /// 1.0 for what comes or shoots, 0.5 for what waits, 0.0 for what does no harm.
+    /// 1.0 for harmful things that move or spawn, 0.5 for other harmful things, 0.0 for harmless things.
     harm: f64,
 }
 
 impl LevelMeasures {
-    /// None if no character of the game places exactly one avatar. Cost: O(characters × types).
+    /// Returns `None` if no character of the game places exactly one avatar. Cost: O(characters × types).
     pub fn new(analysis: &Analysis) -> Option<LevelMeasures> {
         let palette = Palette::of(analysis)?;
         let marks = (0..128).map(|symbol| Mark::of(analysis, &palette, symbol)).collect();
         Some(LevelMeasures { likeness: Likeness::of(analysis), marks })
     }
 
-    /// All measures of a level of that game, in the order of [`LevelMeasure::ALL`]. Cost: O(cells).
+    /// Returns all measures of a level of that game, in the order of [`LevelMeasure::ALL`]. Cost: O(cells).
     pub fn of(&self, level: &Level) -> [f64; LevelMeasure::ALL.len()] {
         let board = Marked {
             grid: Grid { columns: level.columns(), rows: level.rows() },
@@ -150,7 +150,7 @@ impl Mark {
     }
 }
 
-/// A level as its marks.
+/// A level in terms of its marks.
 struct Marked {
     grid: Grid,
     marks: Vec<Mark>,
@@ -187,7 +187,7 @@ impl Marked {
         let to_goal = if goals.is_empty() { to_avatar.clone() } else { self.grid.flood(&goals, |_| true) };
         let near = |steps: u32| NEAR / (NEAR + f64::from(steps));
         let harm = |cell: usize| self.marks[cell].harm * (near(to_avatar[cell]) + near(to_goal[cell])) / 2.0;
-        // Not `sum`, which makes -0.0 of nothing.
+        // `sum` would return -0.0 for no cells.
         saturate((0..self.marks.len()).map(harm).fold(0.0, |sum, harm| sum + harm))
     }
 
@@ -212,7 +212,7 @@ pub(crate) mod tests {
     use super::*;
     use engine::Game;
 
-    /// Gems to take, rats that hunt, thorns that wait, walls by two characters.
+    /// A game with gems to take, chasing rats, still thorns, and walls by two characters.
     pub(crate) fn cellar() -> Game {
         Game::from_source(
             "
@@ -244,7 +244,7 @@ BasicGame
         .expect("a game")
     }
 
-    /// A level by its rows, `/` between them, dots for empty cells.
+    /// Makes a level from its rows, separated by `/`, with dots for empty cells.
     pub(crate) fn level(game: &Game, rows: &str) -> Level {
         game.level(&rows.replace('/', "\n").replace('.', " ")).expect("a level")
     }

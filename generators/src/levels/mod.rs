@@ -1,4 +1,5 @@
-//! Level generators that work on any game: what blocks, harms, is collected, opens or spawns is derived from the rules.
+//! Level generators for any game: the roles of sprite types (such as wall, danger, collectable, key or spawner) are
+//! derived from the rules.
 
 mod adventure;
 mod board;

@@ -1,20 +1,20 @@
-//! Which level character stands for what: the empty cell, the wall, and one character for every sprite type.
+//! The level characters to build with: for the empty cell, for walls, and for every sprite type.
 
 use engine::analysis::{Deed, Harm, Lock, Motion, Removal, Role};
 use engine::{Analysis, SpriteType};
 
-/// What a level character means for walking, to the avatar as it starts.
+/// The effect of a level character on walking, for the avatar as it starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Walk {
     /// It can be entered.
     Open,
-    /// It cannot.
+    /// It cannot be entered.
     Blocked,
     /// It can be shot away first.
     Breakable,
     /// It is pushed.
     Pushed,
-    /// It kills or wounds.
+    /// It kills or wounds the avatar.
     Deadly,
     /// It is locked: an index into the analysis' locks.
     Locked(usize),
@@ -23,31 +23,31 @@ pub(crate) enum Walk {
 /// The characters to build with.
 #[derive(Clone, Debug)]
 pub(crate) struct Palette {
-    /// For cells with nothing in them.
+    /// The character of cells with nothing in them.
     pub(crate) base: u8,
-    /// What the empty cell holds.
+    /// The types that the empty cell holds.
     pub(crate) ground: Vec<SpriteType>,
-    /// For walls, if the game has any that structure a board.
+    /// The character of walls, if the game has any that structure a board.
     pub(crate) wall: Option<u8>,
-    /// Without a ring of walls, something could leave the board.
+    /// `true` if something could leave the board without a ring of walls.
     pub(crate) ring: bool,
-    /// For avatars: those that place the least beside one.
+    /// The avatars with their characters: those that place the fewest other things.
     pub(crate) avatars: Vec<(SpriteType, u8)>,
-    /// The best character for each type, without an avatar; by type.
+    /// By type: the best character, without an avatar.
     symbols: Vec<Option<u8>>,
     /// By character.
     walk: Vec<Walk>,
 }
 
 impl Palette {
-    /// None if no character places exactly one avatar.
+    /// Returns `None` if no character places exactly one avatar.
     pub(crate) fn of(analysis: &Analysis) -> Option<Palette> {
         let avatars = avatars(analysis)?;
         let start = avatars[0].0;
         Palette::on(analysis, base(analysis, start, avatars[0].1))
     }
 
-    /// The same with this character for the empty cell.
+    /// The same, with a given character for the empty cell.
     pub(crate) fn on(analysis: &Analysis, base: u8) -> Option<Palette> {
         let avatars = avatars(analysis)?;
         let start = avatars[0].0;
@@ -68,8 +68,8 @@ impl Palette {
         })
     }
 
-    /// Whether a character can stand for the empty cell, as far as the avatar is concerned: nothing is to be had there, nothing
-    /// hurts, and nothing is in the way.
+    /// Returns `true` if a character can stand for the empty cell, as far as the avatar is concerned: nothing there can
+    /// be collected, hurts, or is in the way.
     pub(crate) fn is_bearable(analysis: &Analysis, symbol: u8) -> bool {
         let places = analysis.game().places(symbol);
         let plain = |stype: &SpriteType| match analysis.role(*stype) {
@@ -86,18 +86,18 @@ impl Palette {
         })
     }
 
-    /// The character that places a type, and little else.
+    /// The character that places a type, with as little else as possible.
     pub(crate) fn symbol(&self, stype: SpriteType) -> Option<u8> {
         self.symbols[stype.index()]
     }
 
-    /// What a character means for walking.
+    /// The effect of a character on walking.
     pub(crate) fn walk(&self, symbol: u8) -> Walk {
         self.walk.get(usize::from(symbol)).copied().unwrap_or(Walk::Open)
     }
 }
 
-/// The avatar characters, those with the fewest other sprites; several only if they place different avatars.
+/// The characters of avatars, those with the fewest other sprites; several only if they place different avatars.
 fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     let game = analysis.game();
     let is_avatar = |stype: SpriteType| game.class(stype).is_some_and(|class| class.is_avatar());
@@ -122,7 +122,7 @@ fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     Some(list)
 }
 
-/// The character of the empty cell. First choice: floor that the avatar stands on too; then `.`, if that is harmless
+/// The character of the empty cell. First choice: floor that the avatar also stands on; then `.`, if that is harmless
 /// enough to be walked on; then exactly what the avatar stands on; then a blank.
 fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
     let game = analysis.game();
@@ -153,7 +153,7 @@ fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
     symbols.iter().find(same).copied().unwrap_or(b' ')
 }
 
-/// Whether a type may lie everywhere.
+/// Returns `true` if a type may lie everywhere.
 fn bearable(analysis: &Analysis, avatar: SpriteType, stype: SpriteType) -> bool {
     let touch = analysis.touch(avatar, stype);
     let still = analysis.facts(stype).motion == Motion::Still;
@@ -167,7 +167,7 @@ pub(crate) fn holds_avatar(analysis: &Analysis, symbol: u8) -> bool {
     game.places(symbol).iter().any(|&stype| game.class(stype).is_some_and(|class| class.is_avatar()))
 }
 
-/// The character for a type with the fewest other sprites, those of the ground apart.
+/// The character for a type with the fewest other sprites, except those of the ground.
 fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option<u8> {
     let cost = |symbol: u8| {
         let places = analysis.game().places(symbol);
@@ -194,7 +194,7 @@ fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option
     symbols.filter(|&symbol| !holds_avatar(analysis, symbol)).min_by_key(|&symbol| cost(symbol))
 }
 
-/// The type that structures boards: of those that block the avatar always, the one that holds up the most others.
+/// The type that structures boards: of those that always block the avatar, the one that stops the most others.
 fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     let moves = |stype: &SpriteType| {
         let facts = analysis.facts(*stype);
@@ -203,7 +203,7 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     };
     let movers: Vec<SpriteType> = analysis.game().sprite_types().filter(moves).collect();
     let candidates = analysis.game().sprite_types().filter(|&stype| {
-        // What the registry calls `wall` is one even where it can be shot, or kills.
+        // The registry's `wall` type counts as one even if it can be shot, or kills.
         let named = stype == SpriteType(0) && matches!(analysis.role(stype), Role::Breakable | Role::Hazard);
         symbols[stype.index()].is_some() && (analysis.role(stype) == Role::Wall || named)
     });
@@ -217,7 +217,7 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     candidates.max_by_key(|&stype| (strength(stype), stype == SpriteType(0), std::cmp::Reverse(stype)))
 }
 
-/// Whether something that moves, or is pushed, meets no rule at the edge of the screen.
+/// Returns `true` if something that moves, or is pushed, meets no rule at the edge of the screen.
 fn leaves_board(analysis: &Analysis) -> bool {
     analysis.game().sprite_types().any(|stype| {
         let facts = analysis.facts(stype);
@@ -227,7 +227,7 @@ fn leaves_board(analysis: &Analysis) -> bool {
     })
 }
 
-/// What entering a cell with this character means; what lies everywhere does not count.
+/// The effect of entering a cell with this character, without the types that lie everywhere.
 fn walk(analysis: &Analysis, avatar: SpriteType, ground: &[SpriteType], symbol: u8) -> Walk {
     let mut walk = Walk::Open;
     for &stype in analysis.game().places(symbol) {
@@ -258,7 +258,7 @@ fn walk(analysis: &Analysis, avatar: SpriteType, ground: &[SpriteType], symbol: 
     walk
 }
 
-/// Whether a shot of some avatar removes or changes the type.
+/// Returns `true` if a shot of some avatar removes or changes the type.
 fn shot_away(analysis: &Analysis, stype: SpriteType) -> bool {
     let shots = analysis.avatars().iter().flat_map(|avatar| &avatar.shots);
     let ends = |shot: &SpriteType| {

@@ -1,11 +1,11 @@
-//! How many of which sprite type a level is to hold.
+//! The numbers of sprites of each type that a level is to hold.
 
 use super::examples::Target;
 use super::palette::Palette;
 use engine::analysis::{Motion, Reason, Role};
 use engine::{Analysis, Sampler, SpriteType};
 
-/// So many sprites of a type.
+/// A desired number of sprites of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Wish {
     pub(crate) stype: SpriteType,
@@ -13,8 +13,8 @@ pub(crate) struct Wish {
     pub(crate) count: usize,
 }
 
-/// The types that a level may be furnished with, with how many of each, for a board with `area` open cells. Gates,
-/// keys, walls and soil are left to those who place them.
+/// The types to furnish a level with, and the number of each, for a board with `area` open cells. Gates, keys, walls and
+/// soil are placed separately.
 pub(crate) fn wishes(
     analysis: &Analysis,
     palette: &Palette,
@@ -38,7 +38,7 @@ pub(crate) fn wishes(
     wishes
 }
 
-/// The same, with as many of each type as examples have.
+/// The same, with numbers of each type as in the examples.
 pub(crate) fn wishes_like(
     analysis: &Analysis,
     palette: &Palette,
@@ -52,7 +52,7 @@ pub(crate) fn wishes_like(
         for stype in furnishable(analysis, palette, role) {
             let (drawn, [least, usual, most]) = target.counts[stype.index()];
             let wanted = analysis.aims().remove.contains(&stype);
-            // What harms, or is asked for, follows the difficulty; so does, the other way round, what helps.
+            // Numbers of harmful or required things follow the difficulty; those of helpful things follow it inversely.
             let share = match role {
                 Role::Enemy | Role::Boulder | Role::Hazard => Some(difficulty),
                 Role::Spawner if analysis.makes_harm(stype) => Some(difficulty),
@@ -62,7 +62,7 @@ pub(crate) fn wishes_like(
             };
             let count = match share {
                 Some(share) => {
-                    // The median at half difficulty: the examples may hold an extreme.
+                    // The median at half difficulty, since the examples may hold an extreme.
                     let (from, to, share) = if share < 0.5 {
                         (least, usual, 2.0 * share)
                     } else {
@@ -76,7 +76,7 @@ pub(crate) fn wishes_like(
             wishes.push(Wish { stype, role, count });
         }
     }
-    // Beyond those that locks need.
+    // In addition to those that locks need.
     for stype in furnishable(analysis, palette, Role::Key) {
         wishes.push(Wish { stype, role: Role::Key, count: target.counts[stype.index()].0 });
     }
@@ -90,7 +90,7 @@ pub(crate) fn wishes_like(
     wishes
 }
 
-/// Makes numbers possible.
+/// Adjusts numbers to possible ones.
 fn settle(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     for wish in wishes.iter_mut().filter(|wish| analysis.facts(wish.stype).singleton) {
         wish.count = wish.count.min(1);
@@ -98,7 +98,7 @@ fn settle(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     require(analysis, area, wishes);
 }
 
-/// In the order in which they are placed: what the others must not be in the way of comes first.
+/// The roles in placement order: sprites that the others must not obstruct come first.
 const ROLES: [Role; 16] = [
     Role::Exit,
     Role::Portal,
@@ -118,7 +118,7 @@ const ROLES: [Role; 16] = [
     Role::Collectable,
 ];
 
-/// The types of a role that are worth placing: with a character of their own, lasting, and no mere projectiles.
+/// The types of a role that are worth placing: they have a character, last, and are not mere projectiles.
 pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) -> Vec<SpriteType> {
     let types = analysis.game().sprite_types().filter(|&stype| {
         let facts = analysis.facts(stype);
@@ -138,7 +138,7 @@ pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) ->
     types.filter(|stype| !flies(stype)).collect()
 }
 
-/// Floor that is not everywhere and takes part in some interaction.
+/// Returns `true` for floor that is not everywhere and takes part in some interaction.
 fn is_special_floor(analysis: &Analysis, palette: &Palette, stype: SpriteType) -> bool {
     let takes_part = || {
         analysis.encounters().iter().any(|encounter| {
@@ -149,7 +149,7 @@ fn is_special_floor(analysis: &Analysis, palette: &Palette, stype: SpriteType) -
     analysis.role(stype) == Role::Floor && !palette.ground.contains(&stype) && takes_part()
 }
 
-/// How many sprites of a role, all its types together; `wanted`: they must go for a win.
+/// The number of sprites of a role, all its types together; `wanted`: they must go for a win.
 fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) -> f64 {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => 1.0,
@@ -170,7 +170,8 @@ fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) ->
     }
 }
 
-/// Roles of which each type has its own meaning get one of each, if there are not too many.
+/// The minimum number for a role. Roles in which each type has its own meaning get one of each, if there are not too
+/// many.
 fn least(role: Role, types: usize) -> usize {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => types,
@@ -179,12 +180,12 @@ fn least(role: Role, types: usize) -> usize {
     }
 }
 
-/// Up or down, so that the mean is kept.
+/// Rounds up or down at random, with the value as the mean.
 pub(crate) fn round(value: f64, sampler: &mut Sampler) -> usize {
     (value + sampler.unit()) as usize
 }
 
-/// Gives each type its share: one of each while they last, the rest by lot.
+/// Distributes a total over the types: one of each while they last, the rest at random.
 fn share(mut types: Vec<SpriteType>, role: Role, total: usize, sampler: &mut Sampler) -> Vec<Wish> {
     sampler.shuffle(&mut types);
     let mut wishes: Vec<Wish> = types.iter().map(|&stype| Wish { stype, role, count: 0 }).collect();
@@ -196,7 +197,7 @@ fn share(mut types: Vec<SpriteType>, role: Role, total: usize, sampler: &mut Sam
     wishes
 }
 
-/// Raises counts, or lowers them, until no termination holds at the start.
+/// Raises or lowers counts until no termination holds at the start.
 fn require(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     for requirement in analysis.requirements() {
         if matches!(requirement.reason, Reason::Avatar | Reason::Lock(_)) {
@@ -206,7 +207,7 @@ fn require(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
             let listed = wishes.iter().filter(|wish| requirement.types.contains(&wish.stype));
             listed.map(|wish| wish.count).sum()
         };
-        // More than the board can hold is not worth counting.
+        // Counts stop at the capacity of the board.
         while sum(wishes) < (requirement.at_least as usize).min(area) {
             let fewest = wishes.iter_mut().filter(|wish| requirement.types.contains(&wish.stype));
             let Some(wish) = fewest.min_by_key(|wish| wish.count) else { break };

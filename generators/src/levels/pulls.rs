@@ -1,47 +1,47 @@
-//! Levels with things to push, made backwards: from the solved state, the avatar pulls them out of where they belong,
-//! so that pushing them back is a solution.
+//! Levels with things to push, made backwards: from the solved state, the avatar pulls them out of their places, so that
+//! pushing them back is a solution.
 
 use super::grid::{FAR, Grid, WAYS};
 use super::jobs::{Job, Jobs};
 use engine::{Sampler, SpriteType};
 use std::collections::VecDeque;
 
-/// One push: the sprite on a cell goes one step.
+/// One push: moves the thing on a cell one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Push {
     pub(crate) from: usize,
     pub(crate) way: (i32, i32),
 }
 
-/// A floor plan with pushed things, as it stands after the pushes found so far have been taken back.
+/// A floor plan with pushed things, in the state before the pushes found so far.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulls {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
-    /// By cell: what can be pushed.
+    /// By cell: the pushable thing, if any.
     pub(crate) things: Vec<Option<SpriteType>>,
-    /// By cell: the partner of a job, with whether the avatar can walk there now.
+    /// By cell: the partner of a job, with `true` if the avatar can walk there now.
     pub(crate) partners: Vec<Option<(SpriteType, bool)>>,
-    /// By cell: nothing is pushed here, whatever for.
+    /// By cell: `true` if nothing may be pushed here.
     pub(crate) barred: Vec<bool>,
-    /// By cell: the avatar cannot walk here either.
+    /// By cell: `true` if the avatar cannot walk here either.
     pub(crate) closed: Vec<bool>,
-    /// Where the avatar is; none: anywhere.
+    /// The cell of the avatar; `None` if it may be anywhere.
     pub(crate) avatar: Option<usize>,
-    /// The pushes of the solution, last one first.
+    /// The pushes of the solution, the last one first.
     pub(crate) pushes: Vec<Push>,
 }
 
-/// A thing and the avatar right after a pull.
+/// The state right after a pull: the cells of the thing and of the avatar.
 #[derive(Clone, Copy)]
 struct Node {
     thing: usize,
     avatar: usize,
-    /// How many pulls there were.
+    /// The number of pulls so far.
     depth: usize,
     /// The node before the pull.
     before: usize,
-    /// In how many cells the avatar can be.
+    /// The number of cells that the avatar can reach.
     room: usize,
 }
 
@@ -60,19 +60,19 @@ impl Pulls {
         }
     }
 
-    /// Whether the avatar can stand there.
+    /// Returns `true` if the avatar can stand on the cell.
     pub(crate) fn stands(&self, cell: usize) -> bool {
         let partner = self.partners[cell].is_none_or(|(_, walkable)| walkable);
         !self.wall[cell] && !self.closed[cell] && self.things[cell].is_none() && partner
     }
 
-    /// Whether a thing can lie there between pushes.
+    /// Returns `true` if a thing can lie on the cell between pushes.
     fn lies(&self, cell: usize) -> bool {
         let free = !self.wall[cell] && !self.closed[cell] && !self.barred[cell];
         free && self.things[cell].is_none() && self.partners[cell].is_none()
     }
 
-    /// Where the avatar can be.
+    /// The distances of the cells that the avatar can reach.
     pub(crate) fn roam(&self) -> Vec<u32> {
         match self.avatar {
             Some(cell) => self.grid.flood(&[cell], |next| self.stands(next)),
@@ -80,7 +80,7 @@ impl Pulls {
         }
     }
 
-    /// Takes back the last push of a job onto the partner at `cell`, and pulls the thing away by about `pulls` pulls.
+    /// Undoes the last push of a job onto the partner at `cell`, and pulls the thing away by about `pulls` pulls.
     pub(crate) fn undo(&mut self, job: &Job, cell: usize, pulls: usize, sampler: &mut Sampler) -> Option<()> {
         let roam = self.roam();
         let reaches = |cell: usize| roam[cell] != FAR;
@@ -113,7 +113,7 @@ impl Pulls {
         Some(())
     }
 
-    /// Pulls the thing on a cell to a place that takes about so many pulls, or as far as it goes.
+    /// Pulls the thing on a cell to a place that takes about `pulls` pulls, or as far as possible.
     pub(crate) fn pull(&mut self, from: usize, pulls: usize, sampler: &mut Sampler) {
         let Some(stype) = self.things[from] else { return };
         let Some(first) = self.avatar else { return };
@@ -139,7 +139,7 @@ impl Pulls {
             self.things[thing] = None;
             self.things[from] = Some(stype);
         }
-        // Not where the avatar has locked itself in: there may be more to do, and levels start in the open.
+        // Avoids states with the avatar locked in: there may be more to do, and levels start in the open.
         let widest = nodes.iter().map(|node| node.room).max().unwrap_or(0);
         let wide = |node: &Node| node.room * 2 >= widest;
         let deepest = nodes.iter().filter(|node| wide(node)).map(|node| node.depth).max().unwrap_or(0);
@@ -165,7 +165,7 @@ impl Pulls {
         self.avatar = Some(end.avatar);
     }
 
-    /// The avatar walks backwards to a cell, and now and then pulls along what lies right behind it.
+    /// Walks the avatar backwards to a cell; now and then it pulls along the thing right behind it.
     pub(crate) fn wander(&mut self, to: usize, eager: usize, sampler: &mut Sampler) {
         for _ in 0..self.grid.len() {
             let Some(at) = self.avatar.filter(|&at| at != to) else { return };
@@ -186,8 +186,8 @@ impl Pulls {
         }
     }
 
-    /// The ways of the avatar for the pushes from `start`, and then to each of the cells `visits` in turn. None if the
-    /// pushes do not work out.
+    /// The steps of the avatar for the pushes from `start`, and then to each of the cells `visits` in turn. `None` if the
+    /// pushes do not work.
     pub(crate) fn solution(
         &self,
         plan: &Jobs,
@@ -221,7 +221,7 @@ impl Pulls {
             ways.push(push.way);
             avatar = push.from;
         }
-        // A door opens with the last job, a gate once its keys have been visited.
+        // A door opens with the last job, a gate after the visits to its keys.
         let mut opened = plan.keys == 0 && done == plan.jobs.len();
         for (at, &cell) in visits.iter().enumerate() {
             opened |= plan.keys > 0 && at >= plan.keys;

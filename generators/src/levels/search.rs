@@ -1,4 +1,4 @@
-//! What varies the levels of a game in a search: puzzles where the game is one, small edits everywhere else.
+//! The choice of a variation for the levels of a game: puzzles if the game is one, small edits otherwise.
 
 use super::config::LevelConfig;
 use super::constructive::ConstructiveLevels;
@@ -7,16 +7,17 @@ use super::variation::LevelVariation;
 use crate::{GenerateError, Variation};
 use engine::{Game, Level, Sampler, Seed};
 
-/// The way to vary levels that suits a game.
+/// The variation of levels that suits a game.
 pub enum LevelSearch<'a> {
-    /// The game is won by pushing alone: floor plans are varied, and each is searched backwards for its farthest position.
+    /// For games that are won by pushing alone: varies floor plans, and searches each backwards for its farthest
+    /// position.
     Puzzles(PuzzleVariation<'a>),
-    /// Any other game: levels are edited.
+    /// For any other game: edits levels.
     Edits(LevelVariation<'a>),
 }
 
 impl<'a> LevelSearch<'a> {
-    /// Puzzles, if they suit the game and the sizes asked for, else edits.
+    /// Chooses puzzles, if they suit the game and the requested sizes, otherwise edits.
     ///
     /// # Errors
     /// As [`LevelVariation::new`].

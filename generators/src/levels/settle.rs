@@ -1,4 +1,4 @@
-//! Bringing a furnished board to the cover that was asked for.
+//! Adjustment of a furnished board to the requested cover.
 
 use super::builder::Builder;
 use super::examples::is_cover;
@@ -6,8 +6,8 @@ use super::grid::FAR;
 use engine::analysis::{Role, Steering};
 
 impl Builder<'_> {
-    /// Adds walls (or, on boards without, more of what lies about) until enough cells are covered, or takes some away until no
-    /// more are. What keeps the game going stays, and nothing is cut off; so there is not always a way to get there.
+    /// Adds walls (or, on boards without, more things) until enough cells are covered, or removes some until few enough
+    /// are. Everything that the game needs stays, and nothing is cut off, so the requested cover is not always reached.
     pub(crate) fn settle(&mut self) {
         let Some((low, high)) = self.config.cover else { return };
         if is_cover(self.analysis, self.palette.base) {
@@ -28,7 +28,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Cells with more than floor.
+    /// The number of cells with more than floor.
     fn covered(&self) -> usize {
         let covered = |&cell: &usize| match self.board.placed[cell] {
             Some(symbol) => is_cover(self.analysis, symbol),
@@ -37,9 +37,9 @@ impl Builder<'_> {
         (0..self.board.grid.len()).filter(covered).count()
     }
 
-    /// One more wall, or thing; whether there was room.
+    /// Adds a wall or a thing; returns `true` if there was room.
     fn add_cover(&mut self) -> bool {
-        // As long as walls are fewer than in the examples, walls; then other things; at last walls all the same.
+        // While there are fewer walls than in the examples, adds walls; then other things; then walls again.
         let missing = self.target.as_ref().is_none_or(|target| self.inner_walls() < target.walls);
         missing && self.add_wall() || self.add_thing() || !missing && self.add_wall()
     }
@@ -51,7 +51,7 @@ impl Builder<'_> {
         inner().filter(|&cell| self.board.wall[cell]).count() as f64 / inner().count().max(1) as f64
     }
 
-    /// One more wall where it cuts off nothing.
+    /// Adds a wall where it cuts off nothing.
     fn add_wall(&mut self) -> bool {
         let grid = self.board.grid;
         let bare = self.target.as_ref().is_some_and(|target| target.walls <= 0.0);
@@ -81,7 +81,7 @@ impl Builder<'_> {
         false
     }
 
-    /// Whether a cell is on the line that the avatar keeps to, or a large one covers.
+    /// Returns `true` if a cell is on the avatar's line of movement, which is wider for a large avatar.
     fn is_on_line(&self, cell: usize) -> bool {
         let Some(avatar) = self.analysis.start_avatar() else { return false };
         let grid = self.board.grid;
@@ -94,7 +94,7 @@ impl Builder<'_> {
         }
     }
 
-    /// One more of what lies about.
+    /// Adds a thing of a type that is already on the board.
     fn add_thing(&mut self) -> bool {
         let lying = |stype: &engine::SpriteType| {
             matches!(
@@ -107,12 +107,12 @@ impl Builder<'_> {
         if types.is_empty() {
             return false;
         }
-        // What there is much of becomes more.
+        // Common types are more likely to be drawn.
         let stype = *self.sampler.choose(&types);
         self.place(stype, self.role(stype)).is_some()
     }
 
-    /// One wall, or thing, less; whether there was one to spare.
+    /// Removes a wall or a thing; returns `true` if there was one to spare.
     fn remove_cover(&mut self) -> bool {
         let grid = self.board.grid;
         let spare = |&(cell, stype): &(usize, engine::SpriteType)| {
@@ -142,7 +142,8 @@ impl Builder<'_> {
                 grid.beside(cell).any(|next| !self.board.wall[next] && self.board.placed[next].is_none())
             })
             .collect();
-        // A game of gates is not opened up: only ends of walls go.
+        // In games with gates, walls stay, since openings could bypass the gates. Elsewhere only the ends of walls are
+        // removed.
         let open_up = !walls.is_empty() && (things.is_empty() || self.sampler.ratio(2, 3));
         if open_up && !self.board.zone.iter().any(|&zone| zone > 0) {
             let cell = *self.sampler.choose(&walls);

@@ -1,40 +1,40 @@
-//! Where sprites of one type stand in examples: in which part of the board, in what kind of nook, beside what, in what order.
+//! The placement of sprites of one type in examples: part of the board, nook, neighbours and order.
 
 use super::grid::{Grid, WAYS};
 use engine::{Game, SpriteType};
 use std::collections::BTreeMap;
 
-/// Parts into which a board is divided each way.
+/// The number of parts into which a board is divided in each direction.
 const BANDS: usize = 5;
-/// The weight of a cell to which nothing speaks for or against.
+/// The neutral weight of a cell.
 pub(crate) const USUAL: u32 = 16;
-/// Ways in which walls can lie beside a cell: see [`nook`].
+/// The number of arrangements of walls next to a cell: see [`nook`].
 pub(crate) const NOOKS: usize = 6;
 
-/// Where sprites of one type stand.
+/// The placement of sprites of one type.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Stance {
     seen: usize,
     bands: Bands,
-    /// The same in each example by itself.
+    /// The same for each example separately.
     each: Vec<Bands>,
-    /// On the border of closed boards, by its side, in the order of [`WAYS`].
+    /// The number on the border of closed boards, by side, in the order of [`WAYS`].
     sides: [usize; 4],
     nooks: [usize; NOOKS],
-    /// What stands beside them, in which direction, by its place in [`WAYS`].
+    /// The number of neighbours, by direction (an index into [`WAYS`]) and type.
     beside: BTreeMap<(usize, SpriteType), usize>,
-    /// Of `beside`, what is hardly ever missing.
+    /// The entries of `beside` that are almost always present.
     companions: Vec<(usize, SpriteType)>,
-    /// How many have another one in the same place on the other side, left and right.
+    /// The number of sprites with another one in the mirrored cell, left and right.
     mirrored: usize,
-    /// How many have another one right beside them.
+    /// The number of sprites with another one right next to them.
     grouped: usize,
-    /// Boards with at least three of them, and rows that they stand in there.
+    /// The number of boards with at least three of them, and the number of rows in which they stand there.
     crowds: usize,
     rows: usize,
 }
 
-/// How many stand in which part of the board.
+/// The number of sprites in each part of the board.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Bands {
     /// From left to right.
@@ -49,7 +49,7 @@ impl Bands {
         self.down[band(grid.y(cell), grid.rows)] += 1;
     }
 
-    /// How well a cell agrees; 1.0 on the mean.
+    /// The weight of a cell, 1.0 on average.
     fn weigh(&self, grid: Grid, cell: usize) -> f64 {
         let share = |counts: &[usize; BANDS], at: usize| {
             let seen: usize = counts.iter().sum();
@@ -76,7 +76,7 @@ impl Scene<'_> {
 }
 
 impl Stance {
-    /// Looks at all sprites of a type in one example.
+    /// Records all sprites of a type in one example.
     pub(crate) fn see(&mut self, scene: &Scene<'_>, stype: SpriteType) {
         let grid = scene.grid;
         let cells: Vec<usize> = (0..grid.len()).filter(|&cell| scene.holds(cell, stype)).collect();
@@ -108,7 +108,7 @@ impl Stance {
         self.each.push(own);
     }
 
-    /// After all examples: what is beside them for a reason. `total` counts sprites in all `cells`; `plain` are types that are
+    /// Derives the companions, after all examples. `total` counts sprites in all `cells`; `plain` selects types that are
     /// everywhere.
     pub(crate) fn conclude(
         &mut self,
@@ -118,7 +118,7 @@ impl Stance {
     ) {
         let seen = self.seen;
         let telling = |&(&(_, other), &count): &(&(usize, SpriteType), &usize)| {
-            // Four of five times, and much more often than by chance: the fewer were seen, the more.
+            // Four times out of five, and much more often than by chance: with few samples, the margin is larger.
             let lift = if seen >= 3 { 3 } else { 10 };
             count * 5 >= seen * 4 && count * cells >= lift * total(other) * seen && !plain(other)
         };
@@ -126,13 +126,13 @@ impl Stance {
         self.beside.clear();
     }
 
-    /// What is hardly ever missing beside such a sprite, with the direction in which it stands.
+    /// The types that almost always stand next to such a sprite, with their directions.
     pub(crate) fn companions(&self) -> impl Iterator<Item = ((i32, i32), SpriteType)> + '_ {
         self.companions.iter().map(|&(at, stype)| (WAYS[at], stype))
     }
 
-    /// How well a cell agrees with where the examples have such sprites; [`USUAL`] on the mean. Never 0: examples are few.
-    /// `nooks`: how common the nooks are among open cells; `model`: the example that the board takes after.
+    /// The weight of a cell according to the places of such sprites in the examples; [`USUAL`] on average. Never 0, since
+    /// examples are few. `nooks`: the frequency of nooks among open cells; `model`: the example that the board follows.
     pub(crate) fn weigh(
         &self,
         grid: Grid,
@@ -144,7 +144,7 @@ impl Stance {
         if self.seen == 0 {
             return USUAL;
         }
-        // Where one thing stands often says where another does: mostly as in the one example, a little as in all.
+        // Positions of different things are often correlated: mostly as in the one example, a little as in all.
         let own = self.each[model];
         let place = if own == Bands::default() { self.bands } else { own }.weigh(grid, cell) * 0.7
             + self.bands.weigh(grid, cell) * 0.3;
@@ -156,38 +156,38 @@ impl Stance {
         ((f64::from(USUAL) * place * lift) as u32).max(1)
     }
 
-    /// Where they stand on the mean, from the top at 0.0 to the bottom at 1.0; None if there are none.
+    /// The average height, from 0.0 at the top to 1.0 at the bottom; `None` if there are no such sprites.
     pub(crate) fn height(&self) -> Option<f64> {
         let sum: usize = self.bands.down.iter().enumerate().map(|(band, count)| band * count).sum();
         (self.seen > 0).then(|| sum as f64 / (self.seen * (BANDS - 1)) as f64)
     }
 
-    /// How often such sprites are let into the walls on the side of the board that a cell is on.
+    /// The number of such sprites in the walls on the cell's side of the board.
     pub(crate) fn on_border(&self, grid: Grid, cell: usize) -> u32 {
         side(grid, cell).map_or(0, |side| self.sides[side] as u32)
     }
 
-    /// Whether most such sprites are let into the walls around the board.
+    /// Returns `true` if most such sprites are let into the walls around the board.
     pub(crate) fn is_on_border(&self) -> bool {
         self.sides.iter().sum::<usize>() * 2 > self.seen
     }
 
-    /// Whether such sprites stand in niches, walls on three sides.
+    /// Returns `true` if such sprites stand in niches, with walls on three sides.
     pub(crate) fn is_in_niches(&self) -> bool {
         self.nooks[NICHE] * 10 >= self.seen * 8 && self.seen > 0
     }
 
-    /// Whether such sprites stand in pairs, left and right.
+    /// Returns `true` if such sprites stand in pairs, left and right.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.mirrored >= 4 && self.mirrored * 10 >= self.seen * 7
     }
 
-    /// Whether such sprites stand in one row or two.
+    /// Returns `true` if such sprites stand in one or two rows.
     pub(crate) fn is_lined_up(&self) -> bool {
         self.crowds > 0 && self.rows <= 2 * self.crowds
     }
 
-    /// The share of them that have another one right beside them.
+    /// The share of sprites with another one right next to them.
     pub(crate) fn grouped(&self) -> f64 {
         self.grouped as f64 / self.seen.max(1) as f64
     }
@@ -205,7 +205,7 @@ fn side(grid: Grid, cell: usize) -> Option<usize> {
 /// The index of niches among nooks.
 pub(crate) const NICHE: usize = 4;
 
-/// How walls, or the edge, lie beside a cell: none, one, two opposite, two at a corner, three, all around.
+/// Classifies the walls, or edges, next to a cell: none, one, two opposite, two at a corner, three, four.
 pub(crate) fn nook(grid: Grid, wall: &[bool], cell: usize) -> usize {
     let [up, left, down, right] = WAYS.map(|way| grid.shift(cell, way).is_none_or(|next| wall[next]));
     match u8::from(up) + u8::from(left) + u8::from(down) + u8::from(right) {

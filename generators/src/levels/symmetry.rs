@@ -1,33 +1,33 @@
-//! When two levels are the same, and how far apart they are: seen from any side.
+//! Equality and distance of levels up to symmetry.
 
 use super::grid::Grid;
 use super::palette::Palette;
 use engine::analysis::Role;
 use engine::{Analysis, Digest, Level};
 
-/// The symmetries of a board: bit 0 mirrors left and right, bit 1 up and down, bit 2 columns and rows.
+/// The number of symmetries of a board: bit 0 mirrors left and right, bit 1 up and down, bit 2 swaps columns and rows.
 const SYMMETRIES: usize = 8;
-/// No character: the cell lies outside of the smaller of two levels.
+/// No character: the cell lies outside the smaller of two levels.
 const OUTSIDE: u8 = 0;
 
-/// How alike two levels of one game are, turned and mirrored as may be.
+/// Compares levels of one game up to rotations and reflections.
 ///
-/// Rules may tell directions apart (things that fall, or drive from left to right), so that the image of a level need
-/// not play like the level; it is no new level all the same.
+/// Rules may distinguish directions (things that fall, or drive from left to right), so the image of a level need not
+/// play like the level; it still does not count as a new level.
 #[derive(Clone, Debug)]
 pub struct Likeness {
     /// By character: the first character that places the same sprites.
     class: [u8; 128],
-    /// By character: what it places, as a number that does not depend on characters.
+    /// By character: the index of the set of sprites that it places, which does not depend on characters.
     rank: [u8; 128],
-    /// By character: how much the cell counts where two levels differ.
+    /// By character: the weight of a cell where two levels differ.
     weight: [u32; 128],
-    /// By character: it gives a board its shape, as walls do.
+    /// By character: `true` if it gives a board its shape, as walls do.
     structure: [bool; 128],
 }
 
 impl Likeness {
-    /// Of the levels of this game. Cost: O(characters²).
+    /// Creates the comparison for a game. Cost: O(characters²).
     pub fn of(analysis: &Analysis) -> Likeness {
         let palette = Palette::of(analysis);
         let places = |symbol: u8| {
@@ -45,7 +45,7 @@ impl Likeness {
             let shapes = |role| matches!(role, Role::Wall | Role::Breakable | Role::Soil);
             known || places(symbol).iter().any(|&stype| shapes(analysis.role(stype)))
         });
-        // Blanks and characters that place nothing are the same; none is the same as outside.
+        // Blanks and characters that place nothing are equal; none is equal to outside.
         let class = symbols.map(|symbol| {
             let same = (b' '..=symbol).find(|&other| places(other) == places(symbol));
             same.unwrap_or(symbol)
@@ -65,8 +65,9 @@ impl Likeness {
         Likeness { class, rank, weight, structure }
     }
 
-    /// The same for levels that are the same up to the eight symmetries of the board, and up to characters that place the same
-    /// sprites, in this game or in one that differs by names and characters only; different for all others. Cost: O(cells).
+    /// A digest that is the same for levels that are equal up to the eight symmetries of the board, and up to characters
+    /// that place the same sprites, in this game or in one that differs in names and characters only; different for all
+    /// others. Cost: O(cells).
     pub fn digest(&self, level: &Level) -> Digest {
         let (grid, mut cells) = self.classes(level);
         cells.iter_mut().for_each(|cell| *cell = self.rank[usize::from(*cell)]);
@@ -79,29 +80,28 @@ impl Likeness {
         Digest::of(&canonical)
     }
 
-    /// How far apart two levels are, from 0.0 for the same (up to symmetry) to 1.0 for levels that agree nowhere but in their
-    /// ground: the least over the symmetries of
+    /// The distance of two levels, from 0.0 for equal ones (up to symmetry) to 1.0 for levels that agree only in their
+    /// ground: the minimum over the symmetries of
     ///
     /// ```text
     ///   Σ weight of the cells that differ  /  Σ weight of all cells
     /// ```
     ///
-    /// with both levels put on each other at the top left. A cell weighs 0 if both levels have ground there, or both the same
-    /// wall on their border, which is but a frame; 1 if it is wall, soil or ground in both, or lies outside of one of them;
-    /// else 2. So levels that are mostly empty are alike only if the little that they have is. Symmetric in its two
-    /// arguments. Cost: O(cells).
+    /// with both levels aligned at the top left. A cell weighs 0 if both levels have ground there, or both the same wall
+    /// on their border; 1 if it is wall, soil or ground in both, or lies outside one of them; otherwise 2. So levels that
+    /// are mostly empty are similar only if their few things are. Symmetric in its two arguments. Cost: O(cells).
     pub fn distance(&self, one: &Level, two: &Level) -> f64 {
         let (one, two) = (self.classes(one), self.classes(two));
         let turned = |fixed: &(Grid, Vec<u8>), (grid, cells): &(Grid, Vec<u8>)| {
             let distances = (0..SYMMETRIES).map(|at| self.share(fixed, &image(*grid, cells, at)));
             distances.fold(1.0, f64::min)
         };
-        // Levels of other sides than squares do not lie on each other's images as these lie on them.
+        // The images of a level that is not square have other sides, so both directions are compared.
         turned(&one, &two).min(turned(&two, &one))
     }
 
-    /// How alike a level is to its mirror image, left and right or up and down: 1.0 less the distance as it stands. Cost:
-    /// O(cells).
+    /// The similarity of a level to its mirror image, left-right or up-down: 1.0 minus their distance without further
+    /// symmetries. Cost: O(cells).
     pub(super) fn mirror(&self, level: &Level, symmetry: Mirror) -> f64 {
         let (grid, cells) = self.classes(level);
         1.0 - self.share(&(grid, cells.clone()), &image(grid, &cells, symmetry as usize))
@@ -135,14 +135,14 @@ impl Likeness {
     }
 }
 
-/// Which sides of a level are compared.
+/// The sides of a level to compare.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Mirror {
     LeftRight = 1,
     UpDown = 2,
 }
 
-/// A board under a symmetry.
+/// Applies a symmetry to a board.
 fn image(grid: Grid, cells: &[u8], symmetry: usize) -> (Grid, Vec<u8>) {
     let swaps = symmetry & 4 != 0;
     let image = if swaps { Grid { columns: grid.rows, rows: grid.columns } } else { grid };
@@ -178,7 +178,7 @@ mod tests {
         for image in ["wwwww/wg.Aw/w.w.w/wwwww", "wwwww/w.w.w/wA.gw/wwwww", "wwww/w.Aw/ww.w/w.gw/wwww"] {
             assert_eq!(distance(seen, image), 0.0);
         }
-        // A quarter turn, by another character for the wall.
+        // A quarter turn, with another character for the wall.
         assert_eq!(distance(seen, "vvvv/vA.v/v.vv/vg.v/vvvv"), 0.0);
         assert!(distance(seen, "wwwww/wAg.w/w.w.w/wwwww") > 0.0);
     }
@@ -198,9 +198,10 @@ mod tests {
 
     #[test]
     fn only_what_stands_on_the_ground_counts() {
-        // An avatar and a gem in common of the five places with things: one gem moved is two places of weight 2.
+        // An avatar and a gem in common out of the five places with things: one moved gem counts as two places of weight
+        // 2.
         assert_eq!(distance("A....g/g.....", "A....g/.g...."), 4.0 / 8.0);
-        // Walls weigh half; those of the border nothing.
+        // Walls weigh half as much; those of the border nothing.
         assert_eq!(distance("wwwwww/wA..ww/wwwwww", "wwwwww/wA.www/wwwwww"), 1.0 / 4.0);
         // Columns that one of them lacks count like walls.
         assert_eq!(distance("A.g/...", "A.g./...."), 2.0 / 6.0);

@@ -1,4 +1,4 @@
-//! What every level of every game must show, on our own games and, where they are at hand, on public ones.
+//! Properties of the levels of all games: our own and, if they are available, public ones.
 
 use super::{ConstructiveLevels, Examples, LevelConfig, cover};
 use crate::{GenerateError, Generator};
@@ -8,16 +8,16 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Levels made for each game.
+/// The number of levels to generate for each game.
 const SEEDS: u64 = 50;
-/// The public games that every level is looked at of.
+/// The public games whose levels are all inspected.
 const PUBLIC: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
 
 pub(super) fn workspace() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the crate lies in the workspace")
 }
 
-/// The folders in a folder, sorted; none, with a message, if it is missing.
+/// The folders in a folder, sorted; empty, with a message, if it is missing.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 pub(super) fn folders(path: &Path) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(path) else {
@@ -29,7 +29,7 @@ pub(super) fn folders(path: &Path) -> Vec<PathBuf> {
     folders
 }
 
-/// The game in a folder, if it is one that the engine plays.
+/// The game in a folder, if the engine can play it.
 pub(super) fn game_in(folder: &Path) -> Option<Game> {
     let source =
         ["game.vgdl", "game.txt"].iter().find_map(|name| std::fs::read_to_string(folder.join(name)).ok())?;
@@ -92,7 +92,7 @@ fn every_public_game_gets_levels_or_a_reason() {
             }
         }
     }
-    // On the smallest boards there is not always room for what a game needs.
+    // The smallest boards do not always have room for everything that a game needs.
     let roomy = unlucky.iter().filter(|(_, columns)| *columns > 4).count();
     assert!(roomy * 50 <= games * 6, "{unlucky:?}");
 }
@@ -165,7 +165,7 @@ fn harder_levels_hold_more_that_harms() {
     assert!(easy < middle && middle < hard, "{easy} {middle} {hard}");
 }
 
-/// Levels that are like a game's own, for every game of ours.
+/// Generates levels that resemble a game's own, for each of our games.
 #[test]
 fn levels_are_like_examples() {
     for folder in folders(&workspace().join("corpora")) {
@@ -191,7 +191,6 @@ fn levels_are_like_examples() {
     }
 }
 
-/// Exact numbers are met, or the level is refused.
 /// Learnt walls can leave a small board without a free cell.
 #[test]
 fn the_smallest_boards_are_levels_or_none() {
@@ -213,6 +212,7 @@ fn the_smallest_boards_are_levels_or_none() {
     }
 }
 
+/// Exact numbers are met, or the level is refused.
 #[test]
 fn as_many_are_placed_as_asked_for() {
     let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    drain > Immovable\n    coin > Immovable\n    \
@@ -233,12 +233,12 @@ fn as_many_are_placed_as_asked_for() {
     let coins = |count| LevelConfig { counts: vec![(named("coin"), count)], ..LevelConfig::default() };
     let refused = ConstructiveLevels::new(&game, coins(160)).unwrap().generate(Seed::from_text("asked"));
     assert!(matches!(refused, Err(GenerateError::Unlucky(why)) if why.contains("160 of coin")));
-    // More than the largest board has cells: no seed is asked.
+    // More sprites than the largest board has cells: refused before any seed is used.
     let refused = ConstructiveLevels::new(&game, coins(900)).map(|_| ());
     assert!(matches!(refused, Err(GenerateError::Unsuitable(why)) if why.contains("900 sprites")));
 }
 
-/// What is larger than a cell gets all the room that it takes.
+/// A sprite that is larger than a cell gets all the room that it takes.
 #[test]
 fn large_sprites_overlap_nothing() {
     for (class, by) in [("FlakAvatar stype=spark", "spark"), ("MovingAvatar", "boat")] {
@@ -274,7 +274,7 @@ fn large_sprites_overlap_nothing() {
     }
 }
 
-/// A large avatar moves over rather than to open the wall around the board.
+/// A large avatar is shifted so that it does not open the wall around the board.
 #[test]
 fn a_large_avatar_stands_inside_the_wall() {
     let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    coin > Resource\n    \
@@ -299,7 +299,7 @@ fn a_large_avatar_stands_inside_the_wall() {
     }
 }
 
-/// A golden vector: if it moves, GENERATION must be bumped.
+/// A golden test: if its level changes, `GENERATION` must be incremented.
 #[test]
 fn levels_are_frozen() {
     let game = Game::from_source(
@@ -346,7 +346,7 @@ fn solutions_win() {
     }
 }
 
-/// The promises of [`ConstructiveLevels`], for one game.
+/// Checks the guarantees of [`ConstructiveLevels`] for one game.
 fn check(name: &str, game: &Game) {
     let levels = ConstructiveLevels::new(game, LevelConfig::default())
         .unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -370,7 +370,7 @@ fn check(name: &str, game: &Game) {
     assert!(survivors * 20 >= SEEDS * 19, "{name}: {survivors} of {SEEDS} survive doing nothing");
 }
 
-/// What counts for a win is reached by a flood over the cells that hold no wall.
+/// Checks that everything that counts for a win can be reached through cells without wall.
 fn goals_lie_open(name: &str, analysis: &Analysis, level: &Level) {
     let game = analysis.game();
     let steering = analysis.start_avatar().map(|avatar| avatar.steering);
@@ -406,7 +406,7 @@ fn goals_lie_open(name: &str, analysis: &Analysis, level: &Level) {
     }
 }
 
-/// Whether a player who does nothing lives through ten ticks.
+/// Returns `true` if a player who does nothing survives ten ticks.
 fn survives(game: &Game, level: &Level, seed: Seed) -> bool {
     let mut state = game.start(level, seed.child("survival", 0));
     (0..10).all(|_| !matches!(game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_)))

@@ -1,4 +1,4 @@
-//! Levels varied by small edits, and crossed: what search over levels is made of.
+//! Variation of levels for search: small edits, and crossover.
 
 use super::config::LevelConfig;
 use super::constructive::ConstructiveLevels;
@@ -7,18 +7,19 @@ use super::edits::{Edit, pick};
 use crate::{GenerateError, Generator, Variation};
 use engine::{Game, Level, Sampler, Seed};
 
-/// Draws of an edit before another kind is tried.
+/// The number of draws of an edit before another kind is tried.
 const REDRAWS: usize = 24;
-/// Mutations, or crossings, tried before a candidate is given back as it was.
+/// The number of mutations, or crossovers, to try before a candidate is returned unchanged.
 const ATTEMPTS: usize = 12;
 
-/// Levels of one game, any game, as candidates of a search: made by [`ConstructiveLevels`], changed by edits that have a
-/// meaning in the game (things move, come and go by role; lines of wall grow, shrink, open and shift).
+/// Levels of any game as candidates of a search: made by [`ConstructiveLevels`], changed by edits that are meaningful in
+/// the game (things move, are added or removed by role; lines of wall grow, shrink, open and shift).
 ///
-/// Whatever comes out is a level: one avatar, the size and the closed border of the parent, no termination that holds at the
-/// start, and no fault that its parents had not: what the game requires is there, numbers and cover are as asked for and as usual, no cell is cut off,
-/// nothing that harms stands right beside the avatar, no gate in the open, no block of wall by itself. Walls that were symmetrical mostly stay so. Nothing is judged here:
-/// whether a level can be won is for others to say.
+/// All results are levels with one avatar, the size and the closed border of the parent, no termination that holds at the
+/// start, and no fault that is worse than in the parents: required things are there, numbers and cover are as requested
+/// and usual, no cell is cut off, nothing harmful stands right next to the avatar, no gate is in the open, and no wall
+/// block is isolated. Symmetric walls mostly stay symmetric. Nothing is evaluated here: other code judges whether a level
+/// can be won.
 ///
 /// Cost: some tens of microseconds for a mutation of a level of usual size.
 pub struct LevelVariation<'a> {
@@ -27,7 +28,7 @@ pub struct LevelVariation<'a> {
 }
 
 impl<'a> LevelVariation<'a> {
-    /// For a game. Cost: that of 16 constructive levels.
+    /// Creates a variation for a game. Cost: that of 16 constructive levels.
     ///
     /// # Errors
     /// As [`ConstructiveLevels::new`].
@@ -36,7 +37,7 @@ impl<'a> LevelVariation<'a> {
         Ok(LevelVariation { words: Vocabulary::of(&levels, &config), levels })
     }
 
-    /// What makes the levels that a search starts from.
+    /// The constructive generator of the initial levels of a search.
     pub fn constructive(&self) -> &ConstructiveLevels<'a> {
         &self.levels
     }
@@ -45,7 +46,7 @@ impl<'a> LevelVariation<'a> {
         Draft::of(&self.levels, &self.words, level)
     }
 
-    /// A draft with one edit more; none if a few draws of its kind spoil something or change nothing.
+    /// Returns a draft with one more edit; `None` if a few draws of its kind all cause faults or change nothing.
     fn edited<'v>(&self, draft: &Draft<'v>, allowed: &Faults, sampler: &mut Sampler) -> Option<Draft<'v>> {
         let edit = Edit::draw(sampler);
         (0..REDRAWS).find_map(|_| {
@@ -55,7 +56,7 @@ impl<'a> LevelVariation<'a> {
         })
     }
 
-    /// One to three edits.
+    /// Makes one to three edits.
     fn mutated(&self, parent: &Draft<'_>, allowed: &Faults, sampler: &mut Sampler) -> Option<Level> {
         let edits = 1 + sampler.weighted(&[5, 3, 2]).unwrap_or(0);
         let mut draft = parent.clone();
@@ -66,7 +67,7 @@ impl<'a> LevelVariation<'a> {
         if draft.cells == parent.cells { None } else { draft.level() }
     }
 
-    /// A part of the second level put into the first, and what that broke repaired.
+    /// Puts a part of the second level into the first, and repairs the result.
     fn crossed(&self, one: &Draft<'_>, two: &Draft<'_>, sampler: &mut Sampler) -> Option<Level> {
         let mut child = one.clone();
         let columns = one.grid.columns.min(two.grid.columns);
@@ -112,7 +113,7 @@ impl Variation for LevelVariation<'_> {
         self.levels.generate(seed).ok()
     }
 
-    /// One to three edits; the parent itself if none of many draws gives a level.
+    /// Makes one to three edits; returns the parent itself if none of many draws gives a level.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
         let draft = self.draft(parent);
         let allowed = draft.faults();
@@ -120,8 +121,8 @@ impl Variation for LevelVariation<'_> {
         mutated.unwrap_or_else(|| parent.clone())
     }
 
-    /// The first with a half or a rectangle of the second, as far as they overlap; a mutation of the first if none of
-    /// several draws gives a level.
+    /// Puts a half or a rectangle of the second level into the first, as far as they overlap; a mutation of the first if
+    /// none of several draws gives a level.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.draft(one), self.draft(two));
         let crossed = (0..ATTEMPTS).find_map(|_| self.crossed(&first, &second, sampler));
@@ -129,7 +130,7 @@ impl Variation for LevelVariation<'_> {
     }
 }
 
-/// A stretch of a side: half of it, or a third to two thirds anywhere; from and to.
+/// Draws a section of a side: a half, the whole, or a third to two thirds anywhere; from and to.
 fn stretch(length: usize, sampler: &mut Sampler) -> (usize, usize) {
     match sampler.below(4) {
         0 => (0, length / 2),
@@ -153,7 +154,7 @@ mod tests {
         Seed::from_text("variation").child(name, 0)
     }
 
-    /// The border cells that are wall, if all of them are.
+    /// The border cells, if all of them are wall.
     fn border(variation: &LevelVariation<'_>, level: &Level) -> Option<Vec<u8>> {
         let draft = variation.draft(level);
         let border: Vec<usize> = (0..draft.grid.len()).filter(|&cell| draft.grid.on_border(cell)).collect();

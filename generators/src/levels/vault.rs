@@ -1,4 +1,4 @@
-//! Locks and keys: a gate in a bottleneck guards what lies behind, and its key lies before it.
+//! Locks and keys: a gate in a bottleneck guards the cells behind it, and its key lies in front.
 
 use super::builder::Builder;
 use super::grid::{FAR, WAYS};
@@ -6,19 +6,19 @@ use super::plan::furnishable;
 use engine::SpriteType;
 use engine::analysis::{Key, Lock, Role};
 
-/// A bottleneck: the cell, and what cannot be reached without it.
+/// A bottleneck: its cell, and the cells that cannot be reached without it.
 pub(crate) struct Bottleneck {
     pub(crate) cell: usize,
     pub(crate) behind: Vec<usize>,
 }
 
 impl Builder<'_> {
-    /// Puts gates into bottlenecks of what is still open, and numbers the zones behind them from 1 in that order. The key
-    /// of a gate may lie behind one with a higher number. Gives the types placed.
+    /// Puts gates into bottlenecks of the area that is still open, and numbers the zones behind them from 1 in that
+    /// order. The key of a gate may lie behind one with a higher number. Returns the types placed.
     pub(crate) fn gates(&mut self) -> Vec<SpriteType> {
         let mut types: Vec<SpriteType> = furnishable(self.analysis, self.palette, Role::Gate);
         types.retain(|&stype| {
-            // A key that must be pushed onto something is for the warehouse.
+            // Keys that must be pushed onto something are left to the warehouse.
             self.lock_of(stype).is_some_and(|lock| {
                 let pushed = matches!(lock.key, Key::Switch(_, Some(_)));
                 !pushed && lock.givers.iter().any(|giver| self.palette.symbol(giver.0).is_some())
@@ -40,13 +40,13 @@ impl Builder<'_> {
         placed
     }
 
-    /// The lock of a type that guards.
+    /// Returns the lock of a type, if it has one.
     pub(crate) fn lock_of(&self, stype: SpriteType) -> Option<&Lock> {
         self.analysis.locks().iter().find(|lock| lock.stype == stype)
     }
 
-    /// A bottleneck of zone 0 that cuts off neither too little nor too much, drawn; None if there is none. `runway`: one
-    /// with two free cells before it in a line, so that something can be pushed into it.
+    /// Draws a bottleneck of zone 0 that cuts off neither too little nor too much; `None` if there is none. `runway`:
+    /// requires two free cells in front of it in a line, so that something can be pushed into it.
     pub(crate) fn bottleneck(&mut self, runway: bool) -> Option<Bottleneck> {
         let grid = self.board.grid;
         let here = |builder: &Self, cell: usize| {

@@ -1,4 +1,4 @@
-//! Furnishing levels of pushed things, and the solution that comes with them.
+//! Furnishes levels of pushed things, with their solutions.
 
 use super::builder::Builder;
 use super::grid::FAR;
@@ -10,11 +10,11 @@ use engine::SpriteType;
 use engine::analysis::Role;
 
 impl Builder<'_> {
-    /// Furnishes walls with a puzzle; gives its solution as steps of the avatar.
+    /// Furnishes walls with a puzzle; returns its solution as steps of the avatar.
     pub(crate) fn warehouse(&mut self, plan: &Jobs) -> Option<Vec<(i32, i32)>> {
         let grid = self.board.grid;
         let mut pulls = Pulls::new(grid, self.board.wall.clone());
-        // What lies behind a bridge, a door or a gate, and the cell of that.
+        // The bottleneck of a bridge, a door or a gate, with the cells behind it.
         let barrier = if plan.is_barred() {
             let cells: Vec<usize> = self.board.free().collect();
             if cells.is_empty() {
@@ -48,13 +48,13 @@ impl Builder<'_> {
             sockets.push(cell);
             if !job.merges {
                 pulls.barred[cell] = true;
-                // What was filled is gone at the end; what stays stands in the way.
+                // Filled partners are gone at the end; things that stay are obstacles.
                 let walkable = job.walkable && !job.stays;
                 pulls.partners[cell] =
                     if job.fills && !job.stays { None } else { Some((job.partner, walkable)) };
             }
         }
-        // Backwards, the avatar comes from what it visited after the last push; or out of a door that is closed now.
+        // Backwards, the avatar comes from its first visit after the last push; or out of a door that is closed now.
         pulls.avatar = if plan.door.is_some() { None } else { visits.first().copied() };
         self.scatter(plan, &sockets, &mut pulls);
         let depth = 3.0 + 7.0 * self.difficulty();
@@ -72,7 +72,7 @@ impl Builder<'_> {
         self.finish(plan, &pulls, start, door, &ways)
     }
 
-    /// Keys and exits: behind the barrier if there is one.
+    /// Places keys and exits: behind the barrier if there is one.
     fn place_visits(
         &mut self,
         plan: &Jobs,
@@ -102,7 +102,7 @@ impl Builder<'_> {
         Some(visits)
     }
 
-    /// A cell where something can be pushed to: room on one side, and near the others.
+    /// Draws a cell to push something to: with room on one side, and near the others.
     fn choose_socket(
         &mut self,
         pulls: &Pulls,
@@ -127,7 +127,7 @@ impl Builder<'_> {
             });
             let lines = lines.count() as u32;
             let close = chosen.iter().map(|&other| grid.manhattan(cell, other)).min().unwrap_or(2);
-            // Sockets in groups, by a wall; a bottleneck is no place for one.
+            // Sockets stand in groups, by a wall, and never in a bottleneck.
             let group = if merges { 2 } else { [0, 6, 4, 2, 1][close.min(4)] };
             let cut = grid.is_cut(cell, |next| !pulls.wall[next]);
             if lines == 0 || cut { 0 } else { (5 - lines.min(4)) * group }
@@ -136,7 +136,7 @@ impl Builder<'_> {
         self.sampler.weighted(&weights).map(|at| cells[at])
     }
 
-    /// Loose things lie about from the end of the solution backwards.
+    /// Scatters loose things at the end of the solution, from which the search goes backwards.
     fn scatter(&mut self, plan: &Jobs, sockets: &[usize], pulls: &mut Pulls) {
         let grid = self.board.grid;
         for &stype in &plan.loose {
@@ -159,13 +159,13 @@ impl Builder<'_> {
         }
     }
 
-    /// The avatar walks backwards through the loose things and drags some along, into its way.
+    /// Walks the avatar backwards through the loose things and drags some of them into its way.
     fn stray(&mut self, pulls: &mut Pulls) {
         let goal = pulls.avatar;
         let least = 3 + round(3.0 * self.difficulty(), &mut self.sampler);
         for turn in 0..14 {
             let roam = pulls.roam();
-            // Enough once the way to the goal is not free any more.
+            // Enough once the way to the goal is blocked.
             if turn >= least && goal.is_none_or(|goal| roam[goal] == FAR) {
                 return;
             }
@@ -176,14 +176,14 @@ impl Builder<'_> {
         }
     }
 
-    /// Where the avatar starts: anywhere from where it can begin, rather far from the first push.
+    /// Draws the avatar's start from the cells that it can reach, preferably far from the first push.
     fn choose_stand(&mut self, pulls: &Pulls, behind: &dyn Fn(usize) -> bool) -> Option<usize> {
         let roam = pulls.roam();
         let weight = |cell: usize| {
             let free = pulls.partners[cell].is_none() && self.board.placed[cell].is_none() && !behind(cell);
             match roam[cell] {
                 steps if steps == FAR || !free => 0,
-                // As in examples; and far rather than near, from the last pull and from the exit.
+                // As in the examples, and preferably far from the last pull and from the exit.
                 steps if self.target.is_some() => {
                     let exit = self.apart_from(cell, Role::Exit).min(12) as u32;
                     let far = (1 + steps * steps).saturating_mul(1 + exit * exit);
@@ -193,11 +193,11 @@ impl Builder<'_> {
             }
         };
         let weights: Vec<u32> = (0..roam.len()).map(weight).collect();
-        // Without any free step, where the last pull ended.
+        // Without a suitable cell, the avatar stays at the end of the last pull.
         self.sampler.weighted(&weights).or(pulls.avatar)
     }
 
-    /// Puts the puzzle on the board, fills unused corners with wall, and keeps the ways of the solution free.
+    /// Puts the puzzle on the board, fills unused corners with wall, and keeps the cells of the solution free.
     fn finish(
         &mut self,
         plan: &Jobs,
@@ -234,7 +234,7 @@ impl Builder<'_> {
         Some(ways.to_vec())
     }
 
-    /// Turns some cells that the solution does not need into wall, where that cuts off nothing.
+    /// Turns some cells that the solution does not need into wall, without cutting off others.
     fn tighten(&mut self, used: &[bool]) {
         if self.sampler.unit() > 0.3 + 0.5 * self.difficulty() {
             return;
@@ -252,7 +252,7 @@ impl Builder<'_> {
         }
     }
 
-    /// After the puzzle: what else the game has, where it is in nobody's way.
+    /// Adds the other things of the game after the puzzle, out of its way.
     pub(crate) fn garnish(&mut self, plan: &Jobs) {
         self.board.pushing = true;
         if plan.gate.is_none() {

@@ -1,4 +1,5 @@
-//! Levels evolved with a cheap stand-in for the judges, beside as many levels from the constructive generator.
+//! Evolves levels with a cheap stand-in for the judges, and compares them with as many levels of the constructive
+//! generator.
 
 use engine::{Analysis, Digest, Game, Level, Seed};
 use generators::levels::{LevelConfig, LevelMeasure, LevelMeasures, LevelVariation, Likeness};
@@ -33,19 +34,20 @@ BasicGame
         SpriteCounter stype=hatch win=True
         SpriteCounter stype=diver win=False
 ";
-/// Each from a seed of its own.
+/// The number of runs, each from a seed of its own.
 const RUNS: u64 = 2;
-/// Batches of a run.
+/// The number of batches in a run.
 const BATCHES: usize = 75;
-/// Levels in a batch.
+/// The number of levels in a batch.
 const BATCH: usize = 40;
 
-/// Long ways to the hatch, past two to four rats, among walls that are built and not sprinkled; every gem can be reached.
+/// Requires a long way to the hatch, two to four rats, and walls that are built rather than scattered; every gem can be
+/// reached.
 struct Judge {
     measures: LevelMeasures,
-    /// And the left and the right half are so alike at least.
+    /// The minimum symmetry of the left and the right half.
     symmetry: f64,
-    /// And the hatch is so many steps away at least.
+    /// The minimum number of steps to the hatch.
     steps: usize,
 }
 
@@ -81,12 +83,12 @@ impl Judge {
     }
 }
 
-/// How near a value comes to the least that is asked for.
+/// Returns the degree to which a value reaches a required minimum.
 fn reaches(value: f64, least: f64) -> f64 {
     if value >= least { 1.0 } else { value / least }
 }
 
-/// Steps from the diver to every cell, walls and rats apart.
+/// The steps from the diver to every cell, ignoring rats.
 fn ways(level: &Level) -> Vec<Option<usize>> {
     let (columns, cells) = (level.columns(), level.cells());
     let start = cells.iter().position(|&cell| cell == b'd').expect("a level has a diver");
@@ -109,17 +111,17 @@ fn axes() -> Vec<Axis> {
     vec![Axis::new("openness", (0.3, 0.8), 10), Axis::new("enemy pressure", (0.0, 0.5), 10)]
 }
 
-/// What came of [`BATCHES`] batches.
+/// The results of [`BATCHES`] batches.
 #[derive(Debug)]
 struct Figures {
-    /// Feasible candidates in each fifth of all batches.
+    /// The number of feasible candidates in each fifth of all batches.
     feasible: Vec<usize>,
-    /// All that was judged, in the grid.
+    /// All evaluated candidates, in the grid.
     archive: Archive<Level>,
 }
 
 impl Figures {
-    /// Judges what is asked for by `ask`, which is told what is found.
+    /// Evaluates the levels that `ask` returns, and passes it the results.
     fn of(judge: &Judge, mut ask: impl FnMut(Vec<(Level, Evaluation)>) -> Vec<Level>) -> Figures {
         let (mut archive, mut feasible, mut told) = (Archive::new(axes(), 0), vec![0; 5], Vec::new());
         for batch in 0..BATCHES {
@@ -138,7 +140,7 @@ impl Figures {
     }
 }
 
-/// Asks a search, after telling it what the judges found.
+/// Asks a search, after telling it the results.
 fn asks(search: &mut impl Search<Candidate = Level>, told: Vec<(Level, Evaluation)>) -> Vec<Level> {
     search.tell(told);
     search.ask(BATCH)
@@ -149,7 +151,7 @@ fn mean(runs: &[Figures], figure: impl Fn(&Figures) -> f64) -> f64 {
     runs.iter().map(figure).sum::<f64>() / runs.len() as f64
 }
 
-/// What was feasible by fifth of the run, the best objective, coverage, QD-score.
+/// A row with the feasible candidates by fifth of the run, the best objective, coverage and QD-score.
 fn table(name: &str, runs: &[Figures]) -> String {
     let fifths: Vec<String> =
         (0..5).map(|fifth| format!("{:.0}", mean(runs, |run| run.feasible[fifth] as f64))).collect();
@@ -159,7 +161,7 @@ fn table(name: &str, runs: &[Figures]) -> String {
     format!("{name}: feasible {}, best {best:.3}, coverage {coverage:.3}, score {score:.1}", fifths.join(" "))
 }
 
-/// What came of the same number of levels, by who proposed them.
+/// The results for the same number of levels, by generator or search.
 struct Contest {
     constructive: Vec<Figures>,
     two_populations: Vec<Figures>,
@@ -169,7 +171,7 @@ struct Contest {
 }
 
 impl Contest {
-    /// With levels of 13 × 9 cells.
+    /// Runs all of them with levels of 13 × 9 cells.
     #[allow(clippy::print_stderr, reason = "figures for whoever asks with --nocapture")]
     fn of(symmetry: f64, steps: usize) -> Contest {
         let game = Game::from_source(GAME).expect("a game");
@@ -230,7 +232,7 @@ fn evolution_beats_as_many_levels_from_the_constructive_generator() {
     }
 }
 
-/// Long ways in boards that are nearly symmetrical.
+/// Long ways on boards that are nearly symmetric.
 #[test]
 fn where_hardly_anything_feasible_is_made_infeasible_parents_lead_to_it() {
     let contest = Contest::of(0.7, 24);

@@ -1,10 +1,10 @@
-//! Measures and likeness of the levels that games come with: our own and, where they are at hand, public ones.
+//! Measures and similarity of the levels that games come with: our own and, if they are available, public ones.
 
 use engine::{Analysis, Game, Level};
 use generators::levels::{LevelMeasures, Likeness};
 use std::path::{Path, PathBuf};
 
-/// The folders in a folder beside this crate, sorted; none, with a message, if it is missing.
+/// The folders in a folder beside this crate, sorted; empty, with a message, if it is missing.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn folders(path: &str) -> Vec<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
@@ -17,7 +17,7 @@ fn folders(path: &str) -> Vec<PathBuf> {
     folders
 }
 
-/// The game in a folder with its levels, if it is one that the engine plays.
+/// The game in a folder with its levels, if the engine can play it.
 fn game_in(folder: &Path) -> Option<(Game, Vec<Level>)> {
     let sources = ["game.vgdl", "game.txt"].map(|name| std::fs::read_to_string(folder.join(name)));
     let game = Game::from_source(&sources.into_iter().find_map(Result::ok)?).ok()?;
@@ -26,7 +26,7 @@ fn game_in(folder: &Path) -> Option<(Game, Vec<Level>)> {
     Some((game, levels))
 }
 
-/// A level turned by a quarter, characters by rows.
+/// A level after a quarter turn.
 fn turned(game: &Game, level: &Level) -> Option<Level> {
     let row = |x: usize| {
         (0..level.rows()).map(move |y| level.cells()[(level.rows() - 1 - y) * level.columns() + x])

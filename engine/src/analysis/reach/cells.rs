@@ -2,10 +2,10 @@
 
 use crate::geometry::Direction;
 
-/// A board with a ring of one cell around it, which stands for all that lies outside.
+/// A board with a ring of one cell around it, which stands for everything outside.
 ///
-/// A place off the board counts as the nearest cell of the ring. So whatever moves by some cells moves, among these cells,
-/// by as many or fewer: what leaves the board and comes back elsewhere has a way along the ring.
+/// A position off the board counts as the nearest cell of the ring. So a move by some cells is, among these cells, a
+/// move by at most that number: a sprite that leaves the board and comes back elsewhere has a path along the ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Board {
     pub(super) columns: i32,
@@ -13,7 +13,7 @@ pub(super) struct Board {
 }
 
 impl Board {
-    /// How many cells, the ring included.
+    /// The number of cells, including the ring.
     pub(super) fn size(self) -> usize {
         (self.columns as usize + 2) * (self.rows as usize + 2)
     }
@@ -28,7 +28,7 @@ impl Board {
         y as usize * (self.columns as usize + 2) + x as usize
     }
 
-    /// Column and row; −1 and one past the last are the ring.
+    /// Returns the column and row of a cell; −1 and one past the last are the ring.
     pub(super) fn place(self, cell: usize) -> (i32, i32) {
         let width = self.columns as usize + 2;
         ((cell % width) as i32 - 1, (cell / width) as i32 - 1)
@@ -45,8 +45,8 @@ impl Board {
         self.at(x.saturating_add(dx.saturating_mul(times)), y.saturating_add(dy.saturating_mul(times)))
     }
 
-    /// Where something can be that is one step away from something in these cells. The ring stands for all that lies
-    /// outside, so a step may end where it starts there.
+    /// Returns the cells that are one step away from these cells. The ring stands for everything outside, so a step
+    /// that starts there may end in the same cell.
     pub(super) fn beside(self, cells: &Cells, step: (i32, i32)) -> Cells {
         let outside = cells.iter().filter(|&cell| self.is_ring(cell));
         Cells::of(self, cells.iter().map(|cell| self.shifted(cell, step, 1)).chain(outside))
@@ -61,7 +61,7 @@ impl Board {
         Cells::of(self, (0..self.size()).filter(|&cell| self.is_ring(cell)))
     }
 
-    /// All cells at most so many columns and rows away. Cost: O(cells), whatever the distance.
+    /// Returns all cells within this number of columns and rows. Cost: O(cells), whatever the distance.
     pub(super) fn around(self, cells: &Cells, distance: i32) -> Cells {
         if distance == 0 {
             return cells.clone();
@@ -100,7 +100,7 @@ impl Cells {
         self.0.get(cell / 64).is_some_and(|word| word >> (cell % 64) & 1 == 1)
     }
 
-    /// Whether the cell is new.
+    /// Inserts a cell; returns `true` if it is new.
     pub(super) fn insert(&mut self, cell: usize) -> bool {
         let word = &mut self.0[cell / 64];
         let new = *word >> (cell % 64) & 1 == 0;
@@ -118,7 +118,7 @@ impl Cells {
         self.0.iter().all(|&word| word == 0)
     }
 
-    /// Takes out those of `others` that are in none of `kept`.
+    /// Removes those cells of `others` that are in none of `kept`.
     pub(super) fn drop_unless(&mut self, others: &Cells, kept: [&Cells; 2]) {
         for (at, word) in self.0.iter_mut().enumerate() {
             *word &= !others.0[at] | kept[0].0[at] | kept[1].0[at];
@@ -129,7 +129,7 @@ impl Cells {
         Cells(self.0.iter().zip(&other.0).map(|(one, two)| one & two).collect())
     }
 
-    /// Whether any of them is new.
+    /// Adds the cells of another set; returns `true` if any of them is new.
     pub(super) fn add(&mut self, other: &Cells) -> bool {
         let mut new = false;
         for (one, two) in self.0.iter_mut().zip(&other.0) {
@@ -139,7 +139,8 @@ impl Cells {
         new
     }
 
-    /// Adds the cells of a line, from `start` by `step`, that are no further along it from cells of `from`.
+    /// Adds the cells of a line, from `start` in steps of `step`, that are within `distance` of cells of `from` along
+    /// it.
     fn smear(&mut self, from: &Cells, (start, step): (usize, usize), length: usize, distance: i32) {
         for back in [false, true] {
             let mut left = 0;
@@ -178,12 +179,12 @@ impl Ways {
     pub(super) const RIGHT: Ways = Ways(8);
     /// A direction off the grid's axes.
     pub(super) const ASKEW: Ways = Ways(16);
-    /// No direction: what has none, or has not moved.
+    /// No direction: for a sprite that has none, or has not moved.
     pub(super) const UNSET: Ways = Ways(32);
     pub(super) const FOUR: Ways = Ways(15);
-    /// Every direction there is.
+    /// Every direction.
     pub(super) const ANY: Ways = Ways(31);
-    /// Every direction, and none.
+    /// Every direction, and no direction.
     pub(super) const ALL: Ways = Ways(63);
 
     pub(super) fn of(direction: Direction) -> Ways {
@@ -219,7 +220,7 @@ impl Ways {
         Ways(self.0 & !other.0)
     }
 
-    /// Whether the sets share a direction.
+    /// Returns `true` if the sets share a direction.
     pub(super) fn meets(self, other: Ways) -> bool {
         self.0 & other.0 != 0
     }
@@ -239,7 +240,7 @@ impl Ways {
         Ways::of(Direction { x: f64::from(x), y: f64::from(y) })
     }
 
-    /// The steps of a cell that a sprite that moves these ways can take, diagonal ones last.
+    /// Returns the one-cell steps that a sprite moving in these directions can take, diagonal ones last.
     pub(super) fn steps(self) -> impl Iterator<Item = (i32, i32)> {
         let straight =
             [(Ways::UP, (0, -1)), (Ways::LEFT, (-1, 0)), (Ways::DOWN, (0, 1)), (Ways::RIGHT, (1, 0))];
@@ -262,7 +263,7 @@ mod tests {
         assert_eq!(board.place(board.at(900, -7)), (5, -1));
         assert_eq!(board.place(board.shifted(board.at(1, 1), (-1, 0), i32::MAX)), (-1, 1));
         assert_eq!(board.ring().iter().count(), 35 - 15);
-        // Two rows above the board is above the board, and so is one row below that.
+        // Two rows above the board counts as above the board, and so does one row below that.
         let above = Cells::of(board, [board.at(2, -2)].into_iter());
         assert_eq!(
             board.beside(&above, (0, 1)),

@@ -1,7 +1,9 @@
-//! Why a termination can never hold in a level, link by link: from what it needs to the first thing that cannot be.
+//! The reasons why a termination can never hold in a level, link by link: from its requirements to the first impossible
+//! one.
 //!
-//! Every link is proved by the over-approximation of [`Reach`](super::Reach): a rule is said to lack something only if it
-//! lacks it wherever sprites can be at all. What the links leave out is no proof that nothing else is missing.
+//! Every link is proved by the over-approximation of [`Reach`](super::Reach): a rule is said to lack something only if
+//! it lacks it wherever sprites can be at all. The links need not be complete: other requirements may be missing as
+//! well.
 
 use super::super::Analysis;
 use super::super::encounter::{Deed, Encounter, Provided, Side};
@@ -11,21 +13,21 @@ use super::events::{Events, Gift};
 use crate::game::SpriteType;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Why a termination can never hold in a level, and what each rule lacks that could help.
+/// The reason why a termination can never hold in a level, with the missing requirement of each rule that could help.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chain {
     /// Index into [`Analysis::goals`].
     pub goal: usize,
-    /// Why it can never hold.
+    /// The reason why it can never hold.
     pub cause: Cause,
-    /// The rules that could help, each with what it lacks; empty: no rule could.
+    /// The rules that could help, each with its missing requirement; empty: no rule could.
     pub obstacles: Vec<Obstacle>,
 }
 
-/// A rule that would end or make what is wanted, and can never do so in this level.
+/// A rule that would remove or make the required sprite, and can never do so in this level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Obstacle {
-    /// The sprite that it would end, or the type that it would make.
+    /// The sprite that it would remove, or the type that it would make.
     pub target: SpriteType,
     /// The index of the rule in [`Description::interactions`](crate::Description); none: a sprite makes it by itself.
     pub line: Option<usize>,
@@ -33,34 +35,34 @@ pub struct Obstacle {
     pub lack: Lack,
 }
 
-/// The first thing that a rule lacks.
+/// The first missing requirement of a rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Lack {
-    /// No sprite of the type is placed in this level, and no rule or sprite that is here makes one.
+    /// No sprite of the type is placed in this level, and no rule or existing sprite makes one.
     Absent(SpriteType),
-    /// No sprite of the type is placed in this level, and those that could be made never are, as these rules lack something;
-    /// none: that has been told of before in the same chain.
+    /// No sprite of the type is placed in this level, and none is ever made, because these rules lack something; none:
+    /// they are already given earlier in the same chain.
     Unmade(SpriteType, Vec<Obstacle>),
-    /// It asks for more of a resource than anybody can get.
+    /// It requires more of a resource than any sprite can get.
     Resource(Shortage),
-    /// No sprite of the one type ever gets to a cell.
+    /// No sprite of one of the types ever gets to a certain cell.
     Apart(Apart),
-    /// Sprites of the type come to the cell, and are put back before the rule is reached: by the rule of that index.
+    /// Sprites of the type come to the cell, but the rule at that index moves them back before this rule is reached.
     HeldUp(SpriteType, usize),
-    /// Sprites of the two types are nowhere together; none: the edge of the screen.
+    /// Sprites of the two types never meet anywhere; none: the edge of the screen.
     Nowhere(SpriteType, Option<SpriteType>),
 }
 
-/// A resource of which too few can be got.
+/// A resource that cannot be obtained in the required amount.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Shortage {
     /// The resource.
     pub resource: SpriteType,
-    /// The number that is asked for at once.
+    /// The amount required at once.
     pub needed: i32,
-    /// The most that one sprite can hold, if that is too few already.
+    /// The most that one sprite can hold, if that is too little already.
     pub capacity: Option<i32>,
-    /// The number that can be got in all; meaningless beside a `capacity`.
+    /// The total amount that can be obtained; meaningless beside a `capacity`.
     pub most: i64,
     /// Indices of the rules that give it.
     pub rules: Vec<usize>,
@@ -77,20 +79,20 @@ pub struct Source {
     pub cell: usize,
     /// The number of such sprites there.
     pub count: u32,
-    /// The number that it gives.
+    /// The amount that each gives.
     pub each: i64,
-    /// The obstacle to getting it; none: it can be got.
+    /// The obstacle to getting it; none: it can be obtained.
     pub apart: Option<Apart>,
 }
 
-/// A place that sprites of a type never get to.
+/// A cell that sprites of a type never get to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Apart {
     /// The type.
     pub who: SpriteType,
-    /// The place.
+    /// The cell.
     pub cell: usize,
-    /// Sprites on the ways there, beside cells that the type can be in, that some rule could end.
+    /// Sprites on the paths to it, beside cells that the type can be in, that some rule could remove.
     pub closed: Vec<Closed>,
 }
 
@@ -101,30 +103,30 @@ pub struct Closed {
     pub stype: SpriteType,
     /// Its cell.
     pub cell: usize,
-    /// The lacks of the rules that could end it; empty where it has been told of before in the same chain.
+    /// The rules that could remove it, with their missing requirements; empty if given earlier in the same chain.
     pub obstacles: Vec<Obstacle>,
 }
 
-/// Rules that are told of for one sprite.
+/// The largest number of rules reported for one sprite.
 const MAX_RULES: usize = 3;
-/// Sprites in the way that are told of.
+/// The largest number of sprites in the way that are reported.
 const MAX_CLOSED: usize = 2;
-/// Sources that are told of.
+/// The largest number of sources that are reported.
 const MAX_SOURCES: usize = 16;
-/// Sprites in the way, one behind the other, that are followed.
+/// The largest number of sprites in the way, one behind the other, that are followed.
 const MAX_DEPTH: usize = 4;
 
-/// In the place of a cell: the making of sprites has been told of.
+/// Used instead of a cell: the making of sprites has been reported already.
 const UNMADE: usize = usize::MAX;
 
-/// The sprites that an interaction would end.
+/// The sprites that an interaction would remove.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Ended {
     Side(Side),
     Anywhere,
 }
 
-/// Derives chains from what is known when nothing new is reached any more.
+/// The derivation of chains from the completed fixed point.
 pub(super) struct Chains<'a, 'e> {
     analysis: &'a Analysis,
     events: Events<'e>,
@@ -137,7 +139,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chains { analysis, events, gifts }
     }
 
-    /// The chain of a termination that is hindered for this cause.
+    /// Returns the chain of a termination that is hindered by this cause.
     pub(super) fn chain(&mut self, goal: usize, cause: Cause) -> Chain {
         let mut told = Vec::new();
         let obstacles = match &cause {
@@ -154,7 +156,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chain { goal, cause, obstacles }
     }
 
-    /// The lacks of the rules that could end a sprite where it stands.
+    /// Returns the rules that could remove a sprite where it stands, with their missing requirements.
     fn keeping(&self, stype: SpriteType, cell: usize, told: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
         if told.contains(&(stype, cell)) || told.len() >= MAX_DEPTH {
             return Vec::new();
@@ -170,13 +172,13 @@ impl<'a, 'e> Chains<'a, 'e> {
                 obstacles.push(Obstacle { target: stype, line: Some(encounter.line), lack });
             }
         }
-        // What is nearest to happening comes first.
+        // The obstacles that are closest to being overcome come first.
         obstacles.sort_by_key(|obstacle| obstacle.lack.rank());
         obstacles.truncate(MAX_RULES);
         obstacles
     }
 
-    /// The lacks of the rules, and sprites, that could make sprites of a type.
+    /// Returns the rules and sprites that could make sprites of a type, with their missing requirements.
     fn unmade(&self, stype: SpriteType, told: &mut Vec<(SpriteType, usize)>) -> Vec<Obstacle> {
         let makes = |encounter: &Encounter| {
             encounter.does(|deed| match deed {
@@ -202,12 +204,12 @@ impl<'a, 'e> Chains<'a, 'e> {
         obstacles
     }
 
-    /// Returns whether an interaction would end sprites of the type, and which ones.
+    /// Returns the sprites of the type that an interaction would remove, if any.
     fn ended(&self, encounter: &Encounter, stype: SpriteType) -> Option<Ended> {
         let rules = &*self.analysis.game().0;
         let first = self.analysis.applies(encounter.first, stype);
         let second = encounter.second.is_some_and(|second| self.analysis.applies(second, stype));
-        // What is no resource is not collected.
+        // Only resources are collected.
         let collects = encounter.deeds.contains(&Deed::Collect);
         let first = first && (!collects || rules.types[stype.index()].traits.is_resource);
         encounter.deeds.iter().find_map(|deed| match deed {
@@ -228,7 +230,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// The lack of an interaction; of one that would end a sprite, to end it where it stands. None if nothing is proved.
+    /// Returns the missing requirement of an interaction; given a `target`, of removing that sprite where it stands.
+    /// None if nothing is proved.
     fn lack(
         &self,
         encounter: &Encounter,
@@ -262,7 +265,7 @@ impl<'a, 'e> Chains<'a, 'e> {
                 Some(second) => self.all(first).shared(&self.all(second)),
                 None => self.all(first).shared(&self.events.board().ring()),
             };
-            // Of what stands still, the place is known.
+            // The position of a sprite that stands still is known.
             let apart = |stands: SpriteType, comes: SpriteType| {
                 let fixed = self.events.flood.model.of_type(stands).fixed;
                 let (cell, _) = self.events.placed()[stands.index()].first().filter(|_| fixed)?;
@@ -277,7 +280,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         let Some(other) = (if side == Side::First { second } else { Some(first) }) else {
             return Some(Lack::Nowhere(first, None));
         };
-        // Of two of a kind, who knows which one is meant.
+        // With two sprites of one type, it is unclear which one is meant.
         if self.analysis.applies(other, stype) {
             return None;
         }
@@ -294,7 +297,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Some(Lack::HeldUp(other, lines.first().copied()?))
     }
 
-    /// Why no more of a resource can be got.
+    /// Returns the reason why no more of a resource can be obtained.
     fn shortage(&self, resource: SpriteType, needed: i32, told: &mut Vec<(SpriteType, usize)>) -> Shortage {
         let model = self.events.flood.model;
         let rules = &*self.analysis.game().0;
@@ -331,7 +334,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Shortage { resource, needed, capacity, most, rules: lines, sources }
     }
 
-    /// The type whose sprites give a resource by an interaction, the one that gets it, and how many; none: its value.
+    /// Returns the type whose sprites give a resource by an interaction, the type that gets it, and the amount; none:
+    /// its value.
     fn giver(
         &self,
         encounter: &Encounter,
@@ -352,7 +356,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// The obstacle that keeps sprites of a type from a cell.
+    /// Returns the obstacle that keeps sprites of a type from a cell.
     fn apart(&self, who: SpriteType, cell: usize, told: &mut Vec<(SpriteType, usize)>) -> Apart {
         let closed = self.in_the_way(who, cell);
         let closed = closed.into_iter().take(MAX_CLOSED).map(|(stype, cell)| {
@@ -362,8 +366,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Apart { who, cell, closed: closed.collect() }
     }
 
-    /// The sprites, each with its cell, that stand on ways to a cell beside where sprites of a type can be, and that some
-    /// rule could end. (Ways go from a cell to its four neighbours.)
+    /// Returns the sprites, each with its cell, that some rule could remove and that stand on paths to a cell, beside
+    /// cells where sprites of a type can be. (Paths go from a cell to its four neighbours.)
     fn in_the_way(&self, who: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
         let (board, rules) = (self.events.board(), &*self.analysis.game().0);
         let family: Vec<SpriteType> = rules.types[who.index()].tree.to_vec();
@@ -403,13 +407,13 @@ impl<'a, 'e> Chains<'a, 'e> {
         found.into_iter().map(|(cell, stype)| (stype, cell)).collect()
     }
 
-    /// Returns whether sprites that a rule on `written` holds for can be there.
+    /// Returns `true` if sprites for which a rule on `written` holds can exist.
     fn is_alive(&self, written: SpriteType) -> bool {
         let tree = &self.analysis.game().0.types[written.index()].tree;
         tree.iter().any(|&stype| self.events.is_there(stype))
     }
 
-    /// Where sprites that a rule on `written` holds for can be at some moment.
+    /// Returns the cells where sprites for which a rule on `written` holds can be at some moment.
     fn all(&self, written: SpriteType) -> Cells {
         let mut all = Cells::none(self.events.board());
         for &stype in self.analysis.game().0.types[written.index()].tree.iter() {
@@ -427,7 +431,7 @@ impl<'a, 'e> Chains<'a, 'e> {
 }
 
 impl Lack {
-    /// A measure of how near it is to being there.
+    /// Returns a rank: the smaller, the closer the requirement is to being met.
     fn rank(&self) -> u8 {
         match self {
             Lack::Resource(_) => 0,

@@ -1,4 +1,4 @@
-//! What others do to how sprites of a type move: makers and meetings.
+//! The effects of makers and collisions on the movement of sprites of a type.
 
 use super::cells::Ways;
 use super::meetings::Meeting;
@@ -10,7 +10,7 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::{Effect, SpeedChange};
 
 impl Model<'_> {
-    /// What effects do to speeds.
+    /// Applies the effects on speeds.
     pub(super) fn speed_up(&mut self, meeting: &Meeting<'_>) {
         let rules = self.rules;
         match meeting.effect(rules) {
@@ -33,7 +33,7 @@ impl Model<'_> {
                 }
             }
             Effect::WallStop | Effect::WallReverse => {
-                // The least speed after such a collision is gravity.
+                // The smallest speed after such a collision is gravity.
                 if let Some(one) = meeting.one {
                     let gravity = rules.types[one.index()].traits.gravity.max(0.2);
                     let own = &mut self.mobility[one.index()];
@@ -45,7 +45,7 @@ impl Model<'_> {
         }
     }
 
-    /// The orientations that what a type makes gets from it.
+    /// Passes on the orientations that the sprites made by a type get from it.
     pub(super) fn hand_on(&mut self, stype: SpriteType) {
         use SpriteClass as C;
         let info = self.info(stype);
@@ -61,7 +61,7 @@ impl Model<'_> {
         } else {
             own.facing
         };
-        // Shots at an angle, and those of what stands between cells, stand between cells.
+        // Shots at an angle, and those of sprites that stand between cells, stand between cells.
         let loose = own.loose || any || (class.is_avatar() && own.facing.meets(Ways::ASKEW));
         for (made, _) in self.makes[stype.index()].clone() {
             let traits = &self.info(made).traits;
@@ -102,7 +102,7 @@ impl Model<'_> {
         }
     }
 
-    /// What an effect does to orientations, and whether it moves.
+    /// Applies the effect on orientations, and on the ability to move.
     pub(super) fn meet(&mut self, meeting: &Meeting<'_>) {
         let rules = self.rules;
         let effect = meeting.effect(rules);
@@ -123,7 +123,7 @@ impl Model<'_> {
             Effect::ReverseDirection => face(&mut new, own.facing.mirrored()),
             Effect::TurnAround => {
                 face(&mut new, own.facing.mirrored());
-                // The steps down may be turns first.
+                // The steps down may start with turns.
                 if self.info(one).traits.rotate_in_place {
                     face(&mut new, Ways::UP.with(Ways::DOWN));
                 }
@@ -137,7 +137,7 @@ impl Model<'_> {
                 let more = if own.facing.meets(Ways::ASKEW) { Ways::ALL } else { Ways::UNSET };
                 face(&mut new, own.facing.mirrored().with(more));
                 new.goes_back = true;
-                // Both go back, but for the first one's stop.
+                // Both move back, unless the effect stops only the first one.
                 if let Some(two) = two.filter(|_| !matches!(effect, Effect::WallStop)) {
                     self.mobility[two.index()].goes_back = true;
                 }
@@ -168,7 +168,7 @@ impl Model<'_> {
             Effect::BounceForward => {
                 let pushed = self.pushed(&partner);
                 face(&mut new, pushed.with(Ways::UNSET));
-                // Continuous physics takes a push for a force: its own movement knows.
+                // Continuous physics treats a push as a force, which the type's own movement accounts for.
                 if !self.info(one).traits.stationary && !self.info(one).traits.continuous {
                     new.moved = new.moved.with(pushed);
                     new.loose |= partner.loose || pushed.meets(Ways::ASKEW);
@@ -205,7 +205,7 @@ impl Model<'_> {
             }
             Effect::SpawnBeside { stype, .. } | Effect::SpawnBehind { stype, .. } => {
                 self.appear(*stype, partner.loose);
-                // As good as if it went back: what it leaves behind is where it was.
+                // Equivalent to moving back: a sprite that it leaves behind is at its old position.
                 if let Some(two) = two {
                     self.mobility[two.index()].goes_back = true;
                 }
@@ -231,7 +231,7 @@ impl Model<'_> {
             }
             _ => {}
         }
-        // What `turn` and `appear` did to the type itself stays.
+        // The changes that `turn` and `appear` made to the type itself remain.
         let now = &mut self.mobility[at];
         now.facing = now.facing.with(new.facing);
         now.moved = now.moved.with(new.moved);
@@ -243,9 +243,9 @@ impl Model<'_> {
         now.goes_back |= new.goes_back;
     }
 
-    /// One type turns into another, which takes over where it was, and perhaps where it faced.
+    /// One type turns into another, which takes over its position, and perhaps its orientation.
     fn turn(&mut self, from: SpriteType, to: SpriteType, force: bool) {
-        // What is put back after turning once more goes back to where it was at first.
+        // A sprite that is transformed again and then moved back returns to its original position.
         self.mobility[from.index()].goes_back |= self.mobility[to.index()].goes_back;
         let old = self.mobility[from.index()];
         let oriented = self.info(from).traits.is_oriented && self.info(to).traits.is_oriented;
@@ -256,7 +256,7 @@ impl Model<'_> {
         if takes {
             new.facing = new.facing.with(old.facing);
         }
-        // For a moment it has moved as the old one did, and faces as the new one does.
+        // For a moment its last move is that of the old type, and its orientation that of the new one.
         (new.straight, new.thrown) = (false, true);
     }
 
@@ -264,12 +264,12 @@ impl Model<'_> {
         self.mobility[stype.index()].loose |= loose;
     }
 
-    /// What is moved with another's speed.
+    /// Accounts for moving with another sprite's speed.
     fn carry(&self, one: SpriteType, two: Option<SpriteType>, new: &mut Mobility) {
         let distance = two.map_or(1.0, |two| self.carried(one, two));
         new.boundless |= self.is_wild(distance);
         if self.info(one).order.is_none() {
-            // Nothing brings its last place up to date.
+            // Its last position is never updated.
             (new.placed, new.thrown) = (true, true);
             new.moved = Ways::ALL;
         }

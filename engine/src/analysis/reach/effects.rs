@@ -1,4 +1,4 @@
-//! What the effects of meetings do to where sprites are and where they face.
+//! The effects of collisions on the positions and orientations of sprites.
 
 use super::cells::{Cells, Ways};
 use super::events::Events;
@@ -8,7 +8,7 @@ use crate::game::SpriteType;
 use crate::ontology::effects::Effect;
 
 impl Events<'_> {
-    /// What an effect does to where sprites are, those that it runs on being met in these cells.
+    /// Applies an effect to the positions of sprites; those that it runs on are met in these cells.
     pub(super) fn run(&mut self, meeting: &Meeting<'_>, one: SpriteType, cells: &Cells) {
         let at = meeting.order;
         let effect = meeting.effect(self.flood.model.rules);
@@ -29,7 +29,7 @@ impl Events<'_> {
             }
             Effect::TransformToAll { stype, to, .. } => self.become_all(*stype, *to, at),
             _ => {
-                // By the clock, and at the edge, there is no partner; most effects then do nothing.
+                // Timed effects and those at the edge have no partner; without one most effects do nothing.
                 if let Some(two) = meeting.two() {
                     self.run_on_both(at, (one, two), (cells, &own), effect);
                 }
@@ -37,7 +37,7 @@ impl Events<'_> {
         }
     }
 
-    /// What needs a partner.
+    /// Applies an effect that needs a partner.
     fn run_on_both(
         &mut self,
         at: Order,
@@ -67,8 +67,8 @@ impl Events<'_> {
                 self.spawn_in(*stype, &from, at);
             }
             Effect::StepBack { pixel_perfect: true } | Effect::WallStop => {
-                // Flush with what moves, or with what it was inside of, it may stand where it would not have come by
-                // itself.
+                // Flush with a moving sprite, or with one that it was inside of, it may stand where its own movement
+                // would not have taken it.
                 let inside = !cells.shared(self.rest(one)).is_empty();
                 if inside || !model.stops_in_order(one, two) {
                     let flush = self.board().around(cells, 2 * model.rules.reach.max(1));
@@ -101,7 +101,7 @@ impl Events<'_> {
         }
     }
 
-    /// All sprites of a type turn into another.
+    /// Turns all sprites of a type into another.
     pub(super) fn become_all(&mut self, from: SpriteType, to: SpriteType, at: Order) {
         if self.is_there(from) {
             let all = Cells::all(self.board());
@@ -109,7 +109,7 @@ impl Events<'_> {
         }
     }
 
-    /// Sprites that are met in these cells turn into others.
+    /// Turns sprites that are met in these cells into others.
     fn turn(&mut self, from: SpriteType, to: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
         if !model.there[to.index()] {
@@ -119,14 +119,14 @@ impl Events<'_> {
         let heading = model.of_type(to).facing;
         self.appear_in(to, &here, at, heading);
         if model.of_type(to).goes_back {
-            // The new sprite can be put back to where the old one, or what that was before, was before it moved: at any
-            // later moment of the tick.
+            // The new sprite can be moved back to the position that the old one, or its predecessor, had before it
+            // moved: at any later moment of the tick.
             let before = self.rest(from).clone();
             self.appear_in(to, &before, Order::LAST, heading);
         }
     }
 
-    /// What an effect does to the direction of sprites that it runs on in these cells.
+    /// Applies an effect to the direction of the sprites that it runs on in these cells.
     fn turn_to(&mut self, one: SpriteType, cells: &Cells, effect: &Effect) {
         let model = self.flood.model;
         let own = *model.of_type(one);
@@ -153,7 +153,7 @@ impl Events<'_> {
         if !turns || !own.is_steady() {
             return;
         }
-        // By the end of the tick it may be back where it came from, or wherever else it is put.
+        // By the end of the tick it may be back at its previous position, or wherever else it is moved.
         let far = own.stride.max(model.pushed_far(one)).saturating_add(model.spread(one));
         let far =
             if own.placed || own.thrown { self.board().side() + 2 } else { far.min(self.board().side() + 2) };
@@ -161,7 +161,7 @@ impl Events<'_> {
         self.flood.face(one, &around, turn);
     }
 
-    /// Back to where it came from, and two steps down.
+    /// Moves sprites back to their previous position, and two steps down.
     fn turn_around(&mut self, one: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
         let (own, traits) = (*model.of_type(one), &model.info(one).traits);
@@ -175,13 +175,13 @@ impl Events<'_> {
             own.stride.saturating_add(1 + model.spread(one))
         };
         let from = board.around(cells, far.saturating_add(model.pushed_far(one))).shared(self.rest(one));
-        // Two steps of a cell each, if neither is but a turn, and either can be less.
+        // Two steps of one cell each, if neither is only a turn; otherwise either can be shorter.
         let exact = !own.loose && own.top <= 1.0 && !traits.rotate_in_place;
         let most = 2 * model.stride(own.top.max(1.0)).0;
-        // A negative speed takes it up.
+        // A negative speed moves it up.
         let signs: &[i32] = if own.backwards { &[1, -1] } else { &[1] };
         for cell in from.iter() {
-            // What is further outside comes less far in.
+            // A sprite further outside comes less far in.
             let least = if exact && !board.is_ring(cell) { 2 } else { 1 };
             for (&sign, times) in signs.iter().flat_map(|sign| (least..=most).map(move |times| (sign, times)))
             {
@@ -191,7 +191,7 @@ impl Events<'_> {
         }
     }
 
-    /// To the opposite edge, along the orientation.
+    /// Moves sprites to the opposite edge, along their orientation.
     fn wrap(&mut self, one: SpriteType, from: &Cells, offset: f64, at: Order) {
         let board = self.board();
         let facing = self.flood.model.of_type(one).facing;
@@ -215,7 +215,7 @@ impl Events<'_> {
         }
     }
 
-    /// Pushed by what comes to where it rests.
+    /// Pushes sprites where another one comes to their position.
     fn push(&mut self, (one, two): (SpriteType, SpriteType), own: &Cells, at: Order) {
         let model = self.flood.model;
         let (box_, pusher) = (*model.of_type(one), *model.of_type(two));
@@ -243,7 +243,7 @@ impl Events<'_> {
         }
     }
 
-    /// Carried along by what stands where it is.
+    /// Moves sprites along with another one at their position.
     fn pull(&mut self, (one, two): (SpriteType, SpriteType), own: &Cells, at: Order) {
         let model = self.flood.model;
         let (passenger, carrier) = (*model.of_type(one), *model.of_type(two));
@@ -252,7 +252,7 @@ impl Events<'_> {
         let (stride, leap) = model.stride(distance.max(passenger.top / model.block));
         let from = if passenger.placed { own.clone() } else { own.shared(self.rest(one)) };
         if traits.off_grid || carrier.moved.meets(Ways::ASKEW) || carrier.backwards {
-            // Put on top of it, too.
+            // It may be placed on top of the carrier, too.
             let more = stride.saturating_add(1 + model.rules.reach.max(1)).min(self.board().side() + 2);
             let there = self.board().around(&from, more);
             return self.come_to(one, &there, at);

@@ -1,4 +1,4 @@
-//! What happens among sprites, again and again until nothing changes: they come along, make others, get resources, meet.
+//! The main fixed point: sprites move, make others, obtain resources and meet, until nothing changes.
 
 use super::super::encounter::Provided;
 use super::cells::{Board, Cells, Ways};
@@ -8,10 +8,10 @@ use crate::game::SpriteType;
 use crate::ontology::effects::Effect;
 use std::collections::BTreeMap;
 
-/// How much of a resource can be got: more than anything asks for.
+/// An unlimited amount of a resource: more than any rule requires.
 const PLENTY: i64 = i64::MAX;
 
-/// What a level places of one type: cells, and how many in each.
+/// The sprites of each type that a level places: cells, and the number in each.
 pub(super) type Placed = Vec<Vec<(usize, u32)>>;
 
 /// The effects of meetings, applied until nothing changes.
@@ -19,13 +19,14 @@ pub(super) struct Events<'a> {
     pub(super) flood: Flood<'a>,
     placed: &'a Placed,
     ring: Cells,
-    /// By type: how many of it, as a resource, can be got in all.
+    /// By type: the total amount of it that can be obtained as a resource.
     pub(super) have: Vec<i64>,
-    /// By meeting: the versions of the two regions when it was last looked at.
+    /// By meeting: the versions of the two regions when it was last processed.
     seen: Vec<(u32, u32)>,
 }
 
-/// A way to get a resource: where it is met, how much each sprite gives, and whether that is used up by giving.
+/// A way to obtain a resource: the cells where it is met, the amount that each sprite gives, and whether giving uses it
+/// up.
 pub(super) struct Gift {
     pub(super) cells: Cells,
     each: i64,
@@ -39,7 +40,7 @@ impl<'a> Events<'a> {
         Events { flood, placed, ring, have: vec![0; types], seen: vec![(u32::MAX, u32::MAX); meetings] }
     }
 
-    /// Runs until nothing changes; whether that was no more than a bounded amount of work.
+    /// Runs until nothing changes; returns `false` if that exceeds the work budget.
     pub(super) fn settle(&mut self) -> bool {
         loop {
             let before = self.state();
@@ -49,7 +50,7 @@ impl<'a> Events<'a> {
             self.flood.spread();
             self.have = self.resources();
             for at in 0..self.flood.model.meetings.len() {
-                // What is pushed is pushed on.
+                // A pushed sprite may be pushed again.
                 while !self.flood.is_spent() && self.meet(at) {}
             }
             if self.flood.is_spent() {
@@ -70,7 +71,7 @@ impl<'a> Events<'a> {
         self.flood.board
     }
 
-    /// What it costs to go through a set of cells, many at a time, in cells that are looked at.
+    /// The cost of a pass over a set of cells, in the unit of single cells, as many cells are processed at once.
     fn sweep(&self) -> u64 {
         1 + self.board().size() as u64 / 512
     }
@@ -87,7 +88,7 @@ impl<'a> Events<'a> {
         self.flood.model.there[stype.index()] && !self.touch(stype).is_empty()
     }
 
-    /// Cells that a sprite of the type which is met in these cells can overlap.
+    /// Returns the cells that a sprite of the type can overlap if it is met in these cells.
     pub(super) fn near(&mut self, stype: SpriteType, cells: &Cells) -> Cells {
         let spread = self.flood.model.spread(stype);
         self.flood.work += if spread == 0 { self.sweep() } else { self.board().size() as u64 };
@@ -96,20 +97,20 @@ impl<'a> Events<'a> {
     }
 
     pub(super) fn appear_in(&mut self, stype: SpriteType, cells: &Cells, at: Order, heading: Ways) {
-        // What is larger than its maker, or stands between cells as it does, reaches over to the right and down.
+        // A sprite larger than its maker, or between cells like its maker, extends to the right and down.
         let more = self.flood.model.spread(stype);
         let grows = self.flood.model.scales && more > 0;
         let cells = if grows { self.board().around(cells, more) } else { cells.clone() };
         cells.iter().for_each(|cell| self.flood.appear(stype, cell, at, heading));
     }
 
-    /// Spawned by an effect: nothing gives it a direction.
+    /// Makes sprites appear by an effect, without an orientation from elsewhere.
     pub(super) fn spawn_in(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
         let heading = self.flood.model.born(stype);
         self.appear_in(stype, cells, at, heading);
     }
 
-    /// Put somewhere by others, in whatever direction it can have.
+    /// Moves sprites to cells by the action of others, in any direction that they can have.
     pub(super) fn come_to(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
         let heading = self.flood.model.of_type(stype).facing;
         cells.iter().for_each(|cell| self.flood.come(stype, cell, at, heading));
@@ -120,7 +121,7 @@ impl<'a> Events<'a> {
         self.placed
     }
 
-    /// The ways to get resources, by resource and by the type that gives it.
+    /// Returns the ways to obtain resources, by resource and by the type that gives it.
     pub(super) fn gifts(&mut self) -> BTreeMap<(SpriteType, SpriteType), Gift> {
         let mut gifts: BTreeMap<(SpriteType, SpriteType), Gift> = BTreeMap::new();
         for meeting in self.flood.model.meetings {
@@ -135,7 +136,7 @@ impl<'a> Events<'a> {
                     (self.flood.model.info(one).traits.resource, one, value, kill_resource)
                 }
                 Effect::ChangeResource { resource, value, kill_resource } => {
-                    // What has been used up can be met once more in the same tick.
+                    // A sprite that has been used up can be met once more in the same tick.
                     (resource, two, i64::from(value) * i64::from(meeting.times), kill_resource)
                 }
                 _ => continue,
@@ -150,14 +151,14 @@ impl<'a> Events<'a> {
             let none = || Gift { cells: Cells::none(self.board()), each: 0, once: true };
             let gift = gifts.entry((resource, giver)).or_insert_with(none);
             gift.cells.add(&cells);
-            // Collecting ends what is collected; other rules may each give something, once more.
+            // Collecting removes the collected sprite; other rules may each give something once more.
             gift.each = if collected { gift.each.max(each) } else { gift.each.saturating_add(each) };
             gift.once &= once;
         }
         gifts
     }
 
-    /// The amount of each resource that can be got.
+    /// Returns the amount of each resource that can be obtained.
     fn resources(&mut self) -> Vec<i64> {
         let gifts = self.gifts();
         let unlimited = self.flood.model.unlimited.iter();
@@ -174,7 +175,7 @@ impl<'a> Events<'a> {
         have
     }
 
-    /// Whether what an effect asks for can be so.
+    /// Returns `true` if the condition of an effect can hold.
     pub(super) fn can_be(&self, provided: Provided) -> bool {
         match provided {
             Provided::Holds(_, resource, amount) => {
@@ -187,19 +188,20 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Cells that two sprites can share at that moment of a tick.
+    /// Returns the cells that two sprites can share at that moment of a tick.
     fn met(&self, one: SpriteType, two: SpriteType, at: Order) -> Cells {
         self.flood.present(one, at, true).shared(&self.flood.present(two, at, false))
     }
 
-    /// Lets two types meet, if anything has changed since they last did; whether they did.
+    /// Processes a meeting of two types if anything it depends on has changed; returns `true` if one of the two regions
+    /// had.
     fn meet(&mut self, at: usize) -> bool {
         let meeting = self.flood.model.meetings[at];
         let version =
             |stype: Option<SpriteType>| stype.map_or(0, |stype| self.flood.regions[stype.index()].version);
         let versions = (version(meeting.one), version(meeting.two()));
         let effect = meeting.effect(self.flood.model.rules);
-        // These depend on more than the two.
+        // These depend on more than the two regions.
         let far = matches!(
             effect,
             Effect::TeleportToExit
@@ -234,7 +236,7 @@ impl<'a> Events<'a> {
         again
     }
 
-    /// What an effect does that runs on no sprite in particular.
+    /// Applies an effect that runs on no particular sprite.
     fn at_large(&mut self, meeting: &Meeting<'_>) {
         if let Effect::TransformToAll { stype, to, .. } = *meeting.effect(self.flood.model.rules) {
             self.become_all(stype, to, meeting.order);
@@ -242,7 +244,7 @@ impl<'a> Events<'a> {
         self.end(meeting, &Cells::default());
     }
 
-    /// Ends whom a meeting in these cells can end.
+    /// Removes the sprites that a meeting in these cells can remove.
     fn end(&mut self, meeting: &Meeting<'_>, cells: &Cells) {
         for End { stype, whose, .. } in meeting.ends(self.flood.model.rules) {
             let at = match whose {

@@ -1,4 +1,4 @@
-//! Where sprites come to: from where they are, cell by cell, until nothing new is reached.
+//! Flood fill: the cells that sprites reach from their positions, cell by cell, until nothing new is reached.
 
 use super::cells::{Board, Cells, Ways};
 use super::meetings::{End, Meeting, Order, With};
@@ -7,38 +7,39 @@ use super::model::Model;
 use crate::game::SpriteType;
 use crate::ontology::effects::Effect;
 
-/// Cells looked at, at most; with more the answer is coarse. Usual levels take some ten thousands.
+/// The largest number of cells to examine; beyond it the answer is coarse. Usual levels need tens of thousands.
 const BUDGET: u64 = 1 << 23;
 
-/// Where sprites of one type come to.
+/// The cells that sprites of one type reach.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Region {
     /// Cells that one can overlap at some moment of a tick.
     pub(super) touch: Cells,
-    /// Those of them to which something else than its own update can bring it.
+    /// Cells of `touch` to which something other than its own update can bring it.
     late: Cells,
     /// Cells that one can overlap between two ticks.
     pub(super) rest: Cells,
-    /// Of what keeps its direction until something turns it, by cell of `rest`: the directions that it can have there.
+    /// For types that keep their direction until something turns them, by cell of `rest`: the directions possible
+    /// there.
     headings: Vec<Ways>,
-    /// Cells of `rest` from which all ways have been followed, or are to be.
+    /// Cells of `rest` from which all moves have been followed, or are queued.
     spread: Cells,
     queue: Vec<usize>,
-    /// It has been taken to be everywhere.
+    /// `true` if it is assumed to be everywhere.
     flooded: bool,
-    /// Of what falls and jumps, by cell: the rows that it can still rise there.
+    /// For types that fall and jump, by cell: the rows that they can still rise there.
     rises: Vec<i32>,
     /// Changes whenever the region does.
     pub(super) version: u32,
 }
 
-/// What keeps sprites of a type out of cells, or ends them there.
+/// A type that keeps sprites of another type out of its cells, or removes them there.
 #[derive(Clone, Copy, Debug)]
 struct Bar {
-    /// None: the edge of the board.
+    /// The barring type; none: the edge of the board.
     by: Option<SpriteType>,
     kills: bool,
-    /// When it does so in a tick, at first and at last.
+    /// The first and last moments in a tick when it does so.
     first: Order,
     last: Order,
 }
@@ -48,23 +49,23 @@ pub(super) struct Flood<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) board: Board,
     pub(super) regions: Vec<Region>,
-    /// By type: cells where one stands from the start and, for all that is known, for ever.
+    /// By type: cells where one stands from the start and, as far as is known, forever.
     pub(super) firm: Vec<Cells>,
-    /// By type: cells where one can be ended.
+    /// By type: cells where one can be removed.
     pub(super) ended: Vec<Cells>,
-    /// How often a type has become endable in new cells.
+    /// The number of times that a type has become removable in new cells.
     pub(super) ends: u64,
-    /// By type: some can appear in play.
+    /// By type: some can appear during play.
     pub(super) made: Vec<bool>,
-    /// By type: what keeps it out.
+    /// By type: the bars that keep it out.
     bars: Vec<Vec<Bar>>,
-    /// By type: which types it keeps out.
+    /// By type: the types that it keeps out.
     bars_to: Vec<Vec<SpriteType>>,
-    /// By type: it may be removed in the middle of a tick; then it is met where it is until the end of the tick.
+    /// By type: it may be removed in the middle of a tick; until the end of the tick others still meet it there.
     removed: Vec<bool>,
-    /// Of types that fall and jump: the rows that a jump lifts them.
+    /// For types that fall and jump: the height of a jump in rows.
     climbs: Vec<Option<i32>>,
-    /// Cells looked at so far.
+    /// The number of cells examined so far.
     pub(super) work: u64,
 }
 
@@ -115,7 +116,7 @@ impl<'a> Flood<'a> {
         flood
     }
 
-    /// Notes which types a meeting can remove. (Avatars that are killed stay.)
+    /// Records the types that a meeting can remove. (Avatars that are killed stay.)
     fn note_removals(&mut self, meeting: &Meeting<'_>) {
         for End { stype, for_good, .. } in meeting.ends(self.model.rules) {
             let avatar = self.model.info(stype).class.is_some_and(|class| class.is_avatar());
@@ -123,7 +124,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Notes whom a meeting keeps from whose cells.
+    /// Records the bars that a meeting creates.
     fn add_bars(&mut self, meeting: &Meeting<'_>, wraps: &[bool]) {
         let model = self.model;
         let (Some(one), effect) = (meeting.one, meeting.effect(model.rules)) else { return };
@@ -132,7 +133,7 @@ impl<'a> Flood<'a> {
         }
         let is_avatar = model.info(one).class.is_some_and(|class| class.is_avatar());
         let bar = |flood: &mut Flood<'_>, whom: SpriteType, by: Option<SpriteType>, kills: bool| {
-            // What moves lets through, sooner or later.
+            // A moving sprite lets others pass sooner or later.
             if by.is_none_or(|by| flood.can_be_firm(by)) {
                 flood.bar(whom, Bar { by, kills, first: meeting.order, last: meeting.order });
             }
@@ -148,7 +149,7 @@ impl<'a> Flood<'a> {
                     bar(self, two, Some(one), false);
                 }
             }
-            // Flush with the partner, a sprite that has come from far may stand where another one stands.
+            // A sprite that can skip cells, placed flush with its partner, may stand where another one stands.
             Effect::StepBack { pixel_perfect: true } | Effect::WallStop if own.comes_from_far() => {}
             Effect::WrapAround { .. } if meeting.with == With::Edge && wraps[one.index()] => {
                 bar(self, one, None, false);
@@ -171,7 +172,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// By type: whether a sprite that leaves the board is always taken to the opposite edge, as it went where it faces, by
+    /// By type: a sprite that leaves the board is always moved to the opposite edge, because it only moves ahead and by
     /// itself.
     fn always_wraps(model: &Model<'_>) -> Vec<bool> {
         let goes_ahead = |stype: SpriteType| {
@@ -198,7 +199,7 @@ impl<'a> Flood<'a> {
         wraps
     }
 
-    /// Whether sprites of the type that a level places fill their cells for as long as nothing ends them.
+    /// Returns `true` if sprites of the type that a level places fill their cells until something removes them.
     fn can_be_firm(&self, stype: SpriteType) -> bool {
         let info = self.model.info(stype);
         let traits = &info.traits;
@@ -208,12 +209,12 @@ impl<'a> Flood<'a> {
         self.model.of_type(stype).fixed && whole && !singleton && !info.is_like_avatar() && !mortal
     }
 
-    /// A sprite of the level.
+    /// Places a sprite of the level.
     pub(super) fn place(&mut self, stype: SpriteType, cell: usize) {
         if self.can_be_firm(stype) {
             self.firm[stype.index()].insert(cell);
         }
-        // What is larger than a cell reaches over to the right and down.
+        // A sprite larger than a cell extends to the right and down.
         let (columns, rows) = self.model.info(stype).traits.span();
         let (x, y) = self.board.place(cell);
         for y in y..y + rows as i32 {
@@ -223,8 +224,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Where a sprite can be at that moment of a tick. The first of two has not been removed in this tick; the second may
-    /// have been, and then nothing stops it any more.
+    /// Returns the cells where a sprite can be at that moment of a tick. The first of two sprites has not been removed
+    /// in this tick; the second may have been, and then nothing stops it any more.
     pub(super) fn present(&self, stype: SpriteType, at: Order, first: bool) -> Cells {
         let Region { touch, late, rest, .. } = &self.regions[stype.index()];
         let mut cells = touch.clone();
@@ -237,7 +238,8 @@ impl<'a> Flood<'a> {
         cells
     }
 
-    /// Whether something keeps sprites of a type out of a cell after that moment of a tick; or ends them there.
+    /// Returns `true` if something keeps sprites of a type out of a cell after that moment of a tick, or removes them
+    /// there.
     fn is_barred(&self, stype: SpriteType, cell: usize, after: Order, kills_only: bool) -> bool {
         let bars = self.bars[stype.index()].iter();
         bars.filter(|bar| bar.last > after && (bar.kills || !kills_only)).any(|bar| match bar.by {
@@ -246,13 +248,13 @@ impl<'a> Flood<'a> {
         })
     }
 
-    /// The types of sprites that keep those of a type out of a cell, or end them there, for ever.
+    /// Returns the types whose sprites keep those of a type out of a cell forever, or remove them there.
     pub(super) fn barring(&self, stype: SpriteType, cell: usize) -> impl Iterator<Item = SpriteType> + '_ {
         let bars = self.bars[stype.index()].iter().filter_map(|bar| bar.by);
         bars.filter(move |by| self.firm[by.index()].contains(cell))
     }
 
-    /// Whether it has been too much.
+    /// Returns `true` if the work budget is exceeded.
     pub(super) fn is_spent(&self) -> bool {
         self.work > BUDGET
     }
@@ -283,7 +285,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Sprites that rest in these cells turn: to the directions that `turn` makes of theirs.
+    /// Turns sprites between two ticks in these cells: `turn` maps their directions to the new ones.
     pub(super) fn face(&mut self, stype: SpriteType, cells: &Cells, turn: impl Fn(Ways) -> Ways) {
         if self.regions[stype.index()].headings.is_empty() {
             return;
@@ -291,14 +293,14 @@ impl<'a> Flood<'a> {
         for cell in cells.shared(&self.regions[stype.index()].rest).iter() {
             let region = &self.regions[stype.index()];
             let heading = turn(region.headings[cell]);
-            // What is about to be ended where it is goes nowhere.
+            // A sprite that is about to be removed in its cell goes nowhere.
             if region.spread.contains(cell) {
                 self.rest_at(stype, cell, heading);
             }
         }
     }
 
-    /// A sprite comes to a cell at that moment of a tick, in one of these directions.
+    /// Adds a sprite that comes to a cell at that moment of a tick, in one of these directions.
     pub(super) fn come(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Ways) {
         self.touch(stype, cell, at);
         if !self.is_barred(stype, cell, at, false) {
@@ -306,7 +308,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// A sprite appears in a cell at that moment of a tick, in one of these directions.
+    /// Adds a sprite that appears in a cell at that moment of a tick, in one of these directions.
     pub(super) fn appear(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Ways) {
         if !self.model.there[stype.index()] {
             return;
@@ -317,11 +319,11 @@ impl<'a> Flood<'a> {
         self.touch(stype, cell, at);
         let waits = self.model.of_type(stype).waits;
         if self.is_barred(stype, cell, at, true) && (waits || at > Order::UPDATE) {
-            // It does not see the end of the tick.
+            // It does not exist at the end of the tick.
             return;
         }
         if waits && self.is_barred(stype, cell, Order::UPDATE, true) {
-            // It does not move before it is ended in the next tick.
+            // It does not move before it is removed in the next tick.
             let region = &mut self.regions[stype.index()];
             region.version += u32::from(region.rest.insert(cell));
             return;
@@ -329,7 +331,7 @@ impl<'a> Flood<'a> {
         self.rest_at(stype, cell, heading);
     }
 
-    /// Sprites of a type can be ended in these cells.
+    /// Records that sprites of a type can be removed in these cells.
     pub(super) fn end(&mut self, stype: SpriteType, cells: &Cells) {
         if !self.model.there[stype.index()] {
             return;
@@ -344,7 +346,7 @@ impl<'a> Flood<'a> {
                 let region = &self.regions[whom.index()];
                 let waiting = region.touch.contains(cell) && !region.spread.contains(cell);
                 if waiting && !self.is_barred(whom, cell, Order::UPDATE, false) {
-                    // Who knows how it comes there.
+                    // The way by which it came there is unknown.
                     if let Some(climb) = self.climbs[whom.index()] {
                         self.regions[whom.index()].rises[cell] = climb;
                     }
@@ -354,8 +356,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// A sprite that falls and jumps comes to a cell by itself, where it can still rise by so many rows; none: it only
-    /// passes.
+    /// Adds a sprite that falls and jumps and that comes to a cell by itself, with the number of rows that it can still
+    /// rise there; none: it only passes.
     pub(super) fn rise_to(&mut self, stype: SpriteType, cell: usize, rise: Option<i32>, at: Order) {
         self.touch(stype, cell, Order::UPDATE);
         let Some(rise) = rise.filter(|_| !self.is_barred(stype, cell, at, false)) else { return };
@@ -367,7 +369,7 @@ impl<'a> Flood<'a> {
         self.rest_at(stype, cell, Ways::NONE);
     }
 
-    /// What stands on something solid can jump from there.
+    /// Lets sprites on solid ground jump from there.
     fn ground(&mut self) {
         for stype in self.model.types() {
             let Some(climb) = self.climbs[stype.index()] else { continue };
@@ -378,7 +380,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Follows all ways of all types.
+    /// Follows all moves of all types.
     pub(super) fn spread(&mut self) {
         loop {
             self.ground();
@@ -388,7 +390,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Whether there was anything to follow.
+    /// Follows all queued moves; returns `true` if there were any.
     fn spread_once(&mut self) -> bool {
         let mut any = false;
         for stype in self.model.types() {
@@ -403,7 +405,7 @@ impl<'a> Flood<'a> {
         any
     }
 
-    /// Where a sprite that rests in a cell can get to by its own next update.
+    /// Adds the cells that a sprite in a cell can reach by its next own update.
     fn follow(&mut self, stype: SpriteType, from: usize) {
         let own = *self.model.of_type(stype);
         let heading = self.regions[stype.index()].headings.get(from).copied();
@@ -432,14 +434,14 @@ impl<'a> Flood<'a> {
                 heading.with(back).shared(own.ways)
             });
             for step in ways.steps() {
-                // It faces where it goes; where it can go backwards, it faces either way.
+                // It faces the direction of its move; if it can move backwards, it faces either way.
                 let ahead = if own.backwards { heading.unwrap_or(own.facing) } else { Ways::of_step(step) };
                 self.go(stype, from, step, (own.stride, own.leap), (Order::UPDATE, ahead));
             }
         }
     }
 
-    /// Moves a sprite some cells at most in one direction; then it can have one of these headings.
+    /// Moves a sprite by at most some cells in one direction; then it can have one of these headings.
     pub(super) fn go(
         &mut self,
         stype: SpriteType,

@@ -1,17 +1,18 @@
-//! Avatars that fall, walk and jump: how high they get above what they stand on.
+//! Avatars that fall, walk and jump: the height that they reach above the ground.
 //!
-//! What follows holds as long as nothing but the avatar's own update, and what stops it, changes its velocity; otherwise
-//! it is taken to fly. Its velocity is upwards only after a jump. A jump gives it the speed `strength / mass` upwards,
-//! whatever it had, and lifts it by 5 pixels at once; gravity takes away `gravity` in each tick; friction and the limit
-//! of speed can only take more. A wall beside it can give it back the speed `gravity` once, as it comes to rest. So
-//! above the place where it last stood on something solid it rises by at most
+//! The following holds as long as nothing but the avatar's own update, and the sprites that stop it, change its
+//! velocity; otherwise it is assumed to fly. Its velocity is upwards only after a jump. A jump sets its upward speed to
+//! `strength / mass`, whatever it was before, and lifts it by 5 pixels at once; gravity subtracts `gravity` in each
+//! tick; friction and the speed limit can only reduce it further. A wall beside it can restore the speed `gravity`
+//! once, as it comes to rest. So above the position where it last stood on something solid it rises by at most
 //!
 //! ```text
 //! u + u² / 2g + g + 6 pixels      with u = strength / mass, g = gravity
 //! ```
 //!
-//! How far it gets sideways in the meantime is not limited. And it notices the ground when it falls onto it, but is put
-//! back to where it fell from: so it counts as standing as far above something solid as it can fall in a tick.
+//! The sideways distance in the meantime is not limited. The avatar notices the ground when it falls onto it, but is
+//! then moved back to the position it fell from: so it counts as standing anywhere that is no further above something
+//! solid than it can fall in a tick.
 
 use super::cells::Cells;
 use super::flood::Flood;
@@ -21,11 +22,11 @@ use crate::game::SpriteType;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 
-/// Rows of cells that one jump of such a sprite can lift it, if it is bound by gravity.
+/// Returns the number of rows that one jump of such a sprite can lift it, if it is subject to gravity.
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     let info = model.info(stype);
     let (own, traits) = (model.of_type(stype), &info.traits);
-    // A wizard's key for blocks lifts it a little, too, whatever it stands on.
+    // A wizard's key for blocks lifts it a little, too, even in the air.
     let jumps = info.class == Some(SpriteClass::PlatformerAvatar);
     let sane = traits.gravity > 0.0
         && traits.mass > 0.0
@@ -45,7 +46,7 @@ pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     (rows < f64::from(model.board.rows)).then_some(rows as i32)
 }
 
-/// Whether an effect gives a sprite a velocity, or a place, that is not its own doing.
+/// Returns `true` if an effect gives a sprite a velocity or a position that is not its own doing.
 fn frees(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
     let effect = meeting.effect(model.rules);
     // A new sprite may take over an orientation.
@@ -71,7 +72,7 @@ fn frees(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
         | Effect::WallReverse
         | Effect::CloneSprite
         | Effect::WaterPhysics => own,
-        // Flush with what moves, it is lifted by that.
+        // A sprite flush with a moving one is lifted by it.
         Effect::WallStop | Effect::StepBack { pixel_perfect: true } => {
             own && meeting.two().is_some_and(|two| !model.stops_in_order(stype, two))
         }
@@ -80,14 +81,14 @@ fn frees(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
 }
 
 impl Flood<'_> {
-    /// Cells at which a sprite that has just noticed something solid below it can be.
+    /// Returns the cells in which a sprite can be that has just noticed something solid below it.
     pub(super) fn footholds(&self, stype: SpriteType) -> Cells {
         let (board, model) = (self.board, self.model);
         let mut solid = Cells::none(board);
         for stype in model.types().filter(|&stype| model.info(stype).traits.solid) {
             solid.add(&self.regions[stype.index()].touch);
         }
-        // It is in two columns if it stands between them.
+        // It occupies two columns if it stands between them.
         let height = model.of_type(stype).stride + model.rules.reach.max(1);
         let near = solid.iter().flat_map(|cell| {
             let (x, y) = board.place(cell);
@@ -96,7 +97,8 @@ impl Flood<'_> {
         Cells::of(board, near)
     }
 
-    /// Where a sprite that falls and jumps can get to from a cell, when it can still rise by so many rows.
+    /// Adds the cells that a sprite that falls and jumps can reach from a cell, when it can still rise by this number
+    /// of rows.
     pub(super) fn leap(&mut self, stype: SpriteType, from: usize, rise: i32) {
         let stride = self.model.of_type(stype).stride;
         let (x, y) = self.board.place(from);

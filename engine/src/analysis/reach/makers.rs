@@ -1,4 +1,4 @@
-//! What sprites make by themselves, and where it appears.
+//! The sprites that types make by themselves, and the cells where they appear.
 
 use super::cells::{Cells, Ways};
 use super::events::Events;
@@ -8,7 +8,7 @@ use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
 
 impl Events<'_> {
-    /// What types make by themselves.
+    /// Adds the sprites that types make by themselves.
     pub(super) fn make(&mut self) {
         for maker in self.flood.model.types() {
             if !self.is_there(maker) || self.flood.is_spent() {
@@ -33,7 +33,7 @@ impl Events<'_> {
         }
     }
 
-    /// The directions that what is made gets, from a maker that faces one way.
+    /// Returns the directions that a new sprite gets from a maker that faces one way.
     fn given(&self, maker: SpriteType, made: SpriteType, facing: Ways) -> Ways {
         let model = self.flood.model;
         let born = model.born(made);
@@ -53,7 +53,7 @@ impl Events<'_> {
         }
     }
 
-    /// Where what a type makes appears, and which way the maker faces then.
+    /// Returns the cells where the sprites made by a type appear, with the maker's orientation at that moment.
     fn muzzles(&self, maker: SpriteType) -> Vec<(Cells, Ways)> {
         use SpriteClass as C;
         let (board, model) = (self.board(), self.flood.model);
@@ -62,7 +62,7 @@ impl Events<'_> {
         let grown = if own.loose { model.rules.reach.max(1) } else { 0 };
         let around = |distance: i32| vec![(board.around(self.touch(maker), distance), Ways::ALL)];
         match class {
-            // A shot at rest, from where it stands; the others have moved before they shoot.
+            // These avatars shoot only if they do not move; the others have moved before they shoot.
             C::ShootAvatar | C::ShootOnlyAvatar if !model.info(maker).traits.continuous => {
                 self.ahead(self.rest(maker), own.facing, grown)
             }
@@ -80,13 +80,13 @@ impl Events<'_> {
         }
     }
 
-    /// One body length ahead, for each of these directions.
+    /// Returns the cells one body length ahead, for each of these directions.
     fn ahead(&self, from: &Cells, facing: Ways, grown: i32) -> Vec<(Cells, Ways)> {
         let board = self.board();
         if facing.meets(Ways::ASKEW) {
             return vec![(board.around(from, 1 + grown), Ways::ALL)];
         }
-        // Whose size is not that of a cell shoots a little further, or less far.
+        // A maker whose size differs from that of a cell shoots a little further, or less far.
         let more = if self.flood.model.scales { grown } else { 0 };
         let shifted = |step: (i32, i32)| (board.around(&board.beside(from, step), more), Ways::of_step(step));
         let unset = facing.meets(Ways::UNSET).then(|| (board.around(from, more), Ways::UNSET));

@@ -1,4 +1,4 @@
-//! Who can meet whom, one pair of types at a time, in the order of a tick.
+//! The possible meetings, one pair of types at a time, in the order of a tick.
 
 use super::super::encounter::{Deed, Encounter, Provided, Side};
 use super::super::prospect::Prospect;
@@ -7,16 +7,16 @@ use crate::ontology::effects::Effect;
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Meetings that are looked at, at most: with more of them the reach is coarse.
+/// The largest number of meetings considered: with more of them the reach is coarse.
 const MAX_MEETINGS: usize = 1 << 15;
 
-/// When in a tick something happens: by a sprite's own update, by the clock, at the edge, or in the pass of that number.
+/// A moment in a tick: a sprite's own update, the timed effects, the edge, or the pass of that number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Order(u32);
 
 impl Order {
     pub(super) const UPDATE: Order = Order(0);
-    /// After all that happens in a tick.
+    /// After everything else in a tick.
     pub(super) const LAST: Order = Order(u32::MAX);
     const CLOCK: Order = Order(1);
     const EDGE: Order = Order(2);
@@ -26,41 +26,41 @@ impl Order {
     }
 }
 
-/// Whom a sprite meets.
+/// The partner that a sprite meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum With {
     Sprite(SpriteType),
     Edge,
-    /// Nobody: the effect runs by the clock.
+    /// No partner: the effect is timed.
     Nobody,
 }
 
 /// An effect that can run on sprites of one type.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting<'a> {
-    /// None: on no sprite in particular.
+    /// The type it runs on; none: no particular sprite.
     pub(super) one: Option<SpriteType>,
     pub(super) with: With,
     pub(super) effect: u16,
     pub(super) order: Order,
     pub(super) provided: Provided,
     deeds: &'a [Deed],
-    /// How often it runs in a tick, on the same two sprites.
+    /// The number of times that it runs in a tick, on the same two sprites.
     pub(super) times: u16,
-    /// Nothing keeps it from running when the two overlap.
+    /// Nothing prevents it when the two overlap.
     pub(super) certain: bool,
 }
 
-/// A sprite that a meeting can end.
+/// A sprite that a meeting can remove.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
     pub(super) stype: SpriteType,
     pub(super) whose: Whose,
-    /// Also if it is an avatar: those that are only killed stay where they are.
+    /// It applies to avatars, too: those that are only killed stay where they are.
     pub(super) for_good: bool,
 }
 
-/// Where the sprites are that a meeting can end.
+/// The sprites that a meeting can remove, relative to its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Whose {
     First,
@@ -70,18 +70,18 @@ pub(super) enum Whose {
 }
 
 impl Meeting<'_> {
-    /// What it can end.
+    /// Returns the sprites that it can remove.
     pub(super) fn ends(&self, rules: &Rules) -> SmallVec<[End; 4]> {
         let mut ends = SmallVec::new();
         let mut end = |stype: Option<SpriteType>, whose: Whose, for_good: bool| {
             ends.extend(stype.map(|stype| End { stype, whose, for_good }));
         };
-        // What is no resource is not collected.
+        // Only resources are collected.
         let collects = self.deeds.contains(&Deed::Collect);
         let first = self.one.filter(|one| !collects || rules.types[one.index()].traits.is_resource);
         for deed in self.deeds {
             match deed {
-                // Where there is no exit, the sprite dies.
+                // Without an exit, the sprite dies.
                 Deed::Kill(Side::First) | Deed::Teleport => end(first, Whose::First, false),
                 Deed::Kill(Side::Second) => end(self.two(), Whose::Second, true),
                 Deed::Become(_) | Deed::BecomeAny(_) => end(first, Whose::First, true),
@@ -110,7 +110,7 @@ impl Meeting<'_> {
     }
 }
 
-/// Everything that can run, from what can come; None if it is too much. `clockwork`: what happens by the clock.
+/// Returns everything that can run in a prospect; None if that is too much. `clockwork`: the timed effects.
 pub(super) fn meetings<'a>(
     rules: &Rules,
     prospect: &Prospect<'a>,
@@ -158,7 +158,7 @@ pub(super) fn meetings<'a>(
         let info = &rules.effects[usize::from(effect)];
         let batches = matches!(info.effect, Effect::WallBounce | Effect::WallReverse);
         if info.in_batch && !batches {
-            // It is never run, whatever happens.
+            // It is never run.
             continue;
         }
         let certain = second.is_none_or(|second| !shields.contains(&(second, encounter.keyword)));

@@ -1,4 +1,4 @@
-//! How sprites of a type move by themselves.
+//! The movement of sprites of a type by themselves.
 
 use super::cells::Ways;
 use super::meetings::{Meeting, With};
@@ -9,25 +9,26 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use crate::ontology::sprites::is_idle;
 
-/// Cells that something may cross in a tick, off the grid's axes, before it is taken to be able to be anywhere.
+/// The largest number of cells that a sprite may cross in a tick, off the grid's axes; a faster one is assumed to be
+/// able to be anywhere.
 const MAX_STRIDE: f64 = 4.0;
 
-/// How sprites of a type move.
+/// The movement of sprites of a type.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mobility {
-    /// The directions into which its own update can move it.
+    /// The directions in which its own update can move it.
     pub(super) ways: Ways,
     /// The orientations that it can have.
     pub(super) facing: Ways,
-    /// The directions in which it can have moved since its last update, by whatever.
+    /// The directions in which it can have moved since its last update, for any reason.
     pub(super) moved: Ways,
     /// The largest speed that it can have, in the units of its physics.
     pub(super) top: f64,
     /// Its speed can be negative.
     pub(super) backwards: bool,
-    /// How many cells its own update can carry it, rounded up.
+    /// The number of cells that its own update can move it, rounded up.
     pub(super) stride: i32,
-    /// How many barred cells in a row its own update can skip.
+    /// The number of barred cells in a row that its own update can skip.
     pub(super) leap: i32,
     /// It may get anywhere that is not barred.
     pub(super) boundless: bool,
@@ -35,36 +36,37 @@ pub(super) struct Mobility {
     pub(super) loose: bool,
     /// Nothing ever moves it.
     pub(super) fixed: bool,
-    /// Some effect puts it somewhere without a move, so that it may be moved again in the same tick.
+    /// Some effect moves it directly to a position, so that it may be moved again in the same tick.
     pub(super) placed: bool,
-    /// Some effect puts it somewhere however far away.
+    /// Some effect can move it to any distance.
     pub(super) thrown: bool,
     /// It does not move in its first update.
     pub(super) waits: bool,
-    /// It faces where it has moved, always.
+    /// It always faces the direction in which it has moved.
     pub(super) straight: bool,
-    /// It moves where it faces, always.
+    /// It always moves in the direction that it faces.
     pub(super) goes_ahead: bool,
-    /// It turns as its player likes.
+    /// Its player can turn it at will.
     pub(super) turns: bool,
-    /// Something can put it, or what it leaves behind, back to where it was.
+    /// Something can move it, or the sprites it leaves behind, to its previous position.
     pub(super) goes_back: bool,
 }
 
 impl Mobility {
-    /// Whether it can skip cells in a tick, so that what it is stopped by need not be the first thing on its way.
+    /// Returns `true` if it can skip cells in a tick, so that the sprite that stops it need not be the first one on its
+    /// way.
     pub(super) fn comes_from_far(&self) -> bool {
         self.leap > 0 || self.placed || self.boundless
     }
 
-    /// Whether it moves where it faces, along the grid, until something turns it.
+    /// Returns `true` if it moves in the direction that it faces, along the grid, until something turns it.
     pub(super) fn is_steady(&self) -> bool {
         self.goes_ahead && !self.turns && !self.boundless && !self.ways.meets(Ways::ASKEW)
     }
 }
 
 impl Model<'_> {
-    /// What a type is without others.
+    /// Returns the movement of a type without the influence of others.
     pub(super) fn alone(&self, stype: SpriteType) -> Mobility {
         use SpriteClass as C;
         let info = self.info(stype);
@@ -72,7 +74,7 @@ impl Model<'_> {
         let Some(class) = info.class else { return Mobility::default() };
         let own = self.born(stype);
         let facing = match class {
-            // They turn by angles, or lose a part of their orientation when they jump.
+            // These turn by angles, or lose a component of their orientation when they jump.
             C::AimedAvatar | C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar => Ways::ALL,
             C::Walker | C::WalkerJumper => Ways::ALL,
             C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar => own.with(Ways::FOUR),
@@ -87,17 +89,18 @@ impl Model<'_> {
             backwards: traits.speed < 0.0,
             loose: self.is_odd(stype) || traits.speed.fract() != 0.0,
             waits: !active && traits.is_first_tick,
-            // Passive movement goes where the sprite faces, and some avatars face where they went.
+            // Passive movement follows the sprite's orientation, and some avatars face the direction of their last
+            // move.
             straight: !traits.continuous && (!active || faces(class) || is_driven(class)),
             goes_ahead: !traits.continuous && (!active || is_driven(class)),
-            // It leaves something where it was.
+            // It leaves a sprite at its previous position.
             goes_back: class == C::OngoingTurningAvatar,
             turns: is_driven(class) && class != C::MissileAvatar,
             ..Mobility::default()
         }
     }
 
-    /// The directions that a new sprite of the type can have, if nothing gives it another.
+    /// Returns the directions that a new sprite of the type can have, if nothing else determines them.
     pub(super) fn born(&self, stype: SpriteType) -> Ways {
         let info = self.info(stype);
         let draws =
@@ -105,7 +108,7 @@ impl Model<'_> {
         if draws { Ways::FOUR } else { Ways::of(info.traits.orientation) }
     }
 
-    /// Into which directions, and how far, a type's own update moves its sprites.
+    /// Computes the directions and distances that a type's own update moves its sprites.
     pub(super) fn move_by_itself(&mut self, stype: SpriteType) {
         use SpriteClass as C;
         let info = self.info(stype);
@@ -159,17 +162,17 @@ impl Model<'_> {
                     own.facing = own.facing.with(steered);
                 }
                 own.facing = if faces(class) { own.facing.with(steered) } else { own.facing };
-                // Active movement takes a speed of 0 for 1; a car has one of its own.
+                // In active movement a speed of 0 means 1; a car has a speed of its own.
                 own.top = own.top.max(if class == C::CarAvatar { 5.0 } else { 1.0 });
             }
         }
-        // A passive speed of −1 stands for 1.
+        // A passive speed of −1 means 1.
         if own.backwards {
             ways = ways.with(ways.mirrored());
         }
         ways = ways.without(Ways::UNSET);
         own.loose |= ways.meets(Ways::ASKEW);
-        // On the grid these take forces for directions of any length.
+        // On the grid these treat forces as directions of any length.
         let jumps = matches!(class, C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar) || walker;
         let leaps = jumps && !traits.continuous && walks;
         let hop = if jumps { 5.0 / self.block } else { 0.0 };
@@ -192,24 +195,24 @@ impl Model<'_> {
     }
 }
 
-/// Whether a push goes where the pusher went: not if it can face another way.
+/// Returns `true` if a push goes in the direction of the pusher's move: not if it can face another way.
 pub(super) fn pushes_straight(pusher: &Mobility) -> bool {
     !pusher.placed && (pusher.facing == Ways::UNSET || pusher.straight)
 }
 
-/// Avatars that face where they went.
+/// Returns `true` for avatars that face the direction of their last move.
 fn faces(class: SpriteClass) -> bool {
     use SpriteClass as C;
     matches!(class, C::OrientedAvatar | C::ShootAvatar | C::AimedAvatar | C::BirdAvatar)
 }
 
-/// Avatars that always move ahead.
+/// Returns `true` for avatars that always move ahead.
 fn is_driven(class: SpriteClass) -> bool {
     use SpriteClass as C;
     matches!(class, C::MissileAvatar | C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar)
 }
 
-/// Whether an effect at the edge, or with a partner, takes place for every sprite of the type whatever it holds.
+/// Returns `true` if an effect at the edge, or with a partner, stops every sprite of the type, whatever it holds.
 pub(super) fn is_stop(meeting: &Meeting<'_>, effect: &Effect) -> bool {
     let partner = !matches!(meeting.with, With::Nobody);
     partner

@@ -1,32 +1,34 @@
-//! Where in a level sprites of each type can be.
+//! Reachability: the cells of a level where sprites of each type can be.
 //!
-//! A fixed point over the cells of a level, under the movement of the game itself: what walks in four ways, along a line,
-//! straight ahead or by forces, what is pushed, carried, teleported or wrapped around, what is shot, spawned and
-//! transformed into; what blocks whom until a key, a shot or a push ends it; what resources can be got.
+//! A fixed point over the cells of a level, under the movement rules of the game itself: walking in four directions,
+//! along a line, straight ahead or by forces; pushing, carrying, teleporting and wrapping around; shooting, spawning
+//! and transforming; obstacles until a key, a shot or a push removes them; and the resources that can be obtained.
 //!
-//! The answer is an over-approximation: what can happen is in it, and perhaps more. It is exact in these respects: walls
-//! that nothing ends keep out what they stop (unless a later interaction of the same tick moves it in), what has to be
-//! pushed moves only away from where its pusher can be (if both keep to whole cells and the pusher faces where it goes),
-//! keys that are used up by taking are counted. It is generous in these:
+//! The answer is an over-approximation: it contains everything that can happen, and perhaps more. It is exact in these
+//! respects: walls that nothing removes keep out the sprites that they stop (unless a later interaction of the same
+//! tick moves one in); pushed sprites move only away from cells where their pusher can be (if both keep to whole cells
+//! and the pusher faces the direction of its move); keys that are used up by taking are counted. It over-approximates
+//! in these:
 //!
-//! - Time does not count: what can be ended, some time, opens its cell from the start; two types that can be in a cell,
-//!   each at some time, can meet there. A sprite that has to be at two places at once can be.
-//! - What others do is not weighed: NPCs go wherever they are not stopped, pushed things are never in the way, and
-//!   harm keeps nobody from going on.
-//! - Continuous physics: what has a velocity that forces change goes in any direction, as far in a tick as its
-//!   greatest speed allows: it flies. An avatar that falls and jumps (see `jump.rs`) gets no higher above what is solid
-//!   than a jump lifts it, but in the air as far sideways as there is room.
-//! - Keys are counted, but not what opening costs.
+//! - Time is ignored: a sprite that can ever be removed leaves its cell open from the start; two types that can be in a
+//!   cell, each at some time, can meet there. A sprite that has to be at two places at once can be.
+//! - The behaviour of others is ignored: NPCs go wherever they are not stopped, pushed sprites are never in the way,
+//!   and harm stops no sprite.
+//! - Continuous physics: a sprite whose velocity is changed by forces moves in any direction, as far in a tick as its
+//!   greatest speed allows: it flies. An avatar that falls and jumps (see `jump.rs`) gets no higher above the ground
+//!   than a jump lifts it, but in the air it moves sideways without limit.
+//! - Keys are counted, but the cost of opening is not.
 //!
-//! How it is found: `meetings` lists which types can meet with what effect; `model` derives from that how each type moves
-//! (`mobility` by itself, `contact` by others), before any cell is looked at. Then `events` goes round: types spread over
-//! the cells (`flood`, `jump`), make others (`makers`), and meet (`effects`), until nothing is new; `tally` tells which
-//! terminations that leaves impossible. A round costs O(types × cells + meetings × cells / 64), and there are about as
-//! many rounds as locks open one behind the other. All of it is bounded: meetings by their number, the rounds by cells
-//! looked at. What is more than that gets a coarse answer: everything that can come about is everywhere.
+//! Algorithm: `meetings` lists which types can meet with what effect; `model` derives from that the movement of each
+//! type (`mobility` by itself, `contact` by others), before any cell is examined. Then `events` iterates: types spread
+//! over the cells (`flood`, `jump`), make others (`makers`), and meet (`effects`), until nothing is new; `tally`
+//! determines the terminations that this makes impossible. A round costs O(types × cells + meetings × cells / 64), and
+//! there are about as many rounds as locks that open one after the other. All of it is bounded: the meetings by their
+//! number, the rounds by the number of cells examined. Beyond that the answer is coarse: every type that can occur is
+//! everywhere.
 //!
-//! That nothing is ever outside its reach is tested by playing (`tests/tests/analysis`): games that somebody wrote, and
-//! games that nobody would.
+//! Tests check by playing (`tests/tests/analysis`) that nothing is ever outside its reach, in handwritten and in random
+//! games.
 
 mod cells;
 mod chain;
@@ -57,14 +59,15 @@ use flood::Flood;
 use model::Model;
 use tally::Tally;
 
-/// Where in one level sprites of each type can ever be: too much rather than too little, so that what is left out is
-/// proved. Time, harm and crowds are not weighed: what can be opened is open, and nothing is in the way for long.
+/// The cells of one level where sprites of each type can ever be. This is an over-approximation: it is proved that
+/// sprites are never anywhere else. Time, harm and crowding are ignored: whatever can be opened is open, and nothing is
+/// in the way for long.
 ///
 /// Cells are indices into [`Level::cells`], row-major. A sprite is in every cell that it overlaps.
 #[derive(Clone, Debug)]
 pub struct Reach {
     board: Board,
-    /// By type: between two ticks; empty for types that cannot come about.
+    /// By type: between two ticks; empty for types that cannot occur.
     rest: Vec<Cells>,
     /// By type: at some moment of a tick.
     touch: Vec<Cells>,
@@ -75,21 +78,21 @@ pub struct Reach {
     coarse: bool,
 }
 
-/// A termination that can never hold in a level, and why.
+/// A termination that can never hold in a level, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hindrance {
     /// Index into [`Analysis::goals`].
     pub goal: usize,
-    /// Why not.
+    /// The reason.
     pub cause: Cause,
 }
 
-/// Why a termination can never hold in a level.
+/// The reason why a termination can never hold in a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// These sprites, each with the cell that the level places it in, can never be ended, and are too many.
+    /// These sprites, each with the cell that the level places it in, can never be removed, and are too many.
     Stay(Vec<(SpriteType, usize)>),
-    /// There can never be more sprites of its types than so many.
+    /// There can never be more sprites of its types than this number.
     AtMost(i64),
 }
 
@@ -99,50 +102,51 @@ impl Reach {
         self.on_board(&self.rest[stype.index()])
     }
 
-    /// The cells in which a sprite of the type can be at some moment of a tick, in order: also those that it is thrown
-    /// back from, and those in which it ends.
+    /// The cells in which a sprite of the type can be at some moment of a tick, in order, including those that it is
+    /// moved back from and those in which it is removed.
     pub fn touched(&self, stype: SpriteType) -> impl Iterator<Item = usize> + '_ {
         self.on_board(&self.touch[stype.index()])
     }
 
-    /// Whether a sprite of the type can be in a cell between two ticks.
+    /// Returns `true` if a sprite of the type can be in a cell between two ticks.
     pub fn can_be(&self, stype: SpriteType, cell: usize) -> bool {
         self.rest[stype.index()].contains(self.inner(cell))
     }
 
-    /// Whether a sprite of the type can be in a cell at some moment of a tick.
+    /// Returns `true` if a sprite of the type can be in a cell at some moment of a tick.
     pub fn can_touch(&self, stype: SpriteType, cell: usize) -> bool {
         self.touch[stype.index()].contains(self.inner(cell))
     }
 
-    /// Whether an avatar, of whatever type, can be in a cell between two ticks.
+    /// Returns `true` if an avatar of any type can be in a cell between two ticks.
     pub fn avatar_reaches(&self, cell: usize) -> bool {
         self.avatars.iter().any(|&stype| self.can_be(stype, cell))
     }
 
-    /// Whether an avatar, of whatever type, can be in a cell at some moment of a tick, so that it meets what is there.
+    /// Returns `true` if an avatar of any type can be in a cell at some moment of a tick, so that it meets the sprites
+    /// there.
     pub fn avatar_touches(&self, cell: usize) -> bool {
         self.avatars.iter().any(|&stype| self.can_touch(stype, cell))
     }
 
-    /// The terminations that are proved never to hold in this level, by where its sprites can be; in order. (Some hold in
-    /// no level, for other reasons: see [`Goal::attainable`](super::Goal::attainable).)
+    /// The terminations that are proved never to hold in this level, given the cells that its sprites can reach; in
+    /// order. (Some hold in no level, for other reasons: see [`Goal::attainable`](super::Goal::attainable).)
     pub fn hindrances(&self) -> &[Hindrance] {
         &self.hindrances
     }
 
-    /// Whether this level can be won. False only if it is proved that it cannot.
+    /// Returns `false` only if it is proved that this level cannot be won.
     pub fn can_win(&self) -> bool {
         self.can_win
     }
 
-    /// Whether this level can be lost, the reference's own limit of ticks apart. False only if it is proved that it cannot.
+    /// Returns `false` only if it is proved that this level cannot be lost, the reference's own limit of ticks apart.
     pub fn can_lose(&self) -> bool {
         self.can_lose
     }
 
-    /// Whether the rules or the level were too much to follow: then every type that can come about is everywhere, and no
-    /// termination is hindered.
+    /// Returns `true` if the rules or the level exceeded the work budget: then every type that can occur is everywhere,
+    /// and no termination is hindered.
     pub fn is_coarse(&self) -> bool {
         self.coarse
     }
@@ -159,10 +163,10 @@ impl Reach {
 }
 
 impl Analysis {
-    /// Where in a level sprites of each type can be, from its start on. Cost: O(types × cells + meetings × cells / 64) for
-    /// each round in which locks open one behind the other: below a millisecond for usual levels, some hundredths of a
-    /// second for the largest ones. What would take more than a fixed amount of work, a few tenths of a second, gets a
-    /// [coarse](Reach::is_coarse) answer.
+    /// Returns the cells of a level where sprites of each type can be, from its start on. Cost: O(types × cells +
+    /// meetings × cells / 64) for each round in which locks open one after the other: below a millisecond for usual
+    /// levels, some hundredths of a second for the largest ones. Beyond a fixed amount of work, a few tenths of a
+    /// second, the answer is [coarse](Reach::is_coarse).
     pub fn reach(&self, level: &Level) -> Reach {
         let (placed, board) = self.placed(level);
         let prospect = self.prospect_of(&placed);
@@ -170,8 +174,9 @@ impl Analysis {
         reached.unwrap_or_else(|| self.everything(&prospect, board))
     }
 
-    /// Why terminations that win can never hold in a level, a chain of causes for each of [`Reach::hindrances`] that wins; none
-    /// where the [`Reach`] is coarse. Cost: that of [`Analysis::reach`], and O(interactions × cells) for each link.
+    /// Returns the reasons why winning terminations can never hold in a level: a chain of causes for each winning one
+    /// of [`Reach::hindrances`]; none if the [`Reach`] is coarse. Cost: that of [`Analysis::reach`], and O(interactions
+    /// × cells) for each link.
     pub fn causes(&self, level: &Level) -> Vec<Chain> {
         let (placed, board) = self.placed(level);
         let prospect = self.prospect_of(&placed);
@@ -184,7 +189,7 @@ impl Analysis {
         chains.unwrap_or_default()
     }
 
-    /// The sprites that the level places, and its board.
+    /// Returns the sprites that the level places, and its board.
     fn placed(&self, level: &Level) -> (Placed, Board) {
         let board = Board { columns: level.columns() as i32, rows: level.rows() as i32 };
         let mut placed: Placed = vec![Vec::new(); self.game.0.types.len()];
@@ -208,7 +213,7 @@ impl Analysis {
         Prospect::of(rules, &self.facts, &self.encounters, start)
     }
 
-    /// Follows all that can happen until nothing is new, and reads an answer off; none if that is too much.
+    /// Runs the fixed point to the end and reads an answer off; none if it exceeds the work budget.
     fn settled<T>(
         &self,
         prospect: &Prospect<'_>,
@@ -223,7 +228,7 @@ impl Analysis {
             // Not all of them are made.
             return None;
         }
-        // Whatever the seed, the cells of a level have the same size.
+        // The cells of a level have the same size for every seed.
         let block = self.game.start(level, Seed::from_text("reach")).block();
         let clockwork = clockwork(rules);
         let meetings = meetings::meetings(rules, prospect, &clockwork)?;
@@ -267,7 +272,7 @@ impl Analysis {
         let avatars = self.avatars.iter().map(|avatar| avatar.stype).collect();
         let hindered = |goal: usize| hindrances.iter().any(|hindrance| hindrance.goal == goal);
         let can_end = |win: bool| {
-            // A level may start so that a termination holds.
+            // A level may start with a termination that already holds.
             self.can_end(win, |at, goal| goal.attainable != Attainable::Never && !hindered(at))
         };
         let (can_win, can_lose) = (can_end(true), can_end(false));

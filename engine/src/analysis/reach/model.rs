@@ -1,4 +1,4 @@
-//! How sprites of all types move: a fixed point over the rules, before any level is looked at cell by cell.
+//! The movement of sprites of all types: a fixed point over the rules, before any level is examined cell by cell.
 
 use super::super::prospect::Prospect;
 use super::cells::{Board, Ways};
@@ -9,39 +9,39 @@ use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use std::collections::BTreeSet;
 
-/// Meetings gone through in all the rounds of the fixed point, at most; usual games take some hundreds.
+/// The largest number of meetings processed in all the rounds of the fixed point; usual games take some hundreds.
 const MAX_STEPS: usize = 1 << 21;
 
-/// What is derived about all types.
+/// The derived facts about all types.
 pub(super) struct Model<'a> {
     pub(super) rules: &'a Rules,
     pub(super) board: Board,
     pub(super) block: f64,
     pub(super) there: &'a [bool],
-    /// By type: such sprites can appear in play.
+    /// By type: such sprites can appear during play.
     pub(super) made: &'a [bool],
     pub(super) meetings: &'a [Meeting<'a>],
-    /// By type: what it makes by itself, and the ammunition that each costs.
+    /// By type: the types that it makes by itself, each with the ammunition that it costs.
     pub(super) makes: Vec<Vec<(SpriteType, Option<SpriteType>)>>,
-    /// By type: where touching it leads to.
+    /// By type: the types that touching it leads to.
     pub(super) exits: Vec<Vec<SpriteType>>,
     /// By type: as a resource, it can be held beyond its limit.
     pub(super) unlimited: Vec<bool>,
     pub(super) mobility: Vec<Mobility>,
-    /// The smallest sprite, in cells.
+    /// The size of the smallest sprite, in cells.
     pub(super) smallest: f64,
-    /// Whether some sprite is larger or smaller than a cell.
+    /// `true` if some sprite is larger or smaller than a cell.
     pub(super) scales: bool,
-    /// By type: how many cells others can move it in a tick, at most.
+    /// By type: the largest number of cells that others can move it in a tick.
     pub(super) pushed_far: Vec<i32>,
-    /// By type: something accelerates it, apart from itself.
+    /// By type: something other than itself accelerates it.
     pub(super) forced: Vec<bool>,
     /// By type: some effect gives it an orientation even if its class has none.
     pub(super) takes_orientation: Vec<bool>,
 }
 
 impl<'a> Model<'a> {
-    /// None if the sizes of sprites are out of all proportion.
+    /// Builds the model; None if the sizes of sprites are extreme.
     pub(super) fn of(
         rules: &'a Rules,
         prospect: &'a Prospect<'_>,
@@ -53,7 +53,7 @@ impl<'a> Model<'a> {
         let present = || rules.types.iter().zip(&prospect.there).filter(|(_, there)| **there);
         let factors =
             || present().flat_map(|(info, _)| [info.traits.width_factor, info.traits.height_factor]);
-        // Pixels are whole: a sprite may be a little smaller than its factor says.
+        // Sizes are whole pixels: a sprite may be a little smaller than its factor says.
         let smallest = factors().map(|factor| (factor * block).floor() / block).fold(1.0, f64::min);
         if !factors().all(|factor| factor * block >= 1.0 && factor <= 64.0) {
             return None;
@@ -61,7 +61,7 @@ impl<'a> Model<'a> {
         let mut makes: Vec<_> = (0..rules.types.len()).map(|at| prospect.makes(at)).collect();
         let spawns = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
         let exits = |info: &TypeInfo| {
-            // What a spawner makes is where it leads to, whatever that is in this tick.
+            // A spawner leads to the type that it makes, whichever that is in this tick.
             let made = info.class.is_some_and(spawns).then_some(&info.traits.stypes[..]);
             let exits = info.leads_to().into_iter().chain(made.unwrap_or_default().iter().copied());
             exits.filter(|&exit| exit != SpriteType::NONE).collect::<Vec<SpriteType>>()
@@ -111,12 +111,12 @@ impl<'a> Model<'a> {
         (0..there.len()).filter(|&at| there[at]).map(|at| SpriteType(at as u16))
     }
 
-    /// How many cells around a cell that two sprites share the rest of one of them can lie.
+    /// The distance in cells that one of two sprites sharing a cell can extend around it.
     pub(super) fn spread(&self, stype: SpriteType) -> i32 {
         if self.of_type(stype).loose { self.rules.reach.max(1) } else { 0 }
     }
 
-    /// Whether the fixed point was found in time.
+    /// Runs the fixed point; returns `true` if it converged within the limit.
     fn settle(&mut self) -> bool {
         let types: Vec<SpriteType> = self.types().collect();
         for &stype in &types {
@@ -160,7 +160,7 @@ impl<'a> Model<'a> {
         settled
     }
 
-    /// How many types a meeting is about.
+    /// Returns the number of types that a meeting concerns.
     fn size(&self, meeting: &Meeting<'_>) -> usize {
         match meeting.effect(self.rules) {
             Effect::TransformToRandomChild { options, .. } => options.len(),
@@ -169,7 +169,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// How many cells others can move a sprite of the type in a tick, at most.
+    /// Returns the largest number of cells that others can move a sprite of the type in a tick.
     pub(super) fn pushed_far(&self, stype: SpriteType) -> i32 {
         self.pushed_far[stype.index()]
     }
@@ -178,47 +178,47 @@ impl<'a> Model<'a> {
         self.mobility.iter().map(|own| (own.facing, own.moved, [own.loose, own.placed, own.goes_back]))
     }
 
-    /// So far in a tick that pixels run out of numbers, or that is no number at all.
+    /// Returns `true` if a distance per tick is too large for pixel coordinates, or NaN.
     pub(super) fn is_wild(&self, distance: f64) -> bool {
         distance.is_nan() || distance * self.block >= 1e6
     }
 
-    /// For a move of so many cells: how many cells it can enter, and how many it can skip.
+    /// Returns, for a move of this number of cells, how many cells it can enter and how many it can skip.
     pub(super) fn stride(&self, distance: f64) -> (i32, i32) {
         let most = self.board.side() + 2;
-        // What moves by less than its own size and a cell overlaps every cell on its way, before or after.
+        // A sprite that moves by less than its own size plus one cell overlaps every cell on its way, before or after.
         let leap = if distance >= 1.0 + self.smallest { (distance - self.smallest) as i32 } else { 0 };
         ((distance.ceil() as i32).min(most), leap.min(most))
     }
 
-    /// How far a sprite that is moved with another's speed goes, in cells.
+    /// Returns the distance in cells of a move with another sprite's speed.
     pub(super) fn carried(&self, one: SpriteType, by: SpriteType) -> f64 {
         let (one, by) = (self.of_type(one), self.of_type(by));
-        // A speed of 0 stands for the sprite's own, and that for 1.
+        // A speed of 0 means the sprite's own, and if that is 0, then 1.
         by.top.max(one.top).max(1.0)
     }
 
-    /// Whether sprites of the type are larger or smaller than a cell. The first one of its type has a size of its own until
-    /// it moves: it may seem to have come from somewhere.
+    /// Returns `true` if sprites of the type are larger or smaller than a cell. The first one of its type has a
+    /// different size until it moves, so it may seem to have come from elsewhere.
     pub(super) fn is_odd(&self, stype: SpriteType) -> bool {
         let traits = &self.info(stype).traits;
         traits.width_factor != 1.0 || traits.height_factor != 1.0
     }
 
-    /// Whether one sprite, stopped flush with another, stands where it would have come by itself: beside what was there,
-    /// and does not move.
+    /// Returns `true` if a sprite that is stopped flush with another one stands where its own movement would have taken
+    /// it: beside a sprite that was there from the start and does not move.
     pub(super) fn stops_in_order(&self, one: SpriteType, two: SpriteType) -> bool {
         let (own, partner) = (self.of_type(one), self.of_type(two));
         let stands = partner.fixed && !partner.loose && !self.made[two.index()];
         stands && !self.is_odd(one) && !own.comes_from_far()
     }
 
-    /// Whether, as far as is known by now, sprites of a type never move.
+    /// Returns `true` if, as far as is known so far, sprites of a type never move.
     pub(super) fn is_fixed_now(&self, mobility: &Mobility) -> bool {
         !mobility.placed && mobility.moved.without(Ways::UNSET) == Ways::NONE
     }
 
-    /// The directions into which a sprite pushes others.
+    /// Returns the directions in which a sprite pushes others.
     pub(super) fn pushed(&self, pusher: &Mobility) -> Ways {
         let moved = pusher.moved.without(Ways::UNSET);
         let both = !pushes_straight(pusher) || pusher.backwards;

@@ -1,4 +1,4 @@
-//! How many sprites there can be in a level, at least and at most, and what that means for its terminations.
+//! The smallest and largest numbers of sprites in a level, and their consequences for its terminations.
 
 use super::super::attain::is_mortal;
 use super::super::goal::Condition;
@@ -8,19 +8,19 @@ use super::events::Placed;
 use super::model::Model;
 use crate::game::{Rules, SpriteType};
 
-/// What is known when nothing new is reached any more.
+/// The results of the completed fixed point.
 pub(super) struct Tally<'a> {
     pub(super) rules: &'a Rules,
     pub(super) model: &'a Model<'a>,
     pub(super) placed: &'a Placed,
-    /// By type: cells where one can be ended.
+    /// By type: cells where one can be removed.
     pub(super) ended: &'a [Cells],
-    /// By type: some can appear in play.
+    /// By type: some can appear during play.
     pub(super) made: &'a [bool],
 }
 
 impl Tally<'_> {
-    /// Why a termination with this condition can never hold, if that is certain.
+    /// Returns the reason why a termination with this condition can never hold, if that is certain.
     pub(super) fn hinders(&self, condition: &Condition) -> Option<Cause> {
         let types = condition.types();
         let stay = |limit: i32| {
@@ -39,7 +39,7 @@ impl Tally<'_> {
         }
     }
 
-    /// Sprites of the type that nothing ever ends, and where the level places them.
+    /// Returns the sprites of the type that nothing ever removes, with the cells in which the level places them.
     fn staying(&self, stype: SpriteType) -> Vec<(SpriteType, usize)> {
         let info = &self.rules.types[stype.index()];
         let ended = &self.ended[stype.index()];
@@ -53,7 +53,7 @@ impl Tally<'_> {
         sprites.map(|(stype, cell)| (stype, self.model.board.on_level(cell))).collect()
     }
 
-    /// Whether sprites of the type may be avatars beyond the first, which are removed when a level starts.
+    /// Returns `true` if sprites of the type may be avatars beyond the first, which are removed when a level starts.
     fn is_surplus(&self, stype: SpriteType) -> bool {
         let passes = |stype: &SpriteType| self.model.info(*stype).is_like_avatar();
         let count = || self.model.types().filter(passes).map(|stype| self.count(stype)).sum::<i64>();
@@ -64,7 +64,7 @@ impl Tally<'_> {
         self.placed[stype.index()].iter().map(|(_, count)| i64::from(*count)).sum()
     }
 
-    /// Sprites of the type that can be there at a time; none if there is no telling.
+    /// Returns the largest number of sprites of the type that can exist at a time; none if that is unknown.
     fn most(&self, stype: SpriteType) -> Option<i64> {
         (!self.made[stype.index()]).then(|| self.count(stype))
     }

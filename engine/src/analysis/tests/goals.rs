@@ -1,4 +1,4 @@
-//! What the rules can bring about, and how much of what it takes.
+//! Tests of attainable goals, and of the amounts that they require.
 
 use super::*;
 
@@ -8,7 +8,7 @@ const MAPPING: &str = "g > gem\ni > ice\nk > key\ns > safe\nn > kiln\nA > hero";
 const RULES: &str = "gem hero > killSprite\nice hero > transformTo stype=snow\nkey hero > collectResource\n\
                      safe hero > killIfOtherHasMore resource=key limit=2 subtract=True";
 
-/// Whether each termination can be attained, and whether the game can be won and lost.
+/// Checks the attainability of each termination, and whether the game can be won and lost.
 #[track_caller]
 fn check(rules: &str, terminations: &str, expect: &[Attainable], ends: (bool, bool)) {
     let analysis = Analysis::of(&game(SPRITES, MAPPING, rules, terminations));
@@ -24,7 +24,7 @@ fn what_the_rules_can_bring_about() {
     // Nothing removes a brick, and nothing kills the hero.
     let ends = "SpriteCounter stype=brick win=True\nSpriteCounter stype=hero win=False";
     check(RULES, ends, &[FromStart, FromStart], (false, false));
-    // Ice becomes snow: their sum stays.
+    // Ice becomes snow: their sum stays the same.
     let ends = "MultiSpriteCounter stype1=ice stype2=snow win=True\nSpriteCounter stype=ice win=False";
     check(RULES, ends, &[FromStart, InPlay], (false, true));
     let ends = "SpriteCounterMore stype=snow limit=3 win=True\nSpriteCounterMore stype=gem limit=3 win=False";
@@ -33,25 +33,25 @@ fn what_the_rules_can_bring_about() {
     // There is never a ghost.
     let ends = "SpriteCounterMore stype=ghost limit=1 win=True\nSpriteCounter stype=ghost win=False";
     check(RULES, ends, &[Never, AtOnce], (false, true));
-    // What ends every game in its first tick hides what comes after it.
+    // A termination that ends every game in its first tick hides those after it.
     let ends = "Timeout limit=0 win=False\nSpriteCounter stype=gem win=True\nTimeout limit=3000 win=True";
     check(RULES, ends, &[AtOnce, InPlay, Never], (false, true));
     let ends = "SpriteCounter stype=gem limit=-1 win=True\nMultiSpriteCounter stype1=gem limit=2 win=True";
     check(RULES, ends, &[Never, InPlay], (true, false));
-    // Who has no score loses.
+    // A player without a score loses.
     check(RULES, "Timeout limit=9 count_score=True", &[InPlay], (true, true));
-    // A level without bricks is won when the gem goes, not before.
+    // A level without bricks is won when the gem is removed, not before.
     let ends = "StopCounter stype1=gem min=True\nSpriteCounter stype=brick win=True";
     check(RULES, ends, &[InPlay], (true, false));
     let ends = "SpriteCounter stype=ghost win=False canEnd=False\nTimeout limit=9 win=True";
     check(RULES, ends, &[InPlay, InPlay], (true, true));
-    // A lock whose key cannot be had: not so many, not at all.
+    // A lock whose key cannot be obtained: not in that amount, or not at all.
     check(RULES, "SpriteCounter stype=safe win=True", &[InPlay], (true, false));
     let dear = RULES.replace("limit=2 subtract", "limit=3 subtract");
     check(&dear, "SpriteCounter stype=safe win=True", &[FromStart], (false, false));
     let keyless = RULES.replace("key hero > collectResource\n", "");
     check(&keyless, "SpriteCounter stype=safe win=True", &[FromStart], (false, false));
-    // By the clock, too.
+    // By a timer, too.
     let timed = format!("{RULES}\nhero TIME > killAll stype=brick timer=50");
     check(&timed, "SpriteCounter stype=brick win=True", &[InPlay], (true, false));
 }

@@ -20,7 +20,7 @@ pub(super) fn game(sprites: &str, mapping: &str, interactions: &str, termination
     Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"))
 }
 
-/// Roles as `name: Role`, those of `names`.
+/// Returns the roles of the types in `names`, as `name: Role`.
 fn roles(analysis: &Analysis, names: &str) -> String {
     let role = |name: &str| format!("{name}: {:?}", analysis.role(named(analysis, name)));
     names.split(' ').map(role).collect::<Vec<_>>().join(", ")
@@ -79,7 +79,7 @@ fn locks_know_their_keys() {
     assert_eq!(analysis.locks().len(), 2);
     let resource = &analysis.resources()[0];
     assert_eq!((resource.limit, resource.needed, resource.is_ammunition), (4, 3, false));
-    // Three coins' worth at two a coin.
+    // Three coins are needed, and each sprite gives two.
     let keys = analysis.requirements().iter().find(|r| r.reason == Reason::Lock(named(&analysis, "gate")));
     assert_eq!(keys.map(|keys| (keys.types.clone(), keys.at_least)), Some((vec![coin], 2)));
 }
@@ -192,7 +192,7 @@ fn conditions_switches_and_portals() {
     assert_eq!(analysis.leads_to(named(&analysis, "hole")), Some(named(&analysis, "exit")));
 }
 
-/// What the reference's own analysis overlooks: `spec/05` A2.
+/// Cases that the reference's own analysis overlooks: `spec/05` A2.
 #[test]
 fn harm_has_many_ways() {
     let analysis = Analysis::of(&game(
@@ -227,7 +227,7 @@ fn the_same_game_gives_the_same_analysis() {
     assert_eq!(text(&one), text(&two));
 }
 
-/// The folders in a folder of the workspace, sorted; none, with a message, if it is missing.
+/// Returns the sorted folders in a folder of the workspace; if it is missing, prints a message and returns none.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn folders(path: &str) -> Vec<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
@@ -272,7 +272,7 @@ fn six_public_games() {
     }
 }
 
-/// Every game can be analysed; one that can be won in some level can start in one.
+/// Every game can be analysed, and has an avatar to start with and a winning termination.
 #[test]
 fn every_game_at_hand() {
     for folder in folders("corpora").into_iter().chain(folders("../shared/gvgai/games")) {

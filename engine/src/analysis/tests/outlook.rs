@@ -1,4 +1,4 @@
-//! Chance and hidden things, of a game and of a state.
+//! Tests of chance and hidden sprites, in a game and in a state.
 
 use super::*;
 
@@ -7,7 +7,7 @@ fn state(analysis: &Analysis, level: &str) -> State {
     game.start(&game.level(level).unwrap(), crate::Seed::from_text("outlook"))
 }
 
-/// A fair: a bird flies at random, hatches of an egg that only a nest lays, and a trap that is not seen kills.
+/// A fair: a bird flies at random and hatches from an egg that only a nest lays, and an invisible trap kills.
 fn fair() -> Analysis {
     Analysis::of(&game(
         "bird > RandomNPC\negg > Immovable\nnest > SpawnPoint stype=egg cooldown=3\ntrap > Immovable hidden=True\n\
@@ -27,13 +27,13 @@ fn chance_from_here() {
     for (level, certain) in [
         ("A..\n", true),
         ("Ab.\n", false),
-        // The egg may hatch; so may what the nest lays.
+        // The egg may hatch; so may the eggs of the nest.
         ("Ae.\n", false),
         ("An.\n", false),
-        // One exit is no choice, two are.
+        // One exit leaves no choice, two do.
         ("Ahx\n", true),
         ("Ahxx\n", false),
-        // A bird costs two coins; nobody counts how many there are.
+        // A bird costs two coins; the number of coins is not counted.
         ("Af.\n", true),
         ("Afc\n", false),
     ] {
@@ -67,7 +67,7 @@ fn a_draw_without_a_choice_is_no_chance() {
 #[test]
 fn what_is_not_shown() {
     let analysis = fair();
-    // The mist makes no difference, the lair does.
+    // The mist is irrelevant, the lair is not.
     assert_eq!(names(&analysis, analysis.unseen()), "trap lair");
     assert!(!analysis.is_fully_observable());
     for (level, shown) in [("Am\n", true), ("At\n", false), ("Al\n", false), ("Ax\n", true)] {

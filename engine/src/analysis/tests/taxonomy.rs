@@ -1,8 +1,8 @@
-//! What kind of game it is.
+//! Tests of the taxonomy of games.
 
 use super::*;
 
-/// `time, spatiality, genres`.
+/// Returns `time, spatiality, genres`.
 fn kind(analysis: &Analysis) -> String {
     let Taxonomy { time, spatiality, genres, .. } = analysis.taxonomy();
     let genres: Vec<&str> = genres.iter().map(|genre| genre.name()).collect();
@@ -103,10 +103,10 @@ fn what_makes_time_pass() {
     with("rock > Passive", "rock hero > bounceForward", waits);
     with("made puff > Flicker limit=3", "hero gem > spawn stype=puff", waits);
     with("rain > Missile orientation=DOWN", "rain EOS > wrapAround", runs);
-    // A candle burns down; one that nobody asks for is decoration.
+    // A candle burns down; a candle that no rule mentions is decoration.
     with("candle > Flicker limit=30", "gem candle > killSprite", runs);
     with("candle > Flicker limit=30", "", waits);
-    // A ball that rests until somebody kicks it off.
+    // A ball that stands still until the hero kicks it.
     with("ball > Missile orientation=UP speed=0", "ball hero > setSpeedForAll stype=ball value=1", runs);
     with("seed > Immovable", "seed TIME > transformTo stype=gem timer=9", runs);
 }
@@ -128,7 +128,7 @@ fn names_do_not_count() {
     assert_eq!(kind(&renamed), "real-time, grid: collect adventure escape");
 }
 
-/// By eye, the labels fit.
+/// Judged by hand, the labels fit.
 #[test]
 fn games_that_many_know() {
     let expected = [
@@ -144,7 +144,7 @@ fn games_that_many_know() {
         ("sokoban", "turn-based, grid: puzzle"),
         ("theshepherd", "real-time, grid: guide"),
         ("zelda", "real-time, grid: adventure escape"),
-        // Our own.
+        // Our own games.
         ("bog-lantern", "real-time, grid: survive"),
         ("foxglove-round", "real-time, grid: collect"),
         ("garden-post", "real-time, grid: crossing escape"),

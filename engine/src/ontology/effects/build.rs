@@ -1,41 +1,42 @@
-//! From an interaction line to an [`Effect`]: keywords, required and optional parameters (`spec/03` §2).
+//! Construction of an [`Effect`] from an interaction line: keywords, required and optional parameters (`spec/03` §2).
 
 use super::{Effect, SpeedChange, TransformIfCount};
 use crate::game::SpriteType;
 
-/// The parameters of a line, typed on demand. Getters report what is wrong and go on with a default, so that one line
-/// shows all its problems.
+/// The parameters of a line, typed on demand. Getters report problems and continue with a default, so that all problems
+/// of a line are found.
 pub(crate) trait Arguments {
     fn int(&mut self, key: &'static str, default: i32) -> i32;
     fn number(&mut self, key: &'static str, default: f64) -> f64;
     fn flag(&mut self, key: &'static str, default: bool) -> bool;
-    /// A list of scores, the first of which is ours.
+    /// The first entry of a list of scores: the player's.
     fn score(&mut self, key: &'static str) -> i32;
-    /// A sprite that must be named, and exist.
+    /// A sprite that must be named and must exist.
     fn sprite(&mut self, key: &'static str) -> SpriteType;
-    /// A sprite that must be named; what is not declared is [`SpriteType::NONE`], and dies when it is used if at all.
+    /// A sprite that must be named. An undeclared name gives [`SpriteType::NONE`], which stops the game only when it is
+    /// used.
     fn sprite_or_none(&mut self, key: &'static str) -> SpriteType;
     /// A sprite that may be named.
     fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType>;
-    /// A type by its number in the registry, which the reference takes for some that may be named.
+    /// A type by its number in the registry, which the reference accepts for some of the optional ones.
     fn numbered(&mut self, key: &'static str) -> Option<SpriteType>;
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
     /// The keyword of another effect.
     fn keyword(&mut self, key: &'static str) -> u16;
     /// The effect that addTimer plans: another line of the program.
     fn timed(&mut self) -> u16;
-    /// A type and all that relates to it, itself left out.
+    /// The relatives of a type, without the type itself.
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
 }
 
-/// What the reference makes of an undeclared name (`spec/03` §2.2). Strictly it is an error.
+/// The reference's treatment of an undeclared name (`spec/03` §2.2). Strictly it is an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undeclared {
-    /// There is no such effect, and the file is not read further.
+    /// The effect is dropped, and the file is not read further.
     Fails,
-    /// The name is as good as absent.
+    /// The name counts as absent.
     Absent,
-    /// [`SpriteType::NONE`].
+    /// The name stands for [`SpriteType::NONE`].
     Void,
 }
 
@@ -101,7 +102,7 @@ pub const NAMES: &[&str] = &[
     "wrapAround",
 ];
 
-/// The effect of that keyword; None if there is none.
+/// The effect with that keyword; `None` if there is none.
 pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> {
     Some(match keyword {
         "killSprite" => Effect::KillSprite,
@@ -231,7 +232,7 @@ pub(crate) fn build(keyword: &str, args: &mut impl Arguments) -> Option<Effect> 
             take_orientation: args.flag("takeOrientation", false),
         },
         "waterPhysics" => Effect::WaterPhysics,
-        // Degrees to radians as the reference does it.
+        // Converts degrees to radians as the reference does.
         "bounceDirection" => Effect::BounceDirection {
             most: args.number("maxBounceAngleDeg", 60.0) * 0.017_453_292_519_943_295,
         },
@@ -247,7 +248,7 @@ fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
     Effect::ChangeSpeed { stype: args.sprite("stype"), value: args.number("value", default), how }
 }
 
-/// Whom subtractHealthPoints and removeScore mean, if not their first sprite.
+/// The type that subtractHealthPoints or removeScore names, if any.
 fn subject(args: &mut impl Arguments, undeclared: Undeclared) -> Option<SpriteType> {
     let numbered = args.numbered("itype");
     args.optional_sprite("stype", undeclared).or(numbered)

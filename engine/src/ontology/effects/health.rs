@@ -28,7 +28,8 @@ pub(super) fn add(
     }
 }
 
-/// With a type, the first sprite of the last of its tree's groups that has any; the killing execution scores otherwise.
+/// subtractHealthPoints. With a type, it acts on the first sprite of the last non-empty group of the type's tree; the
+/// killing execution has a score of its own.
 pub(super) fn subtract(
     step: &mut Step<'_>,
     index: u16,
@@ -50,7 +51,7 @@ pub(super) fn subtract(
     }
 }
 
-/// The first sprite of the last of a tree's groups that has any.
+/// The first sprite of the last non-empty group of a tree.
 pub(super) fn last_of(step: &Step<'_>, stype: SpriteType) -> Option<Slot> {
     let tree = step.rules.types.get(stype.index()).map_or(&[][..], |info| &info.tree);
     let groups = tree.iter().map(|&stype| step.state.group(stype).head);

@@ -13,7 +13,7 @@ pub(super) fn when(step: &mut Step<'_>, index: u16, one: Slot, hit: bool) {
     }
 }
 
-/// Every sprite of exactly that type.
+/// Kills every sprite of exactly that type.
 pub(super) fn all(step: &mut Step<'_>, stype: SpriteType) {
     step.work(usize::from(step.state.group(stype).count));
     let mut slot = step.state.group(stype).head;
@@ -38,7 +38,8 @@ pub(super) fn if_frontal(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, 
     when(step, index, one, still || head_on == frontal);
 }
 
-/// killIfFast and killIfSlow: the speed of the one that moves, or the difference of orientations if both do.
+/// killIfFast and killIfSlow: they compare the speed of the one that moves, or the difference of orientations if both
+/// move.
 pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fast: bool) {
     let (first, second) = (step.state.form(one), step.state.form(two));
     let is_static = |slot: Slot| step.rules.types[step.state.sprite(slot).stype.index()].traits.is_static;
@@ -56,7 +57,7 @@ pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fa
     }
 }
 
-/// Upright is a rotation of about 3π/2: nose up.
+/// killIfNotUpright: upright is a rotation of about 3π/2, nose up.
 pub(super) fn if_not_upright(step: &mut Step<'_>, one: Slot) {
     let full = 2.0 * std::f64::consts::PI;
     let rotation = (step.state.rotation(step.rules, step.state.sprite(one)) + full) % full;
@@ -65,7 +66,7 @@ pub(super) fn if_not_upright(step: &mut Step<'_>, one: Slot) {
     }
 }
 
-/// The score goes to 0: of the sprite if it is the avatar, or of all avatars of a type.
+/// Sets the score to 0: of the sprite if it is the avatar, or of all avatars of a type.
 pub(super) fn remove_score(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: Option<SpriteType>) {
     if stype == Some(SpriteType::NONE) {
         return step.stop(Limit::NoType);
@@ -74,7 +75,7 @@ pub(super) fn remove_score(step: &mut Step<'_>, one: Slot, victim: Option<Slot>,
     while slot != NONE {
         step.work(1);
         if step.state.sprite(slot).is(flag::AVATAR) {
-            // Every avatar has a score of its own; the player's is the game's.
+            // Each avatar has a score of its own; the player's is the game's.
             if slot == step.state.avatar {
                 step.state.score = 0;
             }

@@ -1,4 +1,4 @@
-//! The effects of interactions (`spec/03`): an enum of what they do, matched in one place.
+//! The effects of interactions (`spec/03`): an enum, matched in one place.
 
 mod build;
 mod health;
@@ -175,11 +175,11 @@ pub(crate) enum Effect {
     WallStop,
     WallBounce,
     WallReverse,
-    /// Plans one of the game's timed effects.
+    /// Schedules one of the game's timed effects.
     AddTimer {
         timed: u16,
     },
-    /// Draws what the effect within would draw, and does nothing else (`ablation.rs`).
+    /// Makes the draws of the inner effect, and does nothing else (`ablation.rs`).
     Disabled(Box<Effect>),
 }
 
@@ -195,7 +195,7 @@ pub(crate) struct TransformIfCount {
     pub(crate) force_orientation: bool,
 }
 
-/// How increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll differ.
+/// The difference between increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SpeedChange {
     Increase,
@@ -203,7 +203,7 @@ pub(crate) enum SpeedChange {
     Set,
 }
 
-/// What an effect may move when it runs; decides how a pass may look for hits.
+/// The sprites that an effect may move when it runs; decides how a pass may look for hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Moves {
     Nothing,
@@ -228,7 +228,7 @@ impl Effect {
         }
     }
 
-    /// The types that it makes sprites of.
+    /// The types of the sprites that it makes.
     pub(crate) fn makes(&self) -> Vec<SpriteType> {
         let mut types = self.named_types();
         types.retain(|&stype| stype != SpriteType::NONE);
@@ -252,7 +252,7 @@ impl Effect {
         }
     }
 
-    /// The resource that it changes or asks for: such a type need not exist as a sprite.
+    /// The resource that it changes or tests: such a type need not exist as a sprite.
     pub(crate) fn resource(&self) -> Option<SpriteType> {
         let resource = match self {
             Effect::KillIfHasLess { resource, .. }
@@ -266,7 +266,7 @@ impl Effect {
         resource.filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// Whether it can change, or read the place of, sprites that take no part in the meeting.
+    /// Tests whether it can change, or read the place of, sprites that take no part in the meeting.
     pub(crate) fn reaches_afar(&self) -> bool {
         matches!(
             self,
@@ -283,7 +283,8 @@ impl Effect {
         )
     }
 
-    /// Whom it can give speed to, of sprites of grid physics that have none, when it is executed on sprites of the type.
+    /// The type that it can give speed to when it is executed on sprites of `one`: sprites with grid physics and without
+    /// speed.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self {
             Effect::ChangeSpeed { stype, .. } => Some(*stype),
@@ -292,7 +293,7 @@ impl Effect {
         }
     }
 
-    /// Whether executing it can draw from the chance.
+    /// Tests whether executing it can draw random numbers.
     pub(crate) fn draws(&self) -> bool {
         if let Effect::Disabled(effect) = self {
             return effect.draws();
@@ -311,7 +312,7 @@ impl Effect {
     }
 }
 
-/// Runs an effect on a sprite and, in pairs, its partner. Effects that need a partner and have none log a message.
+/// Runs an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a message.
 pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slot, two: Option<Slot>) {
     match (effect, two) {
         (Effect::KillSprite, _) => step.kill(one),
@@ -422,7 +423,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
     }
 }
 
-/// Runs a batch effect on a sprite and all its partners; returns how often it counts.
+/// Runs a batch effect on a sprite and all its partners. Returns how often it counts.
 pub(crate) fn execute_batch(step: &mut Step<'_>, effect: &Effect, one: Slot, partners: &mut Partners) -> i32 {
     match effect {
         Effect::WallBounce => walls::bounce_batch(step, one, partners),
@@ -431,7 +432,7 @@ pub(crate) fn execute_batch(step: &mut Step<'_>, effect: &Effect, one: Slot, par
     }
 }
 
-/// Runs an effect by the clock, on no sprites at all (`spec/03` §6.4).
+/// Runs a timed effect on no sprites at all (`spec/03` §6.4).
 pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
     match effect {
         Effect::KillAll { stype } => kill::all(step, *stype),
@@ -447,7 +448,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
             }
         }
         Effect::AddTimer { timed } => add_timer(step, *timed),
-        // None of those that run alone draws.
+        // No effect that runs alone draws.
         Effect::Disabled(_) => {}
         Effect::KillIfNotUpright | Effect::WaterPhysics => step.stop(Limit::NoSprite),
         Effect::UpdateSpawnType { stype, spawn_point } => {
@@ -457,7 +458,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_>, index: u16, effect: &Effect) {
     }
 }
 
-/// The draws of an effect without what follows from them, so that chance goes on as it would.
+/// Makes the draws of an effect without the consequences, so that the random stream does not shift.
 #[cold]
 fn draw_only(step: &mut Step<'_>, effect: &Effect, one: Slot, two: Option<Slot>) {
     match (effect, two) {
@@ -485,7 +486,7 @@ fn add_timer(step: &mut Step<'_>, timed: u16) {
     step.plan(Timer { due, timed });
 }
 
-/// What an execution adds to the score, and whether the text of it is no number.
+/// The score change of an execution; `true` if its text is not a number.
 pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     match info.effect {
         Effect::SubtractHealthPoints { score_if_killed, .. } if remembered & memory::KILLED != 0 => {
@@ -495,13 +496,13 @@ pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     }
 }
 
-/// Whether a shield of this tick covers the pass (`spec/03` §5.7): exact types and keyword.
+/// Tests whether a shield of this tick covers the pass (`spec/03` §5.7): exact types and keyword.
 pub(crate) fn is_shielded(step: &Step<'_>, pass: &Pass) -> bool {
     step.state.shields.binary_search(&(pass.first, pass.second, pass.keyword)).is_ok()
 }
 
 impl Step<'_> {
-    /// Remembers whether the effect's score applies: some effects say so as they run.
+    /// Remembers whether the effect's score applies, which some effects decide as they run.
     fn apply_score(&mut self, index: u16, on: bool) {
         self.remember(index, memory::APPLY_SCORE, on);
     }

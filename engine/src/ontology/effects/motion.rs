@@ -17,7 +17,8 @@ pub(super) fn step_back(step: &mut Step<'_>, one: Slot, flush_with: Option<Slot>
     step.place(one, rect);
 }
 
-/// Flush with the partner on the side the sprite came from; its last rectangle if it did not come straight.
+/// The place flush with the partner on the side that the sprite came from; its last rectangle if it did not come
+/// straight.
 pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
     let (sprite, other) = (step.state.sprite(one), step.state.sprite(two).rect);
     let last = step.state.last(one);
@@ -33,10 +34,10 @@ pub(super) fn pixel_perfect(step: &Step<'_>, one: Slot, two: Slot) -> Rect {
     }
 }
 
-/// Every sprite of every updated type goes back to its last rectangle.
+/// Puts every sprite of every updated type back to its last rectangle.
 pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
     let rules = step.rules;
-    // Every one is put back, and those of height 0 cannot be put anywhere.
+    // All of them are put back, and sprites of height 0 cannot be placed.
     let is_back = |stype: SpriteType| rules.types[stype.index()].order.is_some() && !spare.contains(&stype);
     if rules.first_differs {
         let mut types = (0..rules.types.len() as u16).map(SpriteType).filter(|&stype| is_back(stype));
@@ -44,7 +45,7 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
             return step.stop(Limit::FlatSprite);
         }
     }
-    // Only sprites that moved in this tick have another last rectangle.
+    // Only sprites that moved in this tick differ from their last rectangle.
     step.work(step.state.moved.len());
     for at in 0..step.state.moved.len() {
         let slot = step.state.moved[at];
@@ -55,14 +56,14 @@ pub(super) fn undo_all(step: &mut Step<'_>, spare: &[SpriteType]) {
     }
 }
 
-/// Back, two steps down, and the other way.
+/// Steps back, moves two steps down, and reverses the direction.
 pub(super) fn turn_around(step: &mut Step<'_>, one: Slot) {
     let last = step.state.last(one);
     let cooldown = step.rules.types[step.state.sprite(one).stype.index()].traits.cooldown;
     step.place(one, last);
     for _ in 0..2 {
         step.set_age(one, cooldown);
-        // In continuous physics the first of the two changes the speed of the second.
+        // In continuous physics, the first of the two steps changes the speed of the second.
         let speed = step.state.form(one).speed;
         physics::active(step, one, Direction::DOWN, speed);
     }
@@ -79,7 +80,7 @@ pub(super) fn flip(step: &mut Step<'_>, one: Slot) {
     step.state.face(one, drawn);
 }
 
-/// To the opposite edge along the orientation, one axis only.
+/// Moves to the opposite edge along the orientation, on one axis only.
 pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
     let screen = step.state.screen();
     let (facing, rect) = (step.state.form(one).orientation, step.state.sprite(one).rect);
@@ -127,14 +128,14 @@ pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: boo
     }
 }
 
-/// The draw of attractGaze, without its consequence.
+/// Makes the draw of attractGaze without the consequences.
 pub(super) fn draw_gaze(step: &mut Step<'_>, one: Slot, two: Slot) {
     if step.state.sprite(one).is(flag::ORIENTED) && step.state.sprite(two).is(flag::ORIENTED) {
         step.state.chance.double();
     }
 }
 
-/// The partner pushes: the sprite moves where the partner moved in this tick, and faces there.
+/// Pushes the sprite: it moves in the direction in which the partner moved in this tick, and faces there.
 pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
     let &Form { orientation: facing, speed, .. } = step.state.form(two);
@@ -149,7 +150,7 @@ pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
     step.state.face(one, push);
 }
 
-/// The partner carries the sprite, once a tick.
+/// Carries the sprite along with the partner, once per tick.
 pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, onto: bool) {
     let Err(at) = step.state.pulled.binary_search(&(index, one)) else { return };
     step.work(step.state.pulled.len() / 64);
@@ -168,7 +169,7 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
     }
 }
 
-/// To a drawn sprite of the type that the partner leads to; to its death if there is none.
+/// Moves the sprite to a random sprite of the type that the partner leads to; kills it if there is none.
 pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
     let Some(exit_type) = exit_of(step, two) else { return step.message() };
     let count = step.state.group(exit_type).count;
@@ -186,7 +187,7 @@ pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
     }
 }
 
-/// The draw of teleportToExit, without its consequence.
+/// Makes the draw of teleportToExit without the consequences.
 pub(super) fn draw_exit(step: &mut Step<'_>, two: Slot) {
     let count = exit_of(step, two).map_or(0, |exit_type| step.state.group(exit_type).count);
     if count > 0 {
@@ -194,11 +195,11 @@ pub(super) fn draw_exit(step: &mut Step<'_>, two: Slot) {
     }
 }
 
-/// Where touching a sprite leads.
+/// The type to which touching a sprite leads.
 fn exit_of(step: &Step<'_>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.state.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
-    // What a spawner makes is where it leads to, and may change.
+    // A spawner leads to the type that it makes, which may change.
     let leads_to = if spawns { Some(step.state.form(two).spawns) } else { info.leads_to() };
     leads_to.filter(|&stype| stype != SpriteType::NONE)
 }

@@ -1,9 +1,10 @@
-//! Which parameters an effect takes: asked of [`build`] itself, so that there is no second table to keep.
+//! The parameters of the effects: recorded from the calls of [`build`] itself, so that there is no second table to
+//! maintain.
 
 use super::build::{Arguments, Undeclared, build};
 use crate::game::SpriteType;
 
-/// What the value of an effect's parameter is.
+/// The kind of value of an effect's parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterKind {
     /// A whole number.
@@ -12,7 +13,7 @@ pub enum ParameterKind {
     Number,
     /// `True` or `False`.
     Flag,
-    /// A list of scores, one a player.
+    /// A list of scores, one per player.
     Scores,
     /// The name of a sprite type, which must be given.
     Sprite,
@@ -24,18 +25,18 @@ pub enum ParameterKind {
     TypeNumber,
     /// The keyword of an effect, which must be given.
     Effect,
-    /// The keyword of an effect to be planned, which must be given; the parameters of that effect come with it.
+    /// The keyword of an effect to be scheduled, which must be given; the parameters of that effect follow.
     Planned,
 }
 
-/// The parameters that an effect has beyond those of every effect; none for an unknown keyword.
+/// The parameters of an effect that not every effect has; empty for an unknown keyword.
 pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
     let mut recorder = Recorder::default();
     build(keyword, &mut recorder);
     recorder.asked
 }
 
-/// Notes what is asked for, and answers with defaults.
+/// Records the requested parameters, and answers with defaults.
 #[derive(Default)]
 struct Recorder {
     asked: Vec<(&'static str, ParameterKind)>,

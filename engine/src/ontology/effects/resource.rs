@@ -5,7 +5,7 @@ use crate::ontology::class::SpriteClass;
 use crate::state::Slot;
 use crate::step::Step;
 
-/// What a resource is collected as, how much it is worth and how much of it there can be; None if it is no resource.
+/// The type, value and limit of a resource sprite; `None` if it is not a resource.
 fn resource_of(step: &mut Step<'_>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
     let info = &step.rules.types[step.state.sprite(slot).stype.index()];
     let resource = info.traits.resource;
@@ -19,8 +19,8 @@ fn resource_of(step: &mut Step<'_>, slot: Slot) -> Option<(SpriteType, i32, i32)
     Some((resource, info.traits.value, step.rules.types[resource.index()].resource_limit))
 }
 
-/// The partner takes the resource, up to its limit. On a sprite that is no resource nothing happens, not even to what
-/// the effect remembers.
+/// The partner takes the resource, up to its limit. A sprite that is not a resource changes nothing, not even the memory
+/// of the effect.
 pub(super) fn collect(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, kill: bool) {
     let Some((resource, value, limit)) = resource_of(step, one) else { return };
     let amount = step.state.amount(two, resource);
@@ -33,7 +33,7 @@ pub(super) fn collect(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, kil
     }
 }
 
-/// The partner takes the resource if it holds enough of another; it goes even where there is no room.
+/// The partner takes the resource if it holds enough of another one; the resource disappears even if there is no room.
 pub(super) fn collect_if_held(
     step: &mut Step<'_>,
     index: u16,
@@ -56,7 +56,7 @@ pub(super) fn collect_if_held(
     }
 }
 
-/// Changes what the sprite holds, if the limit allows.
+/// Changes the amount that the sprite holds, if the limit allows it.
 pub(super) fn change(
     step: &mut Step<'_>,
     index: u16,

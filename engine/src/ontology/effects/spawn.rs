@@ -1,4 +1,4 @@
-//! Effects that make sprites (`spec/03` §7.4). The draw comes first, also where the outcome is certain.
+//! Effects that make sprites (`spec/03` §7.4). The draw comes first, even if the outcome is certain.
 
 use super::Effect;
 use crate::game::{Limit, SpriteType};
@@ -7,7 +7,7 @@ use crate::state::{NONE, Slot};
 use crate::step::Step;
 
 pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64) {
-    // A `prob` that is no number forbids nothing.
+    // A `prob` of NaN always spawns.
     if step.state.chance.double() >= prob {
         return;
     }
@@ -15,7 +15,7 @@ pub(super) fn here(step: &mut Step<'_>, one: Slot, stype: SpriteType, prob: f64)
     step.add(stype, rect.x, rect.y);
 }
 
-/// spawnIfHasMore and spawnIfHasLess; only the former spends.
+/// spawnIfHasMore and spawnIfHasLess; only the first can spend.
 pub(super) fn if_amount(step: &mut Step<'_>, index: u16, one: Slot, effect: &Effect) {
     let Effect::SpawnIf { resource, limit, stype, spend, prob, more } = *effect else { return };
     step.apply_score(index, false);
@@ -33,7 +33,7 @@ pub(super) fn if_amount(step: &mut Step<'_>, index: u16, one: Slot, effect: &Eff
     }
 }
 
-/// spawnAbove, spawnBelow, spawnLeft, spawnRight: a block beside the partner, or beside where it came from.
+/// spawnAbove, spawnBelow, spawnLeft, spawnRight: spawn one block beside the partner, or beside its last place.
 pub(super) fn beside(
     step: &mut Step<'_>,
     two: Slot,
@@ -55,7 +55,7 @@ pub(super) fn beside(
     step.add(stype, x, y);
 }
 
-/// Where the partner was, if it has left that place.
+/// Spawns at the partner's last place, if the partner has left it.
 pub(super) fn behind(step: &mut Step<'_>, two: Slot, stype: SpriteType, prob: f64) {
     if step.state.chance.double() >= prob {
         return;
@@ -71,7 +71,7 @@ pub(super) fn clone(step: &mut Step<'_>, one: Slot) {
     step.add(sprite.stype, sprite.rect.x, sprite.rect.y);
 }
 
-/// One type or another, by how many there are of a third and of how many kinds.
+/// Spawns one of two types, depending on the number of sprites and of kinds of a third type.
 pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, effect: &Effect) {
     let Effect::SpawnIfCounterSubTypes { stype, otherwise, counted, limit, kinds } = *effect else { return };
     let rules = step.rules;
@@ -89,8 +89,8 @@ pub(super) fn if_counter_subtypes(step: &mut Step<'_>, index: u16, one: Slot, ef
     step.add(if met { stype } else { otherwise }, rect.x, rect.y);
 }
 
-/// Spawn points of a type and its relatives make another type from now on; those that draw from a list, instead of the
-/// partner's.
+/// Sets the type that spawn points of a type and its relatives make. Those that draw from a list replace the partner's
+/// type in it.
 pub(super) fn update_type(
     step: &mut Step<'_>,
     partner: Option<Slot>,

@@ -19,7 +19,7 @@ pub(super) fn to(step: &mut Step<'_>, one: Slot, victim: Option<Slot>, stype: Sp
     }
 }
 
-/// Every sprite of exactly that type, singletons notwithstanding.
+/// Transforms every sprite of exactly that type, even into singletons.
 pub(super) fn all(step: &mut Step<'_>, victim: Option<Slot>, stype: SpriteType, to: SpriteType, force: bool) {
     if stype == to && step.state.group(stype).head != NONE {
         return step.stop(Limit::EndlessTransform);
@@ -35,7 +35,7 @@ pub(super) fn all(step: &mut Step<'_>, victim: Option<Slot>, stype: SpriteType, 
     }
 }
 
-/// A drawn relative of a type.
+/// Transforms into a random relative of a type.
 pub(super) fn random_child(
     step: &mut Step<'_>,
     one: Slot,
@@ -56,7 +56,7 @@ pub(super) fn random_child(
     }
 }
 
-/// By how many there are of a type: killed and disabled ones count.
+/// Transforms depending on the number of sprites of a type; killed and disabled ones count.
 pub(super) fn if_count(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, rule: &TransformIfCount) {
     if rule.counted == SpriteType::NONE {
         return step.stop(Limit::NoType);
@@ -74,7 +74,7 @@ pub(super) fn if_count(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, ru
     }
 }
 
-/// The sprite becomes the one of its kind; who was that before becomes something else.
+/// Makes the sprite the singleton of its type; the sprite that was the singleton becomes another type.
 pub(super) fn to_singleton(
     step: &mut Step<'_>,
     one: Slot,
@@ -106,7 +106,7 @@ pub(super) fn to_singleton(
     }
 }
 
-/// As [`hand_over`], but the orientation goes over whatever it is, and health does not.
+/// Like [`hand_over`], but always passes on the orientation, and never health.
 fn inherit(step: &mut Step<'_>, old: Slot, new: Slot) {
     if step.state.sprite(old).is(flag::ORIENTED) && step.state.sprite(new).is(flag::ORIENTED) {
         step.state.face(new, step.state.form(old).orientation);
@@ -114,7 +114,7 @@ fn inherit(step: &mut Step<'_>, old: Slot, new: Slot) {
     pass_on(step, old, new);
 }
 
-/// What the new sprite takes over from the old one, and the end of the old one.
+/// Passes the properties of the old sprite on to the new one, and removes the old one.
 fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
     let (before, after) = (*step.state.form(old), *step.state.form(new));
     let oriented = step.state.sprite(new).is(flag::ORIENTED) && step.state.sprite(old).is(flag::ORIENTED);
@@ -130,7 +130,7 @@ fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, fo
     }
 }
 
-/// The last rectangle, resources and the player; then the old sprite goes.
+/// Passes on the last rectangle, the resources and the player; then removes the old sprite.
 fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
     let before = *step.state.sprite(old);
     step.set_last(new, step.state.last(old));
@@ -140,11 +140,11 @@ fn pass_on(step: &mut Step<'_>, old: Slot, new: Slot) {
             step.add_amount(new, resource, amount);
         }
     }
-    // The player moves on with the avatar, if the new sprite can be one; else the old one stays, disabled.
+    // The player moves on to the new avatar, if the new sprite can be one; otherwise the old avatar stays, disabled.
     let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
         if step.state.avatar == NONE {
-            // The reference takes score and player over from an avatar that is not there.
+            // The reference takes the score and the player from an avatar that does not exist.
             return step.stop(Limit::NoAvatar);
         }
         step.control(new);

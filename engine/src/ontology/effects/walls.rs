@@ -9,13 +9,13 @@ use crate::state::Slot;
 use crate::step::Step;
 use crate::trigonometry::{cos, sin};
 
-/// Pixels right and down that a sprite wants to move in a tick.
+/// The displacement that a sprite aims at in a tick, in pixels right and down.
 fn velocity(step: &Step<'_>, slot: Slot) -> Direction {
     let &Form { orientation, speed, .. } = step.state.form(slot);
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
-/// Whether a sprite met a rectangle from the side, and from above or below; both or neither are possible.
+/// The flags for a collision with a rectangle from the side, and from above or below; both or neither may be set.
 fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
     let rect = step.state.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
@@ -42,7 +42,7 @@ fn collision(step: &Step<'_>, one: Slot, other: Rect) -> (bool, bool) {
     (across < along, along < across)
 }
 
-/// The rectangle that several partners make together, and how many of them it is: two that are aligned count as two.
+/// The rectangle that several partners form together, and their number: two aligned partners count as two.
 fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.state.sprite(slot).rect;
     if let [first, second] = partners[..] {
@@ -66,7 +66,7 @@ fn joined(step: &Step<'_>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     (1, rect(partners[0]))
 }
 
-/// Everybody who met goes back to where it was.
+/// Puts all participants of the collision back to their last rectangles.
 fn separate(step: &mut Step<'_>, one: Slot, partners: &[Slot]) {
     for &slot in std::iter::once(&one).chain(partners) {
         let last = step.state.last(slot);
@@ -102,7 +102,7 @@ pub(super) fn bounce(step: &mut Step<'_>, one: Slot, two: Slot) {
     separate(step, one, &[two]);
 }
 
-/// Keeps only what is left of a velocity; gravity is the least speed.
+/// Reduces the velocity to `rest`; gravity is the minimum speed.
 fn slow(step: &mut Step<'_>, one: Slot, rest: Direction) {
     let gravity = step.state.gravity(step.rules, one);
     let length = (rest.x * rest.x + rest.y * rest.y).sqrt();
@@ -133,7 +133,7 @@ pub(super) fn reverse(step: &mut Step<'_>, one: Slot, two: Slot) {
     separate(step, one, &[two]);
 }
 
-/// Flush with the wall, going on along it.
+/// Places the sprite flush with the wall, and lets it continue along it.
 pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
     let rect = pixel_perfect(step, one, two);
     step.place(one, rect);
@@ -144,7 +144,7 @@ pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
     slow(step, one, rest);
 }
 
-/// Off a paddle: the further from its middle, the steeper.
+/// Bounces off a paddle: the further from its middle, the steeper.
 pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: f64) {
     let (ball, paddle) = (*step.state.sprite(one), step.state.sprite(two).rect);
     let (velocity, last) = (velocity(step, one), step.state.last(one));

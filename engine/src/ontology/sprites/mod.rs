@@ -1,4 +1,4 @@
-//! What sprites do by themselves in a tick (`spec/02` §4–§8).
+//! The updates of sprites in a tick (`spec/02` §4–§8).
 
 pub(crate) mod npcs;
 mod plain;
@@ -12,10 +12,10 @@ use crate::ontology::physics;
 use crate::state::{Slot, Sprite, State, flag};
 use crate::step::Step;
 
-/// `heading` of an NPC that has not drawn a direction.
+/// The `heading` of an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u32 = 4;
 
-/// Whether the update of such sprites does anything at all: if not, they cost nothing in a tick.
+/// Tests whether the updates of a type do nothing at all: such sprites cost nothing in a tick.
 pub(crate) fn is_idle(class: SpriteClass, info: &TypeInfo) -> bool {
     use SpriteClass as C;
     let traits = &info.traits;
@@ -29,7 +29,7 @@ pub(crate) fn is_idle(class: SpriteClass, info: &TypeInfo) -> bool {
     stays && traits.time_to_live < 0 && !traits.oriented_image
 }
 
-/// Whether sprites of the class can draw from the chance.
+/// Tests whether sprites of the class can draw random numbers.
 pub(crate) fn draws(class: SpriteClass) -> bool {
     use SpriteClass as C;
     class.is_a(C::RandomNPC)
@@ -38,7 +38,8 @@ pub(crate) fn draws(class: SpriteClass) -> bool {
         || matches!(class, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
 }
 
-/// Whether [`base`] does nothing to a sprite in this tick: it does not move by itself, or not yet again.
+/// Tests whether [`base`] does nothing to a sprite in this tick: the sprite does not move by itself, or its cooldown has
+/// not passed.
 #[inline]
 pub(crate) fn stays(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
     let stands = || state.form_of(sprite).speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
@@ -46,7 +47,7 @@ pub(crate) fn stays(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
         && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, state))
 }
 
-/// Whether a sprite does not move by itself because it has moved not long ago.
+/// Tests whether a sprite does not move by itself because its cooldown has not passed.
 #[inline]
 pub(crate) fn waits(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
     let age = state.tick.wrapping_sub(sprite.moved_at);
@@ -58,23 +59,23 @@ pub(crate) fn waits(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
 pub(crate) struct Mover {
     pub(crate) stype: SpriteType,
     pub(crate) class: SpriteClass,
-    /// Place in the update order.
+    /// The place in the update order.
     pub(crate) order: i32,
     pub(crate) habit: Habit,
-    /// Its sprites may fly or rest.
+    /// `true` if its sprites may fly or sleep.
     pub(crate) foreseen: bool,
-    /// Producers: the draws with which they make something, see [`producers::threshold`].
+    /// Producers: the bound of the draws with which they make something, see [`producers::threshold`].
     pub(crate) threshold: i32,
 }
 
-/// How the updates of a type begin.
+/// The start of a type's updates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Habit {
-    /// With a draw; without a sprite made, [`base`] is all that follows.
+    /// A draw; if no sprite is made, only [`base`] follows.
     Draws,
-    /// With [`base`], and that is all.
+    /// [`base`], and nothing else.
     Moves,
-    /// With a drift, which is none while the sprite waits; then all that it does is to choose where to go.
+    /// A drift, unless the sprite waits; then only the choice of a direction.
     Chooses,
     Other,
 }
@@ -92,7 +93,7 @@ pub(crate) fn habit(class: SpriteClass, traits: &Traits) -> Habit {
     }
 }
 
-/// One update. The avatar is updated in `avatars`.
+/// Updates a sprite. The avatar is updated in `avatars`.
 pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     use SpriteClass as C;
     match class {
@@ -117,7 +118,7 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
         C::RandomBomber => producers::random_bomber(step, slot),
         C::BomberRandomMissile => producers::bomber_random_missile(step, slot),
         C::SpawnPointMultiSprite => producers::multi_sprite(step, slot),
-        // Avatars are updated as the player's or not at all.
+        // Avatars are updated only as the player's.
         C::MovingAvatar
         | C::HorizontalAvatar
         | C::VerticalAvatar
@@ -140,7 +141,7 @@ pub(crate) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     }
 }
 
-/// The update of every sprite that does not replace it: passive movement, then the time to live.
+/// The default update: passive movement, then the time to live.
 #[inline]
 pub(crate) fn base(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);

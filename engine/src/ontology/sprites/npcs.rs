@@ -1,4 +1,4 @@
-//! Characters that move by chance or after others (`spec/02` §7).
+//! Characters that move at random or pursue others (`spec/02` §7).
 
 use super::NO_HEADING;
 use crate::form::Target;
@@ -10,15 +10,16 @@ use crate::state::{NONE, Slot, Sprite, State, flag};
 use crate::step::Step;
 use smallvec::SmallVec;
 
-/// Directions to choose among, as indices of the base directions; one that several targets ask for is there several times.
+/// The directions to choose from, as indices of the base directions; a direction appears once for each target that it
+/// suits.
 type Options = SmallVec<[u8; 16]>;
 
-/// Drifts, then goes where it wants to.
+/// Drifts, then moves in the chosen direction.
 #[inline(always)]
 pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     let sprite = step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    // All others do not drift.
+    // Other characters do not drift.
     if sprite.is(flag::FIRST_TICK | flag::ORIENTED) || traits.continuous {
         physics::passive(step, slot);
     }
@@ -37,7 +38,7 @@ pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     physics::active(step, slot, direction, speed);
 }
 
-/// What a character does that has to wait, see [`super::waits`]: it chooses where to go.
+/// Chooses the direction of a character that has to wait, see [`super::waits`].
 #[inline(always)]
 pub(crate) fn choose(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     if wanders(class) {
@@ -48,7 +49,7 @@ pub(crate) fn choose(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     }
 }
 
-/// Whether characters of the class go where chance leads them.
+/// Tests whether characters of the class move at random.
 fn wanders(class: SpriteClass) -> bool {
     matches!(class, SpriteClass::RandomNPC | SpriteClass::RandomInertial)
 }
@@ -67,7 +68,7 @@ fn pursue(step: &mut Step<'_>, slot: Slot, class: SpriteClass) -> Direction {
     }
 }
 
-/// A drawn direction, kept for `cons` more updates.
+/// A random direction, kept for `cons` more updates.
 fn random_move(step: &mut Step<'_>, slot: Slot, cons: i32) -> Direction {
     towards(random_heading(step, slot, cons))
 }
@@ -100,7 +101,7 @@ fn towards(heading: u32) -> Direction {
     }
 }
 
-/// One of the options, if there are any.
+/// One of the options at random; `None` without options.
 #[inline(always)]
 fn drawn(step: &mut Step<'_>, options: &[u8]) -> Option<Direction> {
     if options.is_empty() {
@@ -110,12 +111,12 @@ fn drawn(step: &mut Step<'_>, options: &[u8]) -> Option<Direction> {
     Some(Direction::BASE[usize::from(options[drawn])])
 }
 
-/// Chaser and Fleeing: a step that changes the distance to one of the closest targets in the wanted sense.
+/// Chaser and Fleeing: a step towards, or away from, one of the closest targets.
 fn chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     chase_visible(step, slot, |_, _| true)
 }
 
-/// LOSChaser: sees only along the direction that it drew last, through walls.
+/// LOSChaser: sees only along the direction that it drew last, even through walls.
 fn los_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let ahead = heading(step, slot);
     chase_visible(step, slot, |own, target| match ahead {
@@ -137,7 +138,7 @@ fn chase_visible(step: &mut Step<'_>, slot: Slot, sees: impl Fn(Rect, Rect) -> b
     drawn(step, &options).unwrap_or_else(|| random_move(step, slot, traits.cons))
 }
 
-/// What to choose among because of the closest targets, if they are near enough.
+/// The directions to choose from for the closest targets, if they are near enough.
 #[inline(always)]
 fn options(
     continuous: bool,
@@ -157,11 +158,11 @@ fn options(
     options
 }
 
-/// The directions in which one pixel brings nearer to the target, or takes away from it.
+/// Adds the directions in which one pixel reduces the distance to the target, or increases it for fleeing.
 fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &mut Options) {
     let is_near = [own.x, own.y, target.x, target.y].iter().all(|at| at.unsigned_abs() < 1 << 30);
     if !continuous && is_near {
-        // On the grid, the distance is one less if there is a gap that way, and one more otherwise.
+        // On the grid, the distance shrinks by one if there is a gap that way, and grows by one otherwise.
         let (right, below) = (target.x - own.x, target.y - own.y);
         let gaps = [-below, -right, below, right];
         for (direction, gap) in (0..).zip(gaps) {
@@ -181,7 +182,7 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
     }
 }
 
-/// Whom a sprite is after: those of a type, then those of others.
+/// The targets of a sprite: sprites of one type, then those of other types.
 #[derive(Clone, Copy)]
 struct Targets<'a> {
     first: Option<SpriteType>,
@@ -208,7 +209,7 @@ impl<'a> Targets<'a> {
     }
 }
 
-/// Sprites of exactly that type, or of its relatives if there are none.
+/// The sprites of exactly that type, or of its relatives if there are none.
 fn own_or_related<'a>(step: &mut Step<'a>, stype: SpriteType) -> Targets<'a> {
     if stype == SpriteType::NONE {
         step.stop(Limit::NoType);
@@ -222,7 +223,7 @@ fn own_or_related<'a>(step: &mut Step<'a>, stype: SpriteType) -> Targets<'a> {
     targets
 }
 
-/// The first of those at the least distance, and whether there are others.
+/// The first of the targets at the smallest distance, and whether there are others.
 struct Closest {
     distance: f64,
     first: Rect,
@@ -243,7 +244,7 @@ fn closest(continuous: bool, from: Rect, targets: impl Iterator<Item = Rect>) ->
     found
 }
 
-/// PathChaser: along the path to the first of the closest targets.
+/// PathChaser: follows the path to the first of the closest targets.
 fn path_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;
@@ -258,7 +259,7 @@ fn path_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     }
 }
 
-/// The first step of the way to a place; a game without `obs=` has no paths, and asking for one is the end of it.
+/// The first step of the path to a place. A game without `obs=` has no paths: asking for one stops it.
 fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Direction> {
     if !step.rules.finds_paths {
         step.stop(Limit::NoPaths);
@@ -269,8 +270,8 @@ fn first_step(step: &mut Step<'_>, from: Rect, to: (i32, i32)) -> Option<Directi
     way
 }
 
-/// The targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself among them, so
-/// that those of a leaf type are there twice.
+/// The targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself included, so that
+/// sprites of a leaf type appear twice.
 fn alternate_targets<'a>(step: &mut Step<'a>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
     let stypes = &rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
@@ -282,7 +283,7 @@ fn alternate_targets<'a>(step: &mut Step<'a>, slot: Slot) -> Targets<'a> {
     if total == 0 {
         return Targets::NONE;
     }
-    // Among several types the reference chooses with a generator of its own, without a seed.
+    // Among several types the reference chooses with an unseeded generator of its own.
     let chosen = match stypes.len() {
         1 => stypes[0],
         count => stypes[step.state.jumps.below(count as i32) as usize],
@@ -292,7 +293,7 @@ fn alternate_targets<'a>(step: &mut Step<'a>, slot: Slot) -> Targets<'a> {
     targets
 }
 
-/// AlternateChaser: a step nearer to one of the closest targets; it never flees, whatever its parameters say.
+/// AlternateChaser: a step towards one of the closest targets; it never flees, whatever its parameters say.
 fn alternate_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let targets = alternate_targets(step, slot);
     let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
@@ -301,7 +302,7 @@ fn alternate_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.state.chance.below(4) as usize])
 }
 
-/// RandomAltChaser and RandomPathAltChaser: now and then a random step instead; the first draw is made in any case.
+/// RandomAltChaser and RandomPathAltChaser: occasionally a random step instead; the first draw is made in any case.
 fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot) -> Direction) -> Direction {
     let epsilon = step.rules.types[step.state.sprite(slot).stype.index()].traits.epsilon;
     if step.state.chance.double() < epsilon {
@@ -311,7 +312,7 @@ fn or_random(step: &mut Step<'_>, slot: Slot, otherwise: fn(&mut Step<'_>, Slot)
     }
 }
 
-/// PathAltChaser: keeps to one target until it stands on it, along paths.
+/// PathAltChaser: follows paths to one target until it stands on it.
 fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     let rules = step.rules;
     let own = step.state.sprite(slot).rect;
@@ -345,7 +346,7 @@ fn path_alt_chaser(step: &mut Step<'_>, slot: Slot) -> Direction {
     way.unwrap_or(Direction::NONE)
 }
 
-/// The first of the closest targets, or a drawn one.
+/// The first of the closest targets, or a random one.
 fn new_target(step: &mut Step<'_>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
     let Sprite { rect: own, stype, .. } = *step.state.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;

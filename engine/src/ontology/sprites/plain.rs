@@ -14,7 +14,7 @@ pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
 }
 
-/// Killed in the update in which its age exceeds the limit.
+/// Kills a flicker in the update in which its age exceeds the limit.
 pub(super) fn flicker(step: &mut Step<'_>, slot: Slot) {
     base(step, slot);
     let sprite = step.state.sprite(slot);

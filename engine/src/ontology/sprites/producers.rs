@@ -11,27 +11,27 @@ use crate::rest::mark;
 use crate::state::{NONE, Slot, State, flag};
 use crate::step::Step;
 
-/// SpawnPoint and Bomber: a draw in every update; a sprite when the tick and the draw allow it.
+/// SpawnPoint and Bomber: one draw per update, and a sprite when the tick and the draw allow it.
 pub(super) fn spawn_point(step: &mut Step<'_>, slot: Slot) {
     let stype = step.state.form(slot).spawns;
     produce(step, slot, &[stype]);
 }
 
-/// SpawnPointMultiSprite: one of each.
+/// SpawnPointMultiSprite: one sprite of each type.
 pub(super) fn multi_sprite(step: &mut Step<'_>, slot: Slot) {
     let stypes = &step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes;
     produce(step, slot, stypes);
 }
 
-/// The draws of a producer, as numbers of [`DRAW`] bits, that are below its probability: those less than this.
+/// The bound of a producer's draws, as a number of [`DRAW`] bits: draws below it are below the producer's probability.
 pub(crate) fn threshold(prob: f64) -> i32 {
-    // Exact, as scaling by a power of two is. No draw is at or above what is no number.
+    // Scaling by a power of two is exact. No draw is at or above NaN.
     let scaled = (prob * f64::from(1 << DRAW)).ceil();
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Passes over SpawnPoints and Bombers, from `slot` on, that only draw in this tick, as most do in most ticks. Returns the
-/// first one that does more.
+/// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, the most frequent case. Returns the first
+/// one that does more.
 pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = state.chance;
     while slot != NONE {
@@ -85,7 +85,7 @@ fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
     }
 }
 
-/// Moves at random, then does what a spawn point does, where it now stands.
+/// Moves at random, then acts as a spawn point at its new place.
 pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
     let direction = Direction::BASE[step.state.chance.below(4) as usize];
     let speed = step.state.form(slot).speed;
@@ -93,7 +93,7 @@ pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
     spawn_point(step, slot);
 }
 
-/// Draws what it would make, in every update.
+/// Draws the type that it would make in every update.
 pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
     let count = step.rules.types[step.state.sprite(slot).stype.index()].traits.stypes.len();
     if count == 0 {

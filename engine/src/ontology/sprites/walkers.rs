@@ -1,4 +1,4 @@
-//! Walkers: they follow the ground and turn at walls (`spec/02` §7.6).
+//! Walkers: characters that follow the ground and turn at walls (`spec/02` §7.6).
 
 use crate::form::Form;
 use crate::geometry::Direction;
@@ -29,7 +29,7 @@ pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
     step.state.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
-/// Jumps now and then; the reference decides it with a generator apart from the game's.
+/// Jumps occasionally; the reference decides it with a generator other than the game's.
 pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
     physics::passive(step, slot);
     let sprite = *step.state.sprite(slot);
@@ -43,7 +43,7 @@ pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
     step.state.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
-/// Upwards, and off the ground at once.
+/// Jumps upwards, and leaves the ground at once.
 pub(in crate::ontology) fn jump(step: &mut Step<'_>, slot: Slot, strength: f64) {
     let form = step.state.edit_form(slot);
     form.orientation.y = 0.0;

@@ -1,11 +1,12 @@
-//! Small games for test vectors: sprites put at pixels of a board of blocks of 10, loaded as the reference does.
+//! Small games for test vectors: sprites at given pixels of a board with blocks of 10 pixels, loaded as the reference
+//! does.
 
 use engine::{Action, Chance, Game, Outcome, SpriteRecord, State};
 
 /// Pixels of a cell.
 const BLOCK: i32 = 10;
 
-/// The lines of a game, and its board.
+/// The lines of a game and its board.
 pub(crate) struct Setup<'a> {
     header: &'a str,
     sprites: &'a str,
@@ -16,25 +17,25 @@ pub(crate) struct Setup<'a> {
     seed: i64,
 }
 
-/// A game under way.
+/// A game in progress.
 pub(crate) struct Board {
     pub(crate) game: Game,
     pub(crate) state: State,
 }
 
-/// A game of these sprites and interactions, a line each, on a board of 12 by 6 cells.
+/// A game with these sprites and interactions, a line each, on a board of 12 by 6 cells.
 pub(crate) fn setup<'a>(sprites: &'a str, rules: &'a str) -> Setup<'a> {
     let (header, ends) = ("", "Timeout limit=500 win=True");
     Setup { header, sprites, rules, ends, columns: 12, rows: 6, seed: 1 }
 }
 
 impl<'a> Setup<'a> {
-    /// Parameters of the first line.
+    /// Sets the parameters of the first line.
     pub(crate) fn header(self, header: &'a str) -> Setup<'a> {
         Setup { header, ..self }
     }
 
-    /// The terminations.
+    /// Sets the terminations.
     pub(crate) fn ends(self, ends: &'a str) -> Setup<'a> {
         Setup { ends, ..self }
     }
@@ -43,7 +44,7 @@ impl<'a> Setup<'a> {
         Setup { columns, rows, ..self }
     }
 
-    /// The file, and the level that places the sprites: name and pixels of each.
+    /// The game file, and the level that places the sprites, given by name and pixels.
     pub(crate) fn texts(&self, placed: &[(&str, i32, i32)]) -> (String, String) {
         let mut cells: Vec<((i32, i32), Vec<&str>)> = Vec::new();
         for &(name, x, y) in placed {
@@ -81,7 +82,7 @@ impl<'a> Setup<'a> {
         Board { game, state }
     }
 
-    /// The codes of the problems that strict loading has with the file.
+    /// The codes of the problems that strict loading finds in the file.
     pub(crate) fn problems(&self, placed: &[(&str, i32, i32)]) -> Vec<&'static str> {
         let problems = Game::from_source(&self.texts(placed).0).err();
         problems.map_or(Vec::new(), |all| all.0.iter().map(|problem| problem.code).collect())
@@ -89,7 +90,7 @@ impl<'a> Setup<'a> {
 }
 
 impl Board {
-    /// Plays a key each: `U`, `L`, `D`, `R`, `X` for use, anything else for nothing.
+    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` for use, any other for nothing.
     pub(crate) fn play(&mut self, keys: &str) -> &mut Board {
         for key in keys.chars() {
             let action = match key {
@@ -136,12 +137,12 @@ impl Board {
         (rect.x, rect.y)
     }
 
-    /// Creation numbers.
+    /// The creation numbers of the sprites of a type.
     pub(crate) fn ids(&self, name: &str) -> Vec<u32> {
         self.all(name).iter().map(|record| record.id).collect()
     }
 
-    /// What the avatar holds.
+    /// The resources that the avatar holds.
     pub(crate) fn held(&self) -> Vec<(String, i32)> {
         self.game.held_by_avatar(&self.state)
     }
@@ -154,12 +155,12 @@ impl Board {
         self.state.messages()
     }
 
-    /// Whether the reference would have died.
+    /// Returns `true` if the reference would have crashed.
     pub(crate) fn died(&self) -> bool {
         matches!(self.state.outcome(), Outcome::Stopped(_))
     }
 
-    /// How many raw draws the chance is past its seed; at most some.
+    /// The number of raw draws since the seed, up to a maximum.
     pub(crate) fn draws(&self, seed: i64) -> usize {
         let mut chance = Chance::from_java(seed);
         let drawn = (0..1000).position(|_| {

@@ -1,18 +1,18 @@
-//! Anthropic's messages.
+//! Anthropic's messages API.
 
 use super::{Answer, base64, joined, object, parse, words_or_none};
 use crate::client::chat::{ChatMessage, ChatRequest, Finish, Role, Usage};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The version of the protocol, a header of every request.
+/// The version of the API, a header of every request.
 pub(super) const VERSION: &str = "2023-06-01";
 
-/// The limit of tokens if none is set; the protocol has no default.
+/// The token limit if none is set; the API has no default.
 pub(super) const MAX_TOKENS: u32 = 8192;
 
-/// The body of a request. The end of the system message, which is the same throughout an episode, is marked as the end
-/// of what the provider should cache.
+/// Returns the body of a request. The end of the system message, which is constant throughout an episode, is marked as the
+/// end of the prefix that the provider should cache.
 pub(super) fn body(model: &str, request: &ChatRequest) -> Value {
     let decoding = &request.decoding;
     let of_system = |message: &&ChatMessage| message.role == Role::System;
@@ -67,7 +67,7 @@ struct Block {
     thinking: Option<String>,
 }
 
-/// The three counts of the prompt are of different tokens.
+/// The token counts. The three counts of the prompt do not overlap.
 #[derive(Deserialize)]
 struct Counts {
     input_tokens: Option<u64>,
@@ -76,7 +76,7 @@ struct Counts {
     output_tokens: Option<u64>,
 }
 
-/// What the body of a reply says.
+/// Reads the body of a reply.
 pub(super) fn answer(body: &str) -> Result<Answer, String> {
     let reply: Reply = parse(body)?;
     let finish = match reply.stop_reason.as_deref() {

@@ -5,7 +5,7 @@ use crate::client::chat::{ChatMessage, ChatRequest, Decoding, Finish, Role, Usag
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The body of a request; the model is named in the URL.
+/// Returns the body of a request; the model is named in the URL.
 pub(super) fn body(request: &ChatRequest) -> Value {
     let of_system = |message: &&ChatMessage| message.role == Role::System;
     let system: Vec<Value> = request.messages.iter().filter(of_system).map(|m| text(&m.text)).collect();
@@ -20,7 +20,7 @@ pub(super) fn body(request: &ChatRequest) -> Value {
 }
 
 fn generation(decoding: &Decoding) -> Value {
-    // Models that do not think refuse to be asked for thoughts.
+    // Models without thinking reject a request for thoughts.
     let thinking = decoding.reasoning_effort.as_deref().map(|effort| match effort.parse::<u32>() {
         Ok(tokens) => json!({ "thinkingBudget": tokens, "includeThoughts": tokens > 0 }),
         Err(_) if effort == "none" => json!({ "thinkingBudget": 0 }),
@@ -84,7 +84,7 @@ struct Feedback {
     block_reason: Option<String>,
 }
 
-/// Thoughts are counted beside the answer.
+/// The token counts. Thoughts are not included in the count of the answer.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Counts {
@@ -94,7 +94,7 @@ struct Counts {
     thoughts_token_count: Option<u64>,
 }
 
-/// What the body of a reply says.
+/// Reads the body of a reply.
 pub(super) fn answer(body: &str) -> Result<Answer, String> {
     let reply: Reply = parse(body)?;
     let blocked = reply.prompt_feedback.is_some_and(|feedback| feedback.block_reason.is_some());
@@ -103,7 +103,7 @@ pub(super) fn answer(body: &str) -> Result<Answer, String> {
         None if blocked => Finish::Refusal,
         None => return Err("a body without candidates".to_owned()),
         Some(candidate) => {
-            // The parts are pieces of one text, cut anywhere.
+            // The parts are pieces of one text, split anywhere.
             for part in candidate.content.map(|content| content.parts).unwrap_or_default() {
                 let target = if part.thought { &mut thoughts } else { &mut text };
                 target.push_str(part.text.as_deref().unwrap_or_default());
@@ -135,7 +135,7 @@ fn usage(counts: Counts) -> Usage {
         input_tokens: counts.prompt_token_count,
         cached_input_tokens: counts.cached_content_token_count,
         cache_write_tokens: None,
-        // A field that is 0 is left out, by a server that counts at all.
+        // A server that reports counts omits a field that is 0.
         output_tokens: match (answer, thoughts) {
             (None, None) => counts.prompt_token_count.map(|_| 0),
             _ => Some(answer.unwrap_or(0).saturating_add(thoughts.unwrap_or(0))),

@@ -1,4 +1,4 @@
-//! The protocols that servers of models speak: a file each, which makes the body of a request and reads that of a reply.
+//! The APIs of model servers: a file for each, which writes the body of a request and reads the body of a reply.
 
 mod anthropic;
 mod gemini;
@@ -13,13 +13,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use ureq::http::HeaderValue;
 
-/// Whose protocol a server speaks.
+/// The API of a server.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Provider {
     /// OpenAI's chat completions, in the dialect of its own servers.
     OpenAi,
-    /// Chat completions as other servers speak them: vLLM, llama.cpp, Ollama, gateways.
+    /// Chat completions of other servers: vLLM, llama.cpp, Ollama, gateways.
     Compatible,
     /// Anthropic's messages.
     Anthropic,
@@ -27,7 +27,7 @@ pub enum Provider {
     Gemini,
 }
 
-/// What a body says that is a reply.
+/// The content of a reply's body.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Answer {
     pub(super) text: String,
@@ -38,7 +38,7 @@ pub(super) struct Answer {
 }
 
 impl Provider {
-    /// The provider of the prefix of an id.
+    /// Returns the provider for the prefix of an id.
     pub(super) fn from_prefix(prefix: &str) -> Option<Provider> {
         match prefix {
             "openai" => Some(Provider::OpenAi),
@@ -48,7 +48,7 @@ impl Provider {
         }
     }
 
-    /// Its name in price tables, settings and prefixes.
+    /// The name in price tables, settings and prefixes.
     pub fn name(self) -> &'static str {
         match self {
             Provider::OpenAi => "openai",
@@ -68,7 +68,7 @@ impl Provider {
         }
     }
 
-    /// The variable of the environment that holds the key.
+    /// The environment variable that holds the key.
     pub fn key_variable(self) -> &'static str {
         match self {
             Provider::OpenAi | Provider::Compatible => "OPENAI_API_KEY",
@@ -77,10 +77,10 @@ impl Provider {
         }
     }
 
-    /// The decoding that is sent: what was asked for, and what this provider cannot do without.
+    /// Returns the decoding to send: the requested one, with the settings that this provider requires.
     ///
     /// # Errors
-    /// It asks for what the provider does not have, or for a number outside its range.
+    /// The request uses a setting that the provider does not have, or a number outside its range.
     pub(super) fn decoding(self, asked: &Decoding) -> Result<Decoding, EvaluationError> {
         let mut decoding = asked.clone();
         check_ranges(asked).map_err(EvaluationError::Malformed)?;
@@ -94,7 +94,7 @@ impl Provider {
         Ok(decoding)
     }
 
-    /// What is appended to the base URL.
+    /// Returns the path to append to the base URL.
     pub(super) fn path(self, model: &str) -> String {
         match self {
             Provider::OpenAi | Provider::Compatible => "/chat/completions".to_owned(),
@@ -103,7 +103,7 @@ impl Provider {
         }
     }
 
-    /// The headers beside `Content-Type`.
+    /// Returns the headers in addition to `Content-Type`.
     pub(super) fn headers(self, key: Option<&Key>) -> Vec<(&'static str, HeaderValue)> {
         let mut headers = Vec::new();
         if self == Provider::Anthropic {
@@ -117,7 +117,7 @@ impl Provider {
         headers
     }
 
-    /// The body of a request.
+    /// Returns the body of a request.
     pub(super) fn body(self, model: &str, request: &ChatRequest) -> Value {
         match self {
             Provider::OpenAi => openai::body(model, request, openai::Dialect::Own),
@@ -127,10 +127,10 @@ impl Provider {
         }
     }
 
-    /// What the body of a reply says.
+    /// Reads the body of a reply.
     ///
     /// # Errors
-    /// It is not a reply: why, in words.
+    /// The reason why the body is not a reply.
     pub(super) fn answer(self, body: &str) -> Result<Answer, String> {
         let answer = match self {
             Provider::OpenAi | Provider::Compatible => openai::answer(body),
@@ -141,7 +141,7 @@ impl Provider {
     }
 }
 
-/// Refuses numbers that no sampler can use.
+/// Rejects numbers that no sampler can use.
 fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     let in_range = |flag: &str, value: Option<f64>, most: f64| match value {
         Some(value) if !(0.0..=most).contains(&value) => {
@@ -157,21 +157,20 @@ fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     }
 }
 
-/// What is sent for a message without words, by protocols that do not allow any: a model that has said nothing is
-/// shown that it has.
+/// The text sent for an empty message, for APIs that do not allow one: it shows a model that it has said nothing.
 const NO_WORDS: &str = "(no words)";
 
-/// The words, or [`NO_WORDS`].
+/// Returns the text, or [`NO_WORDS`] if it is empty.
 fn words_or_none(text: &str) -> &str {
     if text.trim().is_empty() { NO_WORDS } else { text }
 }
 
-/// A picture as text.
+/// Encodes a picture as text.
 fn base64(picture: &[u8]) -> String {
     STANDARD.encode(picture)
 }
 
-/// The fields that are given, as an object.
+/// Returns an object of the fields that are set.
 fn object(fields: Vec<(&str, Option<Value>)>) -> Value {
     fields.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
@@ -181,7 +180,7 @@ fn parse<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, String> {
     serde_json::from_str(body).map_err(|error| format!("a body that is not a reply: {error}"))
 }
 
-/// Joined by a line each; none if there is none.
+/// Joins texts with line breaks; `None` if there are none.
 fn joined(texts: Vec<String>) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("\n"))
 }
@@ -206,7 +205,7 @@ mod tests {
         assert_eq!(Provider::Compatible.decoding(&fine).unwrap(), fine);
     }
 
-    /// Sums of them would overflow, and caps would be met by a server's slip.
+    /// Otherwise sums would overflow, and caps would be reached by a server's mistake.
     #[test]
     fn counts_that_no_request_has_are_left_out() {
         let body = r#"{"choices":[{"message":{"content":"up"},"finish_reason":"stop"}],
@@ -222,7 +221,7 @@ mod examples {
     use crate::client::chat::{ChatMessage, Role};
     use engine::Seed;
 
-    /// A conversation with all that a request can have.
+    /// A conversation that uses every feature of a request.
     pub(super) fn request() -> ChatRequest {
         let message = |role, text: &str| ChatMessage { role, text: text.to_owned(), image: None };
         let mut last = message(Role::User, "Now?");
@@ -245,7 +244,7 @@ mod examples {
         }
     }
 
-    /// A request with nothing but a word.
+    /// A request with a single word.
     pub(super) fn bare() -> ChatRequest {
         let messages = vec![ChatMessage { role: Role::User, text: "Hi".to_owned(), image: None }];
         ChatRequest { messages, decoding: Decoding::default(), sample: Seed::from_text("bare") }

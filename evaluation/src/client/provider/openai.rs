@@ -1,20 +1,20 @@
-//! Chat completions: OpenAI's own, and those of the many servers that speak alike.
+//! Chat completions: OpenAI's own API, and the compatible ones of many other servers.
 
 use super::{Answer, base64, joined, object, parse};
 use crate::client::chat::{ChatMessage, ChatRequest, Finish, Usage};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// In what the servers differ.
+/// The differences between the servers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// OpenAI's own servers, whose reasoning models know the limit of tokens by its newer name only.
+    /// OpenAI's own servers, whose reasoning models accept only the newer name of the token limit.
     Own,
-    /// Others, some of which know the older name only.
+    /// Other servers, some of which accept only the older name.
     Compatible,
 }
 
-/// The body of a request.
+/// Returns the body of a request.
 pub(super) fn body(model: &str, request: &ChatRequest, dialect: Dialect) -> Value {
     let decoding = &request.decoding;
     let limit = match dialect {
@@ -62,9 +62,9 @@ struct Choice {
 struct Message {
     content: Option<Content>,
     refusal: Option<String>,
-    /// DeepSeek, vLLM, llama.cpp.
+    /// The field of DeepSeek, vLLM, llama.cpp.
     reasoning_content: Option<String>,
-    /// Ollama, OpenRouter, later versions of vLLM.
+    /// The field of Ollama, OpenRouter, later versions of vLLM.
     reasoning: Option<String>,
 }
 
@@ -87,7 +87,7 @@ struct Counts {
     total_tokens: Option<u64>,
     prompt_tokens_details: Option<InputDetails>,
     completion_tokens_details: Option<OutputDetails>,
-    /// DeepSeek's name for what others have among the details.
+    /// DeepSeek's name for a count that others list among the details.
     prompt_cache_hit_tokens: Option<u64>,
 }
 
@@ -101,11 +101,11 @@ struct OutputDetails {
     reasoning_tokens: Option<u64>,
 }
 
-/// What the body of a reply says.
+/// Reads the body of a reply.
 pub(super) fn answer(body: &str) -> Result<Answer, String> {
     let completion: Completion = parse(body)?;
     let Some(choice) = completion.choices.into_iter().next() else {
-        // Gateways tell the errors of those behind them in this way.
+        // Gateways report the errors of their upstream servers in this way.
         let error = completion.error.filter(|error| !error.is_null());
         return Err(error
             .map_or("a body without choices".to_owned(), |error| format!("an error for a reply: {error}")));
@@ -136,7 +136,7 @@ fn usage(counts: Counts) -> Usage {
     let cached = counts.prompt_tokens_details.and_then(|details| details.cached_tokens);
     let reasoning = counts.completion_tokens_details.and_then(|details| details.reasoning_tokens);
     let mut output = counts.completion_tokens;
-    // Some count the reasoning beside the answer, not within it; the total tells.
+    // Some servers count the reasoning in addition to the answer, not within it; the total tells which.
     if let (Some(input), Some(answer), Some(reasoning), Some(total)) =
         (counts.prompt_tokens, output, reasoning, counts.total_tokens)
         && reasoning > 0

@@ -1,4 +1,4 @@
-//! A child process that is spoken to in lines.
+//! A child process that communicates in lines.
 
 #[cfg(unix)]
 use super::running::running;
@@ -13,27 +13,27 @@ use std::thread;
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// Bytes of a line that a process may say, 1 MiB.
+/// The maximum number of bytes of a line from a process, 1 MiB.
 pub(super) const MAX_LINE: usize = 1 << 20;
 
-/// What is kept of the last words of standard error, bytes.
+/// The number of bytes kept from the end of standard error.
 const MAX_LAST_WORDS: usize = 2000;
 
-/// Lines that a process may be ahead of us, until its writes wait.
+/// The number of lines that a process may be ahead of us before its writes block.
 const AHEAD: usize = 16;
 
-/// How long a process that has been told of the end may take to leave.
+/// The time for a process to exit after it has been told of the end.
 pub(super) const LEAVING: Duration = Duration::from_secs(2);
 
-/// How long the threads may take to hand over what a dead process has said.
+/// The time for the threads to deliver the remaining output of a dead process.
 const SETTLING: Duration = Duration::from_millis(500);
 
-/// Looks, until a guard has killed what it guards and has left, and the pause between them: ten seconds at most.
+/// The number of polls for a guard to kill its program and exit, and the pause between them: ten seconds at most.
 const LOOKS: u32 = 2000;
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// What every process inherits of the environment, as far as it is set: where programs, libraries and their caches are, and
-/// the language. No key of a provider is among them.
+/// The environment variables that every process inherits, if they are set: the locations of programs, libraries and their
+/// caches, and the language. No API key is among them.
 const ENVIRONMENT: &[&str] = &[
     "PATH",
     "HOME",
@@ -48,48 +48,48 @@ const ENVIRONMENT: &[&str] = &[
     "SYSTEMROOT",
 ];
 
-/// A running process with an empty folder of its own. Dropping it kills it, with all that it has started, and removes the
-/// folder.
+/// A running process with an empty folder of its own. Dropping it kills the process with all its descendants, and removes
+/// the folder.
 #[derive(Debug)]
 pub(super) struct Talker {
-    /// The process, or its guard.
+    /// The process or its guard.
     child: Child,
     is_guarded: bool,
-    /// None once nothing more will be said.
+    /// `None` once nothing more will be sent.
     says: Option<Sender<Vec<u8>>>,
     hears: Receiver<Heard>,
     last_words: Receiver<String>,
-    /// Removed when this is dropped.
+    /// Removed on drop.
     _folder: TempDir,
     ended: bool,
 }
 
-/// What came over standard output.
+/// The output on standard output.
 #[derive(Debug)]
 enum Heard {
     Line(Vec<u8>),
     TooLong,
 }
 
-/// Why there is no line.
+/// The reason why there is no line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Silence {
-    /// None came in time.
+    /// No line arrived in time.
     TimedOut,
-    /// The process has closed its standard output: it is dead or dying.
+    /// The process has closed its standard output: it is dead or about to exit.
     Closed,
     /// A line longer than [`MAX_LINE`].
     Flood,
-    /// Nothing but answers to earlier questions, and too many of them.
+    /// Too many answers to earlier questions.
     Stale,
 }
 
 impl Talker {
-    /// Starts a program, behind a guard if there is a command for one. Words of the command that name files from here are made
-    /// absolute, because the process is somewhere else.
+    /// Starts a program, behind a guard if there is a command for one. Words of the command that name files are made
+    /// absolute, because the process runs in another folder.
     ///
     /// # Errors
-    /// It cannot be started; of kind `Interrupted`: this program is about to end.
+    /// The process cannot be started. The kind `Interrupted` means that this program is about to end.
     pub(super) fn start(
         words: &[String],
         inherited: &[String],
@@ -141,16 +141,16 @@ impl Talker {
         })
     }
 
-    /// Says a line, without waiting until it is read.
+    /// Sends a line without waiting until it is read.
     pub(super) fn say(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         if let Some(says) = &self.says {
-            // If nobody reads it, the silence that follows tells.
+            // If nobody reads it, the missing answer will reveal that.
             let _ = says.send(line);
         }
     }
 
-    /// The next line, without its end.
+    /// Returns the next line without its line ending.
     pub(super) fn hear(&self, timeout: Duration) -> Result<Vec<u8>, Silence> {
         match self.hears.recv_timeout(timeout) {
             Ok(Heard::Line(line)) => Ok(line),
@@ -160,7 +160,7 @@ impl Talker {
         }
     }
 
-    /// Says no more, and gives the process a moment to leave by itself, whatever it says meanwhile.
+    /// Closes the input, and gives the process a moment to exit by itself. Its output is ignored.
     pub(super) fn let_go(mut self) {
         self.says = None;
         let told = Stopwatch::start();
@@ -171,18 +171,18 @@ impl Talker {
         }
     }
 
-    /// Kills the process, with all that it has started. Its exit status, if it had left before, and the last that it wrote
-    /// to standard error.
+    /// Kills the process with all its descendants. Returns its exit status, if it had already exited, and the end of its
+    /// standard error.
     pub(super) fn kill(mut self) -> (Option<ExitStatus>, String) {
         if matches!(self.hear(Duration::ZERO), Err(Silence::Closed)) {
-            // It is leaving: with a moment more it has a status of its own.
+            // It is exiting: after a moment it has its own exit status.
             thread::sleep(SETTLING / 10);
         }
         let status = self.end().filter(|status| status.code().is_some());
         (status, self.last_words.recv_timeout(SETTLING).unwrap_or_default())
     }
 
-    /// Kills what is left of it, and leaves no zombie behind.
+    /// Kills the remaining processes and reaps the child.
     fn end(&mut self) -> Option<ExitStatus> {
         if std::mem::replace(&mut self.ended, true) {
             return None;
@@ -193,8 +193,8 @@ impl Talker {
         self.child.wait().ok()
     }
 
-    /// Has the guard end what it guards, and kills what is left of the group. Before the process is waited for, nobody else can
-    /// have its number: so whoever ends all players waits until then.
+    /// Makes the guard end its program, and kills the remaining group. The process id cannot be reused before the process is
+    /// reaped; `end_all` waits for the returned lock until then.
     #[cfg(unix)]
     fn end_group(&self) -> Option<std::sync::MutexGuard<'static, super::running::Running>> {
         use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
@@ -215,13 +215,13 @@ impl Talker {
         Some(running)
     }
 
-    /// The folder in which it runs.
+    /// The folder in which the process runs.
     #[cfg(test)]
     pub(super) fn folder(&self) -> &Path {
         self._folder.path()
     }
 
-    /// The process's number.
+    /// The process id.
     #[cfg(test)]
     pub(super) fn id(&self) -> u32 {
         self.child.id()
@@ -234,7 +234,7 @@ impl Drop for Talker {
     }
 }
 
-/// Starts a process and notes it among those that run, in one go.
+/// Starts a process and registers it as running, atomically.
 fn spawn(command: &mut Command, is_guarded: bool) -> std::io::Result<Child> {
     #[cfg(unix)]
     {
@@ -253,7 +253,7 @@ fn spawn(command: &mut Command, is_guarded: bool) -> std::io::Result<Child> {
     }
 }
 
-/// A word as it means the same from anywhere: the absolute path of the file that it names from here, if it names one.
+/// Resolves a word so that it means the same in any folder: the absolute path of the file it names, if it names one.
 fn resolved(word: &str, may_be_file: bool) -> OsString {
     let path = Path::new(word);
     let absolute = || std::path::absolute(path).ok();
@@ -285,7 +285,7 @@ fn read(stdout: impl Read, heard: &SyncSender<Heard>) {
     }
 }
 
-/// The last words of a stream, which is read to its end.
+/// Returns the end of a stream after reading all of it.
 fn tail(mut stderr: impl Read) -> String {
     let (mut kept, mut bytes) = (VecDeque::new(), [0; 4096]);
     while let Ok(length @ 1..) = stderr.read(&mut bytes) {

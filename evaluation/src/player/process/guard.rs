@@ -1,13 +1,14 @@
-//! The guard of a player: a process between `arcade` and a program of somebody else, which ends the program when `arcade` is gone.
+//! The guard of a player: a process between `arcade` and an external program, which ends the program when `arcade` is gone.
 //!
-//! `arcade` can be killed in ways that no handler sees, and a program can start processes that leave its group (`setsid`). The guard
-//! relays what `arcade` says. When that stream closes, because the episode is over or because `arcade` no longer exists, the guard
-//! kills the program with everything that it has started, and removes the folder in which it ran. Standard output and standard error
-//! of the program lead to `arcade` directly.
+//! `arcade` can be killed in ways that no handler sees, and a program can start processes that leave its group (`setsid`).
+//! The guard relays the messages of `arcade`. When that stream closes, because the episode is over or because `arcade` no
+//! longer exists, the guard kills the program with all its descendants, and removes the folder in which it ran. Standard
+//! output and standard error of the program lead directly to `arcade`.
 //!
-//! On Linux the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`): a process that outlives its parent stays below
-//! the guard, in whatever group or session it is, and is found there. On other systems, what has left the group of the program gets
-//! away. A control group would find no more: what asks a service outside (`systemd-run`, `docker`) to start something leaves both.
+//! On Linux the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`): a process that outlives its parent stays
+//! below the guard, in any group or session, and is found there. On other systems, processes that have left the group of the
+//! program escape. A control group would find no more: a process started through an external service (`systemd-run`,
+//! `docker`) escapes both.
 
 use super::child::LEAVING;
 use rustix::io::Errno;
@@ -28,31 +29,31 @@ pub(super) const NOT_STARTED: i32 = 126;
 /// The beginning of the last message of such a guard; the reason follows.
 pub(super) const NOT_STARTED_BECAUSE: &str = "arcade player-guard: not started: ";
 
-/// Rounds in which everything that is found is killed, until nothing is found.
+/// The maximum number of rounds of killing all descendants until none is found.
 const ROUNDS: u32 = 1000;
 
 /// The pause after a round.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// An occurrence that the guard waits for.
+/// An event that the guard waits for.
 enum Event {
-    /// A signal has arrived: `SIGCHLD`, or a request to end.
+    /// A signal: `SIGCHLD`, or a request to end.
     Signal(i32),
-    /// Nothing more will be said to the program.
+    /// The input of the program has ended.
     InputEnded,
-    /// The time for leaving by itself is over.
+    /// The time for exiting by itself is over.
     TimeUp,
 }
 
-/// Runs a program until it has ended with everything that it has started, or until it has to end: two seconds after standard input
-/// has closed, or at once on `SIGTERM`, `SIGINT`, `SIGHUP` or `SIGQUIT`. Removes `folder` in the end.
+/// Runs a program until it has ended with all its descendants, or until it has to end: two seconds after standard input has
+/// closed, or at once on `SIGTERM`, `SIGINT`, `SIGHUP` or `SIGQUIT`. Removes `folder` in the end.
 ///
-/// Returns the exit status of the program, 128 and the signal that ended it, or 126 if it could not be started. A guard that has to
-/// kill its program ends by `SIGKILL` itself, with its process group, which it should be the leader of.
+/// Returns the exit status of the program, 128 plus the signal that ended it, or 126 if it could not be started. A guard
+/// that has to kill its program ends by `SIGKILL` itself, with its process group, of which it should be the leader.
 pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
     let (tell, events) = channel();
     let started = Signals::new([SIGCHLD, SIGTERM, SIGINT, SIGHUP, SIGQUIT]).and_then(|signals| {
-        // Where the system has no such thing, the group has to do.
+        // On systems without subreapers, killing the group has to suffice.
         #[cfg(target_os = "linux")]
         let _ = rustix::process::set_child_subreaper(Some(getpid()));
         let child = Command::new(program).args(arguments).stdin(Stdio::piped()).spawn()?;
@@ -83,7 +84,7 @@ pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
     }
 }
 
-/// The program, and its exit status once it has one.
+/// The program and, once it has ended, its exit status.
 struct Program {
     child: Child,
     status: Option<i32>,
@@ -94,7 +95,7 @@ impl Program {
         Pid::from_child(&self.child)
     }
 
-    /// Waits until all is over or has to end. Returns whether somebody may want to know the exit status.
+    /// Waits until everything has ended or has to end. Returns `true` if the exit status may be needed.
     fn attend(&mut self, events: &Receiver<Event>, tell: &Sender<Event>) -> bool {
         loop {
             match events.recv().expect("this thread can tell itself") {
@@ -104,7 +105,7 @@ impl Program {
                     }
                 }
                 Event::Signal(_) => {
-                    // Having left by itself, it has a status of its own.
+                    // If it has exited by itself, it keeps its own status.
                     self.bury();
                     return true;
                 }
@@ -120,7 +121,7 @@ impl Program {
         }
     }
 
-    /// Kills everything that is left, and waits until it is gone, up to [`ROUNDS`].
+    /// Kills all remaining descendants, and waits until they are gone, for up to [`ROUNDS`].
     fn kill(&mut self) {
         let had_left = self.status;
         for _ in 0..ROUNDS {
@@ -138,7 +139,7 @@ impl Program {
         self.status = had_left;
     }
 
-    /// Takes the exit status of every process that has ended. Returns whether any is left.
+    /// Reaps all ended processes. Returns `true` if any is left.
     fn bury(&mut self) -> bool {
         loop {
             match wait(WaitOptions::NOHANG) {
@@ -154,7 +155,7 @@ impl Program {
     }
 }
 
-/// Lets go of standard output and standard error, so that they close when the program closes them.
+/// Closes standard output and standard error of the guard, so that they close when the program closes them.
 fn release_output() {
     if let Ok(nowhere) = std::fs::File::options().write(true).open("/dev/null") {
         let _ = rustix::stdio::dup2_stdout(&nowhere);
@@ -162,15 +163,15 @@ fn release_output() {
     }
 }
 
-/// Passes standard input on to the program. Reading never waits for writing, so that its end is noticed while the program reads
-/// nothing; what is read ahead is what `arcade` has said without waiting for an answer.
+/// Relays standard input to the program. Reading never waits for writing, so that the end of input is noticed while the
+/// program reads nothing. The buffer holds only messages that `arcade` sent without waiting for an answer.
 fn relay(mut to: ChildStdin, tell: Sender<Event>) {
     let (pass, passed) = channel::<Vec<u8>>();
     thread::spawn(move || {
         let mut bytes = vec![0; 1 << 16];
         let mut from = std::io::stdin().lock();
         while let Ok(length @ 1..) = from.read(&mut bytes) {
-            // A program that reads no more may still speak.
+            // A program that no longer reads may still write.
             let _ = pass.send(bytes[..length].to_vec());
         }
         drop(pass);
@@ -179,7 +180,7 @@ fn relay(mut to: ChildStdin, tell: Sender<Event>) {
     thread::spawn(move || passed.iter().try_for_each(|bytes| to.write_all(&bytes)));
 }
 
-/// All descendants of this process, by the table of processes. Cost: O(processes).
+/// Returns all descendants of this process, from the process table. Cost: O(processes).
 #[cfg(target_os = "linux")]
 fn descendants() -> Vec<Pid> {
     let mut children: std::collections::BTreeMap<i32, Vec<i32>> = std::collections::BTreeMap::new();
@@ -198,8 +199,8 @@ fn descendants() -> Vec<Pid> {
     found.into_iter().skip(1).filter_map(Pid::from_raw).collect()
 }
 
-/// The parent that a line of `/proc/<pid>/stat` names: the second field after the name, which stands in brackets and may hold any
-/// byte.
+/// Returns the parent in a line of `/proc/<pid>/stat`: the second field after the name, which is in parentheses and may hold
+/// any byte.
 #[cfg(target_os = "linux")]
 fn parent(stat: &[u8]) -> Option<i32> {
     let end = stat.iter().rposition(|&byte| byte == b')')?;
@@ -207,7 +208,7 @@ fn parent(stat: &[u8]) -> Option<i32> {
     rest.split_whitespace().nth(1)?.parse().ok()
 }
 
-/// Without a reaper, descendants are not known.
+/// Descendants are unknown without a subreaper.
 #[cfg(not(target_os = "linux"))]
 fn descendants() -> Vec<Pid> {
     Vec::new()

@@ -1,24 +1,24 @@
-//! What is said to a process, a line of JSON each (`docs/agents.md`).
+//! The messages to a process, one line of JSON each (`docs/agents.md`).
 
 use crate::encoding::direction_name;
 use engine::{Action, Observation, Outcome};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The version of the protocol: bumped when an agent that was written for an older one could misread a message.
+/// The version of the protocol, raised when an agent for an older version could misread a message.
 pub const PROTOCOL: u32 = 1;
 
 /// A message to the process.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(super) enum Message<'a> {
-    /// The first: what stands for the whole episode. No answer is expected.
+    /// The first message, with the facts of the whole episode. No answer is expected.
     Hello {
         /// [`PROTOCOL`].
         protocol: u32,
         /// The rules in plain English.
         rules: &'a str,
-        /// What the symbols of the grid mean.
+        /// The meaning of the grid's symbols.
         legend: BTreeMap<char, Vec<&'a str>>,
         /// All actions.
         actions: &'a [Action],
@@ -26,34 +26,34 @@ pub(super) enum Message<'a> {
         columns: usize,
         /// Rows of the board.
         rows: usize,
-        /// Decisions at most.
+        /// The maximum number of decisions.
         step_limit: u64,
     },
-    /// What is seen now: `{"action": …}` is expected, unless the turn is past.
+    /// The current observation. The answer `{"action": …}` is expected, unless the turn is past.
     Turn {
-        /// Decisions before this one.
+        /// The number of decisions before this one.
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
-        /// What can be chosen.
+        /// The available actions.
         actions: &'a [Action],
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         past: Option<Past>,
     },
-    /// The last answer was none; another one is expected.
+    /// A complaint about an unusable answer; another one is expected.
     Invalid {
-        /// Of the turn.
+        /// The number of the turn.
         turn: u64,
-        /// What is wrong with it.
+        /// The problem with the answer.
         message: String,
     },
-    /// The last: what has come of it. No answer is expected.
+    /// The last message, with the result. No answer is expected.
     End {
-        /// Decisions that were made.
+        /// The number of decisions made.
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
-        /// `won`, `lost`, `ended` or a reason to stop; `ongoing` if the limit of steps was met.
+        /// `won`, `lost`, `ended` or a reason to stop; `ongoing` if the step limit was reached.
         outcome: Outcome,
     },
 }
@@ -61,28 +61,28 @@ pub(super) enum Message<'a> {
 /// A turn that was played before an interruption.
 #[derive(Debug, Serialize)]
 pub(super) struct Past {
-    /// True: nothing is asked.
+    /// Always `true`: no answer is expected.
     pub(super) past: bool,
-    /// What was played.
+    /// The action played.
     pub(super) action: Action,
 }
 
-/// What is seen.
+/// The observation.
 #[derive(Debug, Serialize)]
 pub(super) struct Seen<'a> {
     /// The board, a string of symbols for each row, from the top.
     grid: Vec<String>,
-    /// Everything visible on it, by name.
+    /// Everything visible on the board, by name.
     sprites: Vec<Sprites<'a>>,
-    /// You, while you are on the board.
+    /// The avatar, while it is on the board.
     avatar: Option<Avatar<'a>>,
-    /// What you hold.
+    /// Its resources.
     resources: BTreeMap<&'a str, i32>,
-    /// Your score.
+    /// The score.
     score: f64,
-    /// By how much the score has changed with the last action.
+    /// The change of the score by the last action.
     reward: f64,
-    /// Ticks played.
+    /// The number of ticks played.
     tick: u32,
 }
 
@@ -90,24 +90,24 @@ pub(super) struct Seen<'a> {
 #[derive(Debug, Serialize)]
 struct Sprites<'a> {
     name: &'a str,
-    /// Column and row of the cells that they touch, row by row; a cell once for each of them.
+    /// Column and row of the cells that they touch, row by row; a cell once for each sprite.
     cells: Vec<(usize, usize)>,
 }
 
-/// Where the avatar is.
+/// The position of the avatar.
 #[derive(Debug, Serialize)]
 struct Avatar<'a> {
     name: &'a str,
-    /// Health points; 0 in games without.
+    /// Health points; 0 in games without them.
     health: i32,
     /// Column and row.
     cell: (i32, i32),
-    /// `up`, `left`, `down`, `right`; none for any other.
+    /// `up`, `left`, `down`, `right`; `None` for any other direction.
     facing: Option<&'static str>,
 }
 
 impl<'a> Seen<'a> {
-    /// An observation with its grid and what the last action gained.
+    /// Combines an observation with its grid and the reward of the last action.
     pub(super) fn of(observation: &'a Observation, grid: Vec<String>, reward: f64) -> Seen<'a> {
         let mut cells: BTreeMap<&str, Vec<(usize, usize)>> = BTreeMap::new();
         for (at, names) in observation.cells.iter().enumerate() {

@@ -1,7 +1,7 @@
-//! Agents of other people, each a process of its own that is spoken to in lines of JSON (`docs/agents.md`).
+//! External agents, each a process that communicates in lines of JSON (`docs/agents.md`).
 //!
-//! The process is told what a player may know and nothing else: not the source of the level, not the forward model, not the
-//! seed, not the way to a witness. It runs in an empty folder of its own, with little of the environment.
+//! The process is told only the facts that a player may know: not the source of the level, not the forward model, not the
+//! seed, not the path to a witness. It runs in an empty folder of its own, with a reduced environment.
 
 mod child;
 #[cfg(unix)]
@@ -34,24 +34,24 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::time::Duration;
 
-/// Characters of a wrong answer that are recorded.
+/// The number of characters of a wrong answer that are recorded.
 const MAX_RECORDED: usize = 500;
 
-/// How often a wrong answer is asked again.
+/// The number of times to ask again after a wrong answer.
 const ASKED_AGAIN: u32 = 1;
 
-/// Bytes of answers to earlier turns that may come before the answer to a question, 1 MiB.
+/// The maximum number of bytes of answers to earlier turns before the answer to a question, 1 MiB.
 const MAX_STALE: usize = 1 << 20;
 
-/// How agents are run.
+/// The configuration of processes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProcessConfig {
-    /// How long an answer may take; what the process needs to start counts for its first answer.
+    /// The time limit for an answer; the first answer includes the start of the process.
     pub timeout: Duration,
     /// Names of environment variables that the process inherits beyond the usual ones.
     pub inherited: Vec<String>,
-    /// The command of a guard, a program that calls [`guard`](guard()) with its further arguments: the folder, `--`, and the words of
-    /// the command. If it is empty, the process is started directly, and outlives a program that is killed.
+    /// The command of a guard, a program that calls [`guard`](guard()) with its remaining arguments: the folder, `--`, and
+    /// the words of the command. If it is empty, the process is started directly, and survives if this program is killed.
     pub guard: Vec<OsString>,
 }
 
@@ -61,7 +61,7 @@ impl Default for ProcessConfig {
     }
 }
 
-/// A player that is another program. It is started with the first turn of an episode, and killed at the end.
+/// A player that is another program. It is started at the first turn of an episode, and killed at the end.
 #[derive(Debug)]
 pub struct Process {
     command: String,
@@ -77,10 +77,10 @@ struct Running {
 }
 
 impl Process {
-    /// The player that a command line starts. Words are split as a shell does; no shell runs.
+    /// Creates a player from a command line. Words are split as by a shell, but no shell is run.
     ///
     /// # Errors
-    /// The command line is empty, or its quotes do not match; in words.
+    /// The command line is empty, or its quotes do not match.
     pub fn new(command: &str, config: ProcessConfig) -> Result<Process, String> {
         let words = shlex::split(command).filter(|words| words.first().is_some_and(|word| !word.is_empty()));
         let words = words.ok_or_else(|| {
@@ -89,10 +89,11 @@ impl Process {
         Ok(Process { command: command.to_owned(), words, config, running: None })
     }
 
-    /// Looks for the program of the command line, and for the script that an interpreter is to run, before anything depends on them.
+    /// Checks that the program of the command line exists, and the script that an interpreter is to run, before anything
+    /// depends on them.
     ///
     /// # Errors
-    /// The program cannot be started, as far as can be seen; in words, with the name that is likely meant.
+    /// The program cannot be started, as far as can be checked. The message suggests the name that is likely meant.
     #[cfg(unix)]
     pub fn find(&self) -> Result<(), String> {
         program::find(&self.words).map_err(|problem| format!("`cmd:{}`: {problem}", self.command))
@@ -103,7 +104,7 @@ impl Process {
         &self.command
     }
 
-    /// The process, started and greeted if it is not yet.
+    /// Returns the process, started and greeted if necessary.
     fn running(&mut self, turn: &Turn<'_>) -> Result<&mut Running, Halt> {
         let running = match self.running.take() {
             Some(running) => running,
@@ -125,7 +126,7 @@ impl Process {
         Halt::Rejected(format!("`{}` cannot be started: {why}", self.command))
     }
 
-    /// The player has failed: it is killed, and its last words are told.
+    /// Handles a failure of the player: kills it and reports its last output.
     fn failed(&mut self, silence: Silence, turn: &Turn<'_>) -> Halt {
         let number = turn.number;
         let what = match silence {
@@ -202,7 +203,7 @@ impl Agent for Process {
     }
 }
 
-/// What of a game stands for the whole episode.
+/// The facts of a game for the whole episode.
 #[derive(Debug)]
 struct Shown {
     rules: String,
@@ -212,7 +213,7 @@ struct Shown {
 impl Shown {
     fn of(turn: &Turn<'_>) -> Shown {
         let analysis = &turn.subject.analysis;
-        // The characters of the level files are not those of the grid.
+        // The characters of the level files differ from those of the grid.
         let rules = Guide { legend: Vec::new(), ..Guide::from_analysis(analysis) };
         Shown { rules: rules.to_string(), legend: Legend::new(analysis, &LegendOptions::default()) }
     }
@@ -250,14 +251,14 @@ struct Answer {
     action: String,
 }
 
-/// The turn that an answer says it is for, if it says so.
+/// The turn that an answer names, if it names one.
 #[derive(Deserialize)]
 struct Addressed {
     turn: u64,
 }
 
-/// The next answer. One that says it is for an earlier turn is passed over, so that an agent that says so cannot get out of
-/// step; the time for the answer goes on meanwhile.
+/// Returns the next answer. Answers to an earlier turn are skipped, so that an agent that names turns cannot get out of
+/// step; the timeout keeps running meanwhile.
 fn hear(talker: &Talker, timeout: Duration, turn: u64) -> Result<Vec<u8>, Silence> {
     let (asked, mut stale) = (Stopwatch::start(), 0);
     loop {
@@ -273,7 +274,7 @@ fn hear(talker: &Talker, timeout: Duration, turn: u64) -> Result<Vec<u8>, Silenc
     }
 }
 
-/// The action in an answer, or what is wrong with it.
+/// Returns the action in an answer, or the problem with it.
 fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Action, String> {
     let actions = turn.actions;
     if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
@@ -291,7 +292,7 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Action, String> {
     known.copied().ok_or_else(|| format!("there is no action `{action}` now; there are {}", names()))
 }
 
-/// Puts a wrong answer on record, unless an interrupted run has done so.
+/// Records a wrong answer, unless an interrupted run has already done so.
 fn record(journal: &mut Journal, turn: &Turn<'_>, attempt: u32, answer: &[u8]) -> Result<(), Halt> {
     let id = (turn.number, attempt);
     let known = |event: &Event| matches!(event, Event::Reply(reply) if (reply.step, reply.attempt) == id);

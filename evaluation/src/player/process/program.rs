@@ -1,24 +1,24 @@
-//! Looking for the program of a command before it is started: a misspelt name is told before a results folder is made for it.
+//! A check of a command's program before it is started: a misspelt name is reported before a results folder is created.
 
 use std::ffi::OsStr;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// Endings of the names of scripts, which interpreters take as their first argument.
+/// The file extensions of scripts, which interpreters take as their first argument.
 const SCRIPTS: [&str; 9] = ["py", "sh", "js", "mjs", "ts", "rb", "pl", "lua", "jl"];
 
-/// Looks for the program that the first word names, and for the script that the second word names if it looks like one.
+/// Checks that the program named by the first word exists, and the script named by the second word if it looks like one.
 pub(super) fn find(words: &[String]) -> Result<(), String> {
     let path = std::env::var_os("PATH");
     find_in(words, path.as_deref(), Path::new(""))
 }
 
-/// The same with the folders of `PATH`, from another folder than this.
+/// The same with the folders of `PATH`, relative to `here`.
 fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), String> {
     let program = words.first().expect("a command has a first word");
     match program.contains(std::path::is_separator) {
         true => check(program, &here.join(program), true)?,
-        // Without PATH, it is up to the system where programs are.
+        // Without PATH, the locations of programs depend on the system.
         false => path.map_or(Ok(()), |path| in_path(program, path, here))?,
     }
     match words.get(1) {
@@ -27,13 +27,13 @@ fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), St
     }
 }
 
-/// Returns whether a word looks like a script: `agent.py`, but neither a flag nor an assignment.
+/// Returns `true` if a word looks like a script: `agent.py`, but neither a flag nor an assignment.
 fn is_script(word: &str) -> bool {
     let ending = Path::new(word).extension().and_then(OsStr::to_str);
     ending.is_some_and(|ending| SCRIPTS.contains(&ending)) && !word.starts_with('-') && !word.contains('=')
 }
 
-/// Checks the file that a word names.
+/// Checks the file named by a word.
 fn check(word: &str, path: &Path, is_program: bool) -> Result<(), String> {
     let found = match path.metadata() {
         Ok(found) => found,
@@ -60,7 +60,7 @@ fn check(word: &str, path: &Path, is_program: bool) -> Result<(), String> {
     }
 }
 
-/// Looks for a program in the folders of `PATH`.
+/// Searches the folders of `PATH` for a program.
 fn in_path(program: &str, path: &OsStr, here: &Path) -> Result<(), String> {
     let folders: Vec<PathBuf> = std::env::split_paths(path).map(|folder| here.join(folder)).collect();
     let is_program = |path: &PathBuf| {
@@ -84,7 +84,7 @@ fn in_path(program: &str, path: &OsStr, here: &Path) -> Result<(), String> {
     Err(format!("there is no program `{program}` in PATH{near}"))
 }
 
-/// The names in a folder, sorted; none if it cannot be read.
+/// Returns the names in a folder, sorted; none if it cannot be read.
 fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();

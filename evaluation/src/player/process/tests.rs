@@ -19,7 +19,7 @@ struct Board {
 }
 
 impl Board {
-    /// With a script for `sh` as the player, and a second for its answers if it is to hang.
+    /// Starts an episode with a `sh` script as the player and a time limit for its answers.
     fn with(script: &str, timeout: Duration) -> Board {
         let subject =
             Subject::read("board", GAME, &[(0, LEVEL.to_owned(), None)], SubjectFacts::default()).unwrap();
@@ -62,14 +62,14 @@ impl Board {
         self.number += 1;
     }
 
-    /// One decision, played.
+    /// Makes one decision and plays it.
     fn decide(&mut self) -> Result<Choice, Halt> {
         let choice = self.turn(|agent, journal, turn| agent.act(turn, journal))?;
         self.play(choice.action);
         Ok(choice)
     }
 
-    /// One decision that was played before.
+    /// Recalls one decision that was played before.
     fn recall(&mut self, action: Action) {
         let choice = Choice { action, validity: Validity::Valid };
         self.turn(|agent, journal, turn| agent.recall(turn, journal, &choice)).unwrap();
@@ -88,7 +88,7 @@ impl Board {
     }
 }
 
-/// What a script has copied to the file.
+/// Reads the messages that a script has copied to a file.
 fn heard(path: &std::path::Path) -> Vec<Value> {
     let text = std::fs::read_to_string(path).unwrap();
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -138,7 +138,7 @@ fn an_episode_is_played_in_lines() {
 fn past_turns_are_told_and_not_asked() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("heard");
-    // Answers with nothing but what was not said to be past.
+    // Answers only messages that are not marked as past.
     let mut board = Board::of(&format!(
         "tee {} | while read line; do case $line in *'\"past\":true'*|*hello*|*'\"end\"'*) ;; *) echo '{{\"action\":\"down\"}}';; esac; done",
         log.display()
@@ -157,7 +157,7 @@ fn past_turns_are_told_and_not_asked() {
 
 #[test]
 fn a_wrong_answer_is_asked_again_once() {
-    // Wrong at first, right when told so; later wrong twice.
+    // Wrong at first, right after the complaint; later wrong twice.
     let mut board = Board::of(
         "read hello; read turn; echo '{\"action\":\"jump\"}'; read invalid; echo \"$invalid\" >&2; echo '{\"action\":\"left\"}'; \
          read turn; echo hm; read invalid; echo '{\"act\":\"left\"}'; read turn; exit 3",
@@ -181,7 +181,7 @@ fn a_wrong_answer_is_asked_again_once() {
     );
 }
 
-/// An agent that says which turn it means is never taken to mean another one.
+/// An answer that names its turn is never used for another turn.
 #[test]
 fn late_answers_are_passed_over() {
     let mut board = Board::of(
@@ -192,7 +192,7 @@ fn late_answers_are_passed_over() {
     assert_eq!(board.decide().map(|choice| choice.action), Ok(Action::Right));
 }
 
-/// An answer to a turn that is still to come is none: the agent would be out of step with all that it says later.
+/// An answer to a later turn is wrong: otherwise all further answers would be out of step.
 #[test]
 fn answers_to_turns_still_to_come_are_wrong() {
     let mut board = Board::of(
@@ -207,7 +207,7 @@ fn answers_to_turns_still_to_come_are_wrong() {
     );
 }
 
-/// Answers to earlier turns neither start the clock anew nor take up memory for ever.
+/// Answers to earlier turns neither restart the timeout nor use unlimited memory.
 #[test]
 fn late_answers_do_not_put_off_the_end_of_the_time() {
     let begin = "read hello; read turn; echo '{\"turn\":0,\"action\":\"up\"}'; read turn; ";
@@ -258,7 +258,7 @@ fn what_cannot_be_started_ends_it_all() {
 
 #[test]
 fn nothing_is_left_behind() {
-    // Its child stays when it is let go, and is killed with it.
+    // Its child stays when the process is let go, and is killed with it.
     let folder = tempfile::tempdir().unwrap();
     let pid = folder.path().join("pid");
     let mut board = Board::of(&format!(
@@ -274,7 +274,7 @@ fn nothing_is_left_behind() {
     assert!(!path.exists());
     let gone = |id: i32| test_kill_process(Pid::from_raw(id).unwrap()).is_err();
     assert!(gone(own.cast_signed()));
-    // Its child is nobody's now, and whoever takes in orphans may need a moment to bury it.
+    // Its child is orphaned now, and the process that adopts orphans may need a moment to reap it.
     let dead = || {
         let status = std::fs::read_to_string(format!("/proc/{child}/stat")).unwrap_or_default();
         gone(child) || status.contains(") Z ")

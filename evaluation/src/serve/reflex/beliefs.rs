@@ -1,89 +1,88 @@
-//! What the sentences of the rules mean to somebody who wants to know where to go. `engine::describe` writes them; here they
-//! are read, and nothing else is.
+//! The meaning of the rules' sentences for choosing a target. Only sentences written by `engine::describe` are read.
 
 use regex::{Captures, Regex};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-/// What a player believes of the things on the board, by name. What it does not understand it does not believe.
+/// The beliefs of a player about the things on the board, by name. Sentences that it does not understand are ignored.
 #[derive(Debug, Default)]
 pub(super) struct Beliefs<'a> {
-    /// What the player is now.
+    /// The current type of the player.
     me: &'a str,
     groups: BTreeMap<&'a str, Vec<&'a str>>,
-    /// It cannot be entered.
+    /// Things that cannot be entered.
     pub(super) blocks: BTreeSet<&'a str>,
-    /// It is pushed.
+    /// Things that can be pushed.
     pub(super) pushed: BTreeSet<&'a str>,
-    /// Touching it kills, where the condition holds.
+    /// Things that kill by touch, if the condition holds.
     kills: Vec<(&'a str, Option<Need<'a>>)>,
-    /// Touching it takes it away, where the condition holds.
+    /// Things that are removed by touch, if the condition holds.
     taken: Vec<(&'a str, Option<Need<'a>>)>,
-    /// Touching it changes something: who the player is, what it holds, what is elsewhere.
+    /// Things whose touch has another effect: on the type of the player, on its resources, or elsewhere.
     pub(super) changes: BTreeSet<&'a str>,
-    /// The game is won when none is left.
+    /// Things whose removal wins the game.
     pub(super) wins: BTreeSet<&'a str>,
-    /// The game is lost when none is left.
+    /// Things whose removal loses the game.
     pub(super) precious: BTreeSet<&'a str>,
-    /// It moves by itself.
+    /// Things that move by themselves.
     pub(super) moves: BTreeSet<&'a str>,
-    /// What takes what away by touching it.
+    /// Pairs of a thing and another one whose touch removes it.
     ends: Vec<(&'a str, &'a str)>,
-    /// What the use key makes.
+    /// The product of the use key.
     pub(super) shot: Option<Shot<'a>>,
 }
 
-/// What has to be held.
+/// A resource condition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Need<'a> {
     resource: &'a str,
     least: i32,
-    /// It must not be held.
+    /// `true` if the resource must not be held.
     not: bool,
 }
 
-/// What the use key makes.
+/// The product of the use key.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Shot<'a> {
     /// The type.
     pub(super) name: &'a str,
-    /// It appears where the player is, not ahead.
+    /// `true` if it appears at the player's position, not ahead.
     pub(super) here: bool,
-    /// What it costs.
+    /// The resources it costs.
     pub(super) ammo: Vec<&'a str>,
-    /// It moves on by itself; in this direction, if that is always the same.
+    /// `Some` if it moves by itself; the direction is given if it is always the same.
     pub(super) flies: Option<Option<&'a str>>,
 }
 
-/// Somebody in a sentence.
+/// A party in a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Party<'a> {
     You,
     It(&'a str),
 }
 
-/// What a sentence is about.
+/// The subject of a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Subject {
-    /// Who belongs to a group.
+    /// The members of a group.
     Group,
     Win,
     Lose,
     /// The first cannot enter the second.
     Block,
-    /// The first goes, by touching the second.
+    /// The first is removed by touching the second.
     End,
-    /// Both go.
+    /// Both are removed.
     EndBoth,
     /// The second pushes the first.
     Push,
-    /// Something else comes of the two touching.
+    /// Their touch has another effect.
     Change,
     /// The first moves by itself.
     Motion,
 }
 
-/// The sentences that are understood, in the words of `engine::describe`. The first that fits counts.
+/// The patterns of the sentences, in the words of `engine::describe`. The first match counts.
 static SENTENCES: LazyLock<Vec<(Regex, Subject)>> = LazyLock::new(|| {
     use Subject::{Block, Change, End, EndBoth, Group, Lose, Motion, Push, Win};
     let need = r"(?: (?P<when>if|unless) you hold at least (?P<least>\d+) (?P<resource>\S+?)(?:,.*)?)?";
@@ -116,23 +115,23 @@ static SENTENCES: LazyLock<Vec<(Regex, Subject)>> = LazyLock::new(|| {
     all.into_iter().map(compile).collect()
 });
 
-/// What the use key does, among what else the keys do.
+/// The effect of the use key in the description of the keys.
 static USE_KEY: LazyLock<Regex> = LazyLock::new(|| {
     let pattern = r"the use key puts (?:a|an) (?P<shot>\S+?)(?: or .*?)? (?P<place>where you are|ahead of you)(?: and costs (?P<ammo>[^;.]+))?[;.]";
     Regex::new(pattern).expect("a pattern of ours")
 });
 
 impl<'a> Beliefs<'a> {
-    /// What sentences tell somebody who is `me` now. Cost: O(sentences × bytes).
+    /// Derives the beliefs of a player of type `me` from sentences. Cost: O(sentences × bytes).
     pub(super) fn of(sentences: &[&'a str], me: &'a str) -> Beliefs<'a> {
         let mut beliefs = Beliefs { me, ..Beliefs::default() };
         let fits = |sentence: &&'a str| {
-            // What comes after the first full stop is about points.
+            // The text after the first full stop is about points.
             let first = sentence.split_once(". ").map_or(*sentence, |(first, _)| first).trim_end_matches('.');
             SENTENCES.iter().find_map(|(regex, subject)| Some((*subject, regex.captures(first)?)))
         };
         let mut read: Vec<(Subject, Captures<'a>)> = sentences.iter().filter_map(fits).collect();
-        // Who belongs to a group is known before anything is said of it.
+        // Groups have to be known before other sentences are read.
         read.sort_by_key(|(subject, _)| *subject);
         for (subject, found) in read {
             match subject {
@@ -151,22 +150,22 @@ impl<'a> Beliefs<'a> {
         beliefs
     }
 
-    /// Whether touching it kills, with what is held.
+    /// Returns `true` if touching it kills, given the resources held.
     pub(super) fn is_deadly(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
         self.kills.iter().any(|(other, need)| *other == name && need.is_none_or(|need| need.is_met(held)))
     }
 
-    /// Whether touching it takes it away, with what is held.
+    /// Returns `true` if touching it removes it, given the resources held.
     pub(super) fn is_taken(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
         self.taken.iter().any(|(other, need)| *other == name && need.is_none_or(|need| need.is_met(held)))
     }
 
-    /// Whether what the use key makes takes it away.
+    /// Returns `true` if a shot removes it.
     pub(super) fn is_shot(&self, name: &str) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.ends.contains(&(name, shot.name)))
     }
 
-    /// Whether what the use key makes ends at it.
+    /// Returns `true` if it stops a shot.
     pub(super) fn stops_shots(&self, name: &str) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.ends.contains(&(shot.name, name)))
     }
@@ -278,7 +277,7 @@ impl<'a> Beliefs<'a> {
         self.parties(found, part).into_iter().filter_map(Party::name).collect()
     }
 
-    /// `you`, `you as bare`, `the crate or any beast`: groups taken apart.
+    /// Splits `you`, `you as bare`, `the crate or any beast` into parties, with groups expanded.
     fn parties(&self, found: &Captures<'a>, part: &str) -> Vec<Party<'a>> {
         let text = found.name(part).map_or("", |found| found.as_str());
         let words = text.split(" or ").flat_map(|part| part.split(", "));

@@ -1,7 +1,7 @@
-//! A player that goes the shortest way, on the board that it is shown, to what the rules that it is shown say is good.
+//! A player that takes the shortest way on the board to a good target according to the rules, both read from the prompt.
 //!
-//! It looks no step ahead: it keeps off what kills, and goes to what wins when it is gone, else to what can be collected or
-//! changes something, else to what it knows nothing bad about. It shoots what its shots end and what stands before it.
+//! It does not look ahead. It avoids deadly things, and goes to a thing whose removal wins, else to one that can be
+//! collected or changes something, else to one with no known harm. It shoots at things that its shots remove.
 
 mod beliefs;
 mod route;
@@ -14,21 +14,21 @@ use engine::{Action, Game, Sampler, Seed};
 use route::{Board, Routes, WAYS};
 use std::collections::BTreeMap;
 
-/// What a step next to something deadly that moves costs, in steps.
+/// The extra cost of a step next to a deadly moving thing, in steps.
 const NEAR_DANGER: u32 = 8;
 
-/// What it costs to push something, in steps.
+/// The cost of pushing something, in steps.
 const PUSH: u32 = 20;
 
-/// One decision of so many goes anywhere: without a memory, a way that leads nowhere would be gone forever.
+/// One in this many decisions is a random step. Without a memory, the player would otherwise follow a useless way forever.
 const STRAYS: usize = 16;
 
-/// The next step.
+/// Chooses the next step.
 ///
 /// # Errors
 /// The prompt shows no board, or no rules in words.
 pub(super) fn choose(shown: &Shown<'_>, seed: Seed) -> Result<Action, Unanswerable> {
-    // What VGDL says is said in words first.
+    // Rules in VGDL are put into words first.
     let game = shown.vgdl.and_then(|vgdl| Game::from_source(vgdl).ok());
     let guide = game.map(|game| sentences(Guide::of(&game))).unwrap_or_default();
     let rules: Vec<&str> = shown.rules.iter().copied().chain(guide.iter().map(String::as_str)).collect();
@@ -47,7 +47,7 @@ pub(super) fn choose(shown: &Shown<'_>, seed: Seed) -> Result<Action, Unanswerab
     Ok(fire.or_else(|| player.go(&mut choices)).unwrap_or_else(|| player.stray(&mut choices)))
 }
 
-/// All that a guide says of the rules.
+/// Collects all sentences of a guide about the rules.
 fn sentences(guide: Guide) -> Vec<String> {
     let Guide { controls, winning, losing, sprites, groups, clockwork, meetings, .. } = guide;
     [controls, winning, losing, sprites, groups, clockwork, meetings].into_iter().flatten().collect()
@@ -62,7 +62,7 @@ struct Reflex<'a> {
 }
 
 impl Reflex<'_> {
-    /// What else is in a cell.
+    /// Returns the other names in a cell.
     fn others(&self, cell: usize) -> impl Iterator<Item = &str> {
         self.shown.cells[cell].iter().copied().filter(|name| *name != self.you.name)
     }
@@ -81,13 +81,13 @@ impl Reflex<'_> {
         self.beliefs.is_taken(name, self.held) && !self.beliefs.precious.contains(name)
     }
 
-    /// It can be touched, but stays where it is.
+    /// Returns `true` for a cell with something that blocks the way and is not removed by touching it.
     fn is_blocked(&self, cell: usize) -> bool {
         self.others(cell)
             .any(|name| self.beliefs.blocks.contains(name) && !self.beliefs.is_taken(name, self.held))
     }
 
-    /// How good it is to go to a cell: 0 is best.
+    /// Returns the rank of a cell as a target: 0 is best.
     fn worth(&self, cell: usize) -> Option<u32> {
         let worth = |name: &str| {
             let (beliefs, taken) = (&self.beliefs, self.is_taken(name));
@@ -105,7 +105,7 @@ impl Reflex<'_> {
         self.others(cell).filter_map(worth).min()
     }
 
-    /// What it costs to enter a cell that way; none if it kills or does not let one in.
+    /// Returns the cost of entering a cell in a direction, or `None` if it kills or cannot be entered.
     fn price(&self, cell: usize, way: (isize, isize)) -> Option<u32> {
         if self.is_deadly(cell) || (self.is_blocked(cell) && self.worth(cell).is_none_or(|worth| worth > 1)) {
             return None;
@@ -118,7 +118,7 @@ impl Reflex<'_> {
         Some(1 + near)
     }
 
-    /// The use key, if something that it ends is in line; a turn towards it, if it is in another line.
+    /// Returns the use key if a target is in the line of fire, or a turn towards a target in another line.
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;
         let has_ammo = |ammo: &&str| self.held.get(ammo).copied().unwrap_or(0) > 0;
@@ -139,11 +139,11 @@ impl Reflex<'_> {
         let turns =
             WAYS.into_iter().filter(|(action, _)| self.shown.actions.contains(action) && always.is_none());
         let mut seen = turns.filter_map(|(action, way)| Some((self.target(way, reach)?, action)));
-        // One that is too near is no longer waited for.
+        // Skip a target that is too close for a turn.
         seen.find(|(distance, _)| *distance > 1).map(|(_, action)| action)
     }
 
-    /// How far off the first thing that way is that a shot ends.
+    /// Returns the distance to the first target in a direction.
     fn target(&self, way: (isize, isize), reach: usize) -> Option<usize> {
         let mut cell = self.you.cell;
         for distance in 1..=reach {
@@ -162,7 +162,7 @@ impl Reflex<'_> {
         None
     }
 
-    /// The first step to the best thing that can be reached, the nearest of equals.
+    /// Returns the first step to the best reachable target, the nearest of equals.
     fn go(&self, choices: &mut Sampler) -> Option<Action> {
         let enter = |cell: usize, way| self.price(cell, way);
         let routes = Routes::from(self.board, self.you.cell, &self.shown.actions, enter, |cell| {
@@ -171,11 +171,11 @@ impl Reflex<'_> {
         let cells = 0..self.shown.cells.len();
         let reached = cells.filter_map(|cell| Some((self.worth(cell)?, routes.to(cell)?)));
         let (_, (cost, first)) = reached.min_by_key(|(worth, (cost, _))| (*worth, *cost))?;
-        // Its last step goes nowhere else.
+        // The last step to the target is never replaced by a random one.
         (cost == 1 || choices.below(STRAYS) != 0).then_some(first)
     }
 
-    /// Any step that is not known to be bad.
+    /// Returns any step that is not known to be bad.
     fn stray(&self, choices: &mut Sampler) -> Action {
         let fine = |(action, way): (Action, (isize, isize))| {
             let next = self.board.beside(self.you.cell, way)?;

@@ -1,24 +1,24 @@
-//! Cheapest ways over a board.
+//! Cheapest paths on a board.
 
 use engine::Action;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// The four ways, in the order in which equals are preferred.
+/// The four directions in the order of preference among equals.
 pub(super) const WAYS: [(Action, (isize, isize)); 4] =
     [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
 
-/// A board of cells.
+/// The size of a board in cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Board {
-    /// Its columns.
+    /// The number of columns.
     pub(super) columns: usize,
-    /// Its rows.
+    /// The number of rows.
     pub(super) rows: usize,
 }
 
 impl Board {
-    /// The next cell that way; none at the edge.
+    /// Returns the neighbour of a cell in a direction, or `None` at the edge.
     pub(super) fn beside(self, cell: usize, way: (isize, isize)) -> Option<usize> {
         let column =
             (cell % self.columns).checked_add_signed(way.0).filter(|&column| column < self.columns)?;
@@ -27,13 +27,13 @@ impl Board {
     }
 }
 
-/// The cheapest ways from one cell to all others.
+/// The cheapest paths from one cell to all others.
 #[derive(Debug)]
 pub(super) struct Routes(Vec<Option<(u32, Action)>>);
 
 impl Routes {
-    /// `enter`: what it costs to go into a cell that way; none if one cannot. `ends`: cells that can be entered but not
-    /// passed, for what it costs. Cost: O(cells log cells).
+    /// Computes the paths. `enter` returns the cost of entering a cell in a direction, or `None` if it cannot be entered.
+    /// `passes` returns `false` for a cell that can be entered but not passed. Cost: O(cells log cells).
     pub(super) fn from(
         board: Board,
         start: usize,
@@ -66,7 +66,7 @@ impl Routes {
         Routes(best)
     }
 
-    /// The cost of a cell, and the first step there.
+    /// Returns the cost of a cell and the first step towards it.
     pub(super) fn to(&self, cell: usize) -> Option<(u32, Action)> {
         self.0[cell]
     }

@@ -1,4 +1,4 @@
-//! Results folders of built-in players, read together; and what holds of any episode of any game.
+//! Results folders of built-in players, read together, and invariants of the episodes of every game.
 
 use super::logs::subject;
 use agents::Budget;
@@ -21,7 +21,7 @@ fn planner(name: &str) -> Contestant {
     Contestant::Planner { spec: name.parse().expect("a planner"), budget: Budget(30) }
 }
 
-/// Has a built-in player play all levels of these games twice, 30 steps each.
+/// Lets a built-in player play all levels of these games twice, 30 steps each.
 fn evaluate(folder: &Path, name: &str, subjects: Vec<Subject>) -> PathBuf {
     let settings = Settings {
         format: FORMAT,
@@ -89,7 +89,7 @@ fn what_does_not_go_together() {
     check(&[once.clone(), other], "is another one than in the folders before");
     check(&[home.path().join("nowhere")], "no results of an evaluation");
 
-    // An episode that was not begun, and one that was cut off.
+    // An episode that was not started, and one that was cut off.
     fs::remove_file(once.join("episodes/hall-lvl0-run0.jsonl")).unwrap();
     let path = once.join("episodes/hall-lvl3-run1.jsonl");
     let text = fs::read_to_string(&path).unwrap();
@@ -100,12 +100,12 @@ fn what_does_not_go_together() {
     assert_eq!((scores.episodes, scores.excluded), (2, 1));
     assert_eq!(study.notes.len(), 2, "{:?}", study.notes);
 
-    // A step that was altered.
+    // An altered step.
     fs::write(&path, text.replacen("\"action\":\"", "\"action\":\"nil\",\"was\":\"", 1)).unwrap();
     check(std::slice::from_ref(&once), "not an event");
 }
 
-/// Over all games of the corpus, played at random: every log replays, shares are shares, and the parts agree.
+/// Random play of all games of the corpus: every log replays, ratios are within range, and the parts agree.
 #[test]
 fn what_holds_of_any_episode() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora");
@@ -146,7 +146,7 @@ fn what_holds_of_any_episode() {
             movement.coverage,
         ];
         assert!(shares.into_iter().flatten().all(|share| (0.0..=1.0).contains(&share)), "{name}: {shares:?}");
-        // Doing nothing is meaningful only where it is rewarded, and a reward always is.
+        // Doing nothing is meaningful only with a reward, and a reward always is.
         for ((flag, action), reward) in
             replayed.meaningful.iter().zip(&replayed.actions).zip(&replayed.rewards)
         {

@@ -1,4 +1,4 @@
-//! Episodes that are played by hand, and what is measured of them, worked out by hand too.
+//! Episodes played by hand, with metrics computed by hand.
 
 use engine::Action::{self, Left, Nil, Right, Up, Use};
 use engine::{Outcome, Seed};
@@ -9,7 +9,7 @@ use evaluation::player::{Agent, Choice, Halt};
 use evaluation::run::{Task, play};
 use evaluation::{Contestant, Event, Journal, Subject, SubjectFacts, Turn, Validity};
 
-/// Gems to take and a door to reach; a guard walks by itself, as it would without the player.
+/// Gems to take and a door to reach; a guard moves by itself, regardless of the player.
 const GAME: &str = "
 BasicGame
     SpriteSet
@@ -43,7 +43,7 @@ pub(crate) fn subject() -> Subject {
     Subject::read("hall", GAME, &levels, SubjectFacts::default()).expect("the game is sound")
 }
 
-/// Plays these actions, and is broken off after them.
+/// An agent that plays these actions, and is aborted after them.
 struct Script(Vec<Action>);
 
 impl Agent for Script {
@@ -107,13 +107,13 @@ fn the_shortest_win() {
     let found = EpisodeMetrics::of(&subject, &log).unwrap();
     assert!(found.won() && found.counts());
     assert_eq!((found.meaningful, found.optimality(), found.spared()), (Some(1.0), Some(1.0), Some(0.92)));
-    // Of level 3, nobody knows it.
+    // The optimum of level 3 is unknown.
     let log = self::log(&subject, 3, &[Right; 9], 50);
     let found = EpisodeMetrics::of(&subject, &log).unwrap();
     assert_eq!((found.level, found.optimality()), (3, None));
 }
 
-/// Pushing a box and going back has changed something; using a key that the avatar does not have has not.
+/// Pushing a box and going back has changed the state; using a key that the avatar does not have has not.
 #[test]
 fn what_moves_things_counts() {
     let subject = subject();
@@ -238,7 +238,7 @@ fn answers() {
         (&[Refused], Validity::Refused),
         (&[Truncated], Validity::Truncated),
     ]);
-    // A step that says otherwise than its answers is not believed.
+    // A step that contradicts its answers is rejected.
     for (at, came) in [(3, Validity::Invalid), (8, Validity::Valid), (13, Validity::Invalid)] {
         let mut forged = log.clone();
         let Event::Step { validity, .. } = &mut forged[at] else { panic!("{:?}", forged[at]) };
@@ -251,7 +251,7 @@ fn answers() {
     assert_eq!((found.spending.requests, found.spending.replies), (7, 7));
     assert_eq!((found.spending.input_tokens, found.spending.output_tokens), (Some(700), Some(49)));
     assert_eq!(found.spending.reasoning_tokens, None);
-    // One that does not tell makes the sum unknown.
+    // A reply without a token count makes the sum unknown.
     log.push(reply(5, 0, Strict, None));
     assert_eq!(EpisodeMetrics::of(&subject, &log).unwrap().spending.output_tokens, None);
     let silent = EpisodeMetrics::of(&subject, &steps).unwrap().spending;

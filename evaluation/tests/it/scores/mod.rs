@@ -1,4 +1,4 @@
-//! What is measured of episodes, and what a study makes of it.
+//! Tests of the metrics of episodes and of studies.
 
 mod folders;
 mod logs;
@@ -8,7 +8,7 @@ mod study;
 use engine::Outcome;
 use evaluation::metrics::{Choices, EpisodeMetrics, EpisodeStatus, Movement, Spending};
 
-/// An episode of 100 steps at most, of which nothing is known but this.
+/// Returns an episode with a limit of 100 steps and only these values.
 fn episode(game: &str, level: usize, run: u64, outcome: Outcome, score: f64, steps: u64) -> EpisodeMetrics {
     EpisodeMetrics {
         game: game.to_owned(),

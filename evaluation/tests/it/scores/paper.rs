@@ -1,5 +1,5 @@
-//! The published win rates, through our report: `spec/06` §3, §3.1 and §5.1. The table itself lies beside the checkout; without it
-//! these tests pass and say so.
+//! The published win rates in our report: `spec/06` §3, §3.1 and §5.1. The table lies beside the checkout; without it, these
+//! tests pass and print a message.
 
 use super::episode;
 use engine::Outcome;
@@ -8,11 +8,11 @@ use evaluation::study::{CONTEXTUAL, Player, Scope, Study, TableCell, ZERO_SHOT};
 use std::io::Write;
 use std::path::Path;
 
-/// Levels and runs of the main experiment.
+/// The levels and runs of the main experiment.
 const LEVELS: u64 = 5;
 const RUNS: u64 = 5;
 
-/// A row of the published table: who, and its wins of 25 on each game.
+/// A row of the published table: the player, and its wins of 25 on each game.
 type Row = (Player, Vec<(String, u64)>);
 
 fn published() -> Option<Vec<Row>> {
@@ -35,7 +35,7 @@ fn published() -> Option<Vec<Row>> {
     Some(reader.records().map(|record| row(record.unwrap())).collect())
 }
 
-/// Episodes with these wins, dealt to levels in turn.
+/// Returns episodes with these wins, dealt to levels in turn.
 fn episodes(wins: &[(String, u64)]) -> Vec<EpisodeMetrics> {
     let mut episodes = Vec::new();
     for (game, wins) in wins {
@@ -52,7 +52,7 @@ fn study(rows: &[Row], keep: impl Fn(&Player) -> bool) -> Study {
     Study::new(kept.map(|(player, wins)| (player.clone(), episodes(wins))).collect(), Vec::new())
 }
 
-/// Wilson's interval for wins of 25 to the two digits that are printed: `spec/06` §3.1.
+/// Wilson's interval for wins of 25, to the two digits printed: `spec/06` §3.1.
 const PRINTED: [(u64, &str); 21] = [
     (0, "0.00 [0.00, 0.13]"),
     (1, "0.04 [0.01, 0.20]"),
@@ -147,7 +147,7 @@ fn sums() {
     assert_eq!(failures.excluded, 2250, "no step flags are published");
 }
 
-/// At 25 episodes a side there are effects of the prompt, which five a side cannot show.
+/// With 25 episodes a side there are effects of the prompt, which five a side cannot show.
 #[test]
 fn prompts_matter() {
     let Some(rows) = published() else { return };
@@ -180,7 +180,7 @@ fn pairs_of_models() {
     assert_eq!(study.pairs.by_game.iter().filter(|comparison| comparison.q <= 0.05).count(), 75);
 }
 
-/// The tagger: on aliens no win without and two with it, on escape none and one.
+/// The tagger: on aliens no win without it and two with it, on escape none and one.
 #[test]
 fn an_aid() {
     let games =

@@ -1,4 +1,4 @@
-//! Studies of a few made-up episodes, their numbers worked out by hand.
+//! Studies of a few made-up episodes, with numbers computed by hand.
 
 use super::episode;
 use engine::Outcome::{Lost, Ongoing, Won};
@@ -12,7 +12,7 @@ fn close(found: impl Into<Option<f64>>, expect: f64) {
     assert!(found.is_some_and(|found| (found - expect).abs() < 1e-6), "{found:?}, not {expect}");
 }
 
-/// One level: a model that wins in 20 of 100 steps and loses in 40, and random, which meets the limit.
+/// One level: a model that wins in 20 of 100 steps and loses in 40, and random, which reaches the limit.
 fn one_level() -> Study {
     let meaningful = |share: f64, metrics: EpisodeMetrics| EpisodeMetrics {
         meaningful: Some(share),
@@ -58,7 +58,7 @@ fn scores_worked_by_hand() {
     assert_eq!((random.timeouts, random.efficiency, random.optimality), (1, None, None));
     close(random.normalised_reward, 0.5);
     assert_eq!(study.notes.len(), 1);
-    // The reward of the broken-off episode takes no part.
+    // The reward of the aborted episode is ignored.
     assert!(study.episodes.iter().all(|episode| episode.most_steps == 100));
 }
 
@@ -98,7 +98,7 @@ fn what_is_missing_is_missing() {
     assert!(text.contains('–') && !text.contains("NaN") && !text.contains("inf"), "{text}");
 }
 
-/// Both modes of a model share a row of the heat map of both; references are in all.
+/// Both modes of a model share a row of the combined heat map; references are in all heat maps.
 #[test]
 fn heat_maps() {
     let play = |wins: u64| -> Vec<EpisodeMetrics> {
@@ -127,8 +127,8 @@ fn heat_maps() {
     let modes = &study.modes.overall[0];
     assert_eq!((modes.wins, modes.episodes, modes.levels), ([1, 4], [4, 4], 2));
     close(modes.difference, -0.75);
-    // Level 0: one of two against two, level 1: none against two. Of the deals with these totals, the observed one has a share of
-    // (1/2) · (1/6), and so has its mirror image.
+    // Level 0: one of two against two; level 1: none against two. Among the tables with these totals, the observed one has
+    // probability (1/2) · (1/6), and so has its mirror image.
     close(modes.p, 1.0 / 6.0);
     assert_eq!(study.pairs.overall.len(), 2);
 }

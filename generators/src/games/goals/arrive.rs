@@ -1,4 +1,4 @@
-//! Goals of getting somewhere.
+//! Goals of reaching a place.
 
 use super::{exit, goal, shut_exit};
 use crate::games::body::Body;
@@ -57,7 +57,7 @@ fn unseal(draft: &mut Draft, _: &mut Sampler) {
         format!("throw the {} that unseals the {}, then leave by it", draft.say(lever), draft.say(open));
 }
 
-/// Whoever takes the relic wakes its guards.
+/// Taking the relic wakes its guards.
 fn heist(draft: &mut Draft, sampler: &mut Sampler) {
     let relic = draft.place(Role::Relic, SpriteClass::Immovable, Body::Item, &[]);
     let statue = draft.place(Role::Statue, SpriteClass::Immovable, Body::Solid, &[]);
@@ -85,7 +85,7 @@ fn cross(draft: &mut Draft, sampler: &mut Sampler) {
     draft.goal = format!("cross the lanes to the {}", draft.say(exit));
 }
 
-/// Two sorts of traffic, one each way, one faster than the other.
+/// Adds two types of traffic in opposite directions, one faster than the other.
 pub(super) fn lanes(draft: &mut Draft, sampler: &mut Sampler) {
     let slow = draw(sampler, 2, 3);
     let mut ways = ["LEFT", "RIGHT"];

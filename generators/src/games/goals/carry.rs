@@ -35,7 +35,7 @@ fn becomes(stype: Part) -> Effect {
     Effect::TransformTo { stype, kill_second: false }
 }
 
-/// Every parcel, to any address.
+/// Every parcel goes to any address.
 fn deliver_all(draft: &mut Draft, _: &mut Sampler) {
     let parcel = draft.place(Role::Parcel, SpriteClass::Immovable, Body::Item, &[]);
     let address = draft.place(Role::Address, SpriteClass::Immovable, Body::Spot, &[]);
@@ -46,7 +46,7 @@ fn deliver_all(draft: &mut Draft, _: &mut Sampler) {
     draft.goal = format!("bring every {} to the {}, one at a time", draft.say(parcel), draft.say(address));
 }
 
-/// To every address, from a stock that never runs out.
+/// Every address needs a parcel, from an unlimited stock.
 fn deliver_each(draft: &mut Draft, _: &mut Sampler) {
     let stock = draft.place(Role::Parcel, SpriteClass::Immovable, Body::Spot, &[]);
     let address = draft.place(Role::Address, SpriteClass::Immovable, Body::Spot, &[]);
@@ -57,13 +57,13 @@ fn deliver_each(draft: &mut Draft, _: &mut Sampler) {
     draft.goal = format!("bring {} to every {}, one at a time", draft.one(stock), draft.say(address));
 }
 
-/// The load goes, and so does the address.
+/// Delivering uses up both the load and the address.
 fn delivered(draft: &mut Draft, laden: Part, address: Part) {
     draft.scored(Phase::Take, address, &[laden], Effect::KillSprite, 5);
     draft.rule(Phase::Take, laden, &[address], becomes(HERO));
 }
 
-/// From the raw to the finished to whoever waits for it.
+/// Raw material is picked up, processed and delivered to an address.
 fn craft(draft: &mut Draft, _: &mut Sampler) {
     let ore = draft.place(Role::Ore, SpriteClass::Immovable, Body::Spot, &[]);
     let forge = draft.place(Role::Forge, SpriteClass::Immovable, Body::Spot, &[]);
@@ -82,7 +82,7 @@ fn craft(draft: &mut Draft, _: &mut Sampler) {
     );
 }
 
-/// Conversion by the piece, within what one can carry.
+/// Material is converted piece by piece, within the hero's capacity.
 fn smelt(draft: &mut Draft, sampler: &mut Sampler) {
     let cost = draw(sampler, 1, 2);
     let carry = cost * draw(sampler, 1, 2);

@@ -1,4 +1,4 @@
-//! Goals of getting rid of things.
+//! Goals of removing things.
 
 use super::{exit, goal};
 use crate::games::body::Body;
@@ -74,7 +74,7 @@ const fn lure(name: &'static str, roles: &'static [Role], build: fn(&mut Draft, 
     }
 }
 
-/// What is hunted harms whoever touches it, and stays.
+/// Foes to be hunted: they harm the hero by touch, and survive it.
 fn quarry(draft: &mut Draft, foe: Part, score: i32) {
     draft.harm(foe, Harm::Lasting);
     draft.prey(foe, score);
@@ -117,7 +117,7 @@ fn raze_chasers(draft: &mut Draft, sampler: &mut Sampler) {
     raze(draft, sampler, foe);
 }
 
-/// Foes come without end until their nests are gone.
+/// Foes keep spawning until their nests are destroyed.
 fn raze(draft: &mut Draft, sampler: &mut Sampler, foe: Part) {
     let nest = threats::nest(draft, sampler, foe, 0);
     draft.harm(foe, Harm::Spent);
@@ -153,7 +153,7 @@ fn trophies(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// Targets above, some of which let things fall; perhaps something to hide below.
+/// Targets above, some of which drop things; sometimes with cover below.
 fn gallery(draft: &mut Draft, sampler: &mut Sampler) {
     let (bomber, drop) = threats::bombers(draft, sampler);
     draft.prey(bomber, 2);
@@ -200,7 +200,7 @@ fn lure_placed(draft: &mut Draft, sampler: &mut Sampler) {
     lure_into(draft, foe, &[foe]);
 }
 
-/// A few more come out of nests.
+/// Nests spawn a few more.
 fn lure_spawned(draft: &mut Draft, sampler: &mut Sampler) {
     let params = threats::pursuing(AVATAR, sampler);
     let foe = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
@@ -211,7 +211,7 @@ fn lure_spawned(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// Unarmed, the hero can only lead them on.
+/// The hero is unarmed and can only lure them.
 fn lure_into(draft: &mut Draft, foe: Part, all: &[Part]) {
     let trap = draft.place(Role::Trap, SpriteClass::Immovable, Body::Flat, &[]);
     draft.scored(Phase::Strike, foe, &[trap], Effect::KillSprite, 4);
@@ -223,7 +223,7 @@ fn lure_into(draft: &mut Draft, foe: Part, all: &[Part]) {
     draft.tell(clause);
 }
 
-/// One bite gives strength for one catch: until then the hero is the prey.
+/// One berry gives strength for one catch: until then the hero is the prey.
 fn feast(draft: &mut Draft, sampler: &mut Sampler) {
     let params = threats::pursuing(AVATAR, sampler);
     let foe = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
@@ -235,7 +235,7 @@ fn feast(draft: &mut Draft, sampler: &mut Sampler) {
     let strengthen = Effect::TransformTo { stype: bold, kill_second: true };
     draft.scored(Phase::Take, HERO, &[berry], strengthen, 1);
     draft.scored(Phase::Strike, foe, &[bold], Effect::KillSprite, 4);
-    // In this order: whoever has just made a catch is not its prey.
+    // In this order: a hero that has just made a catch is not harmed by it.
     draft.scored(Phase::Harm, HERO, &[foe], Effect::KillSprite, -2);
     draft.rule(Phase::Harm, bold, &[foe], Effect::TransformTo { stype: HERO, kill_second: false });
     draft.lose_without(AVATAR);

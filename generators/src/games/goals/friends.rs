@@ -50,7 +50,7 @@ const fn friends(
     Goal { threats, pattern: Pattern { weight: 3, bars: &[Feature::Crates], ..goal.pattern }, ..goal }
 }
 
-/// A friend that strays or shies away.
+/// A friend that moves randomly or flees from the hero.
 fn shy(draft: &mut Draft, sampler: &mut Sampler) -> Part {
     if sampler.ratio(1, 2) {
         return draft.place(Role::Friend, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));
@@ -63,7 +63,7 @@ fn fleeing(draft: &mut Draft, sampler: &mut Sampler) -> Part {
     draft.place(Role::Friend, SpriteClass::Fleeing, Body::Walker, &params)
 }
 
-/// A friend that strays slowly and gives way to whoever nudges it.
+/// A friend that moves randomly and slowly, and that the hero can push.
 fn driven(draft: &mut Draft, sampler: &mut Sampler) -> Part {
     let params =
         [("cooldown", Value::Count(draw(sampler, 10, 16))), ("cons", Value::Count(draw(sampler, 0, 2)))];
@@ -74,13 +74,13 @@ fn driven(draft: &mut Draft, sampler: &mut Sampler) -> Part {
     friend
 }
 
-/// A friend that comes along.
+/// A friend that follows the hero.
 fn follower(draft: &mut Draft, sampler: &mut Sampler) -> Part {
     let params = [("stype", Value::Part(AVATAR)), ("cooldown", Value::Count(draw(sampler, 2, 3)))];
     draft.place(Role::Friend, SpriteClass::Chaser, Body::Walker, &params)
 }
 
-/// Something after the friends; a few lost ones are too many.
+/// Adds a hunter of the friends; losing a few of them loses the game.
 fn hunter(draft: &mut Draft, sampler: &mut Sampler, friend: Part) {
     let params = [("stype", Value::Part(friend)), ("cooldown", Value::Count(draw(sampler, 4, 6)))];
     let hunter = draft.place(Role::Chaser, SpriteClass::Chaser, Body::Walker, &params);
@@ -152,7 +152,7 @@ fn herd_hunted(draft: &mut Draft, sampler: &mut Sampler) {
     hunter(draft, sampler, friend);
 }
 
-/// Who is woken comes along, and may be put to sleep again.
+/// Friends that are woken follow the hero, and may be put to sleep again.
 fn wake(draft: &mut Draft, sampler: &mut Sampler) {
     let asleep = draft.place(Role::Friend, SpriteClass::Immovable, Body::Spot, &[]);
     let params = [("stype", Value::Part(AVATAR)), ("cooldown", Value::Count(draw(sampler, 2, 3)))];

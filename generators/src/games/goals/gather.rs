@@ -82,7 +82,7 @@ fn forage(draft: &mut Draft, sampler: &mut Sampler) {
     draft.goal = format!("gather every {} between the lanes", draft.say(gem));
 }
 
-/// Others are after the same things: too many in their hands, and all is lost.
+/// Rivals want the same things: the game is lost when they have spoiled too many.
 fn rivals(draft: &mut Draft, sampler: &mut Sampler) {
     let gem = pickings(draft, Role::Gem, 2);
     let params = threats::pursuing(gem, sampler);

@@ -1,4 +1,4 @@
-//! Goals of holding out.
+//! Goals of surviving and defending.
 
 use super::goal;
 use crate::games::body::Body;
@@ -13,7 +13,7 @@ use crate::games::threats;
 use engine::{Sampler, SpriteClass};
 
 const SIEGE: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey];
-/// The same, with what the hero can take settled.
+/// The same, with the hero's health determined.
 const STORM: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Health];
 
 pub(super) const GOALS: &[Goal] = &[
@@ -113,13 +113,13 @@ fn survive(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// Time up is a win: the limit itself comes later.
+/// Makes reaching the time limit a win: the limit itself is set later.
 fn outlast(draft: &mut Draft) {
     draft.endings.push((Ending::Timeout(0), true));
     draft.goal = "stay alive until time is up".into();
 }
 
-/// Some of what falls is good.
+/// Some of the falling things are good.
 fn dodge(draft: &mut Draft, sampler: &mut Sampler) {
     let thrown = threats::bombers(draft, sampler);
     windfalls(draft, sampler, thrown, "DOWN");
@@ -131,7 +131,7 @@ fn headwind(draft: &mut Draft, sampler: &mut Sampler) {
     windfalls(draft, sampler, thrown, "LEFT");
 }
 
-/// Good things come the same way as the bad ones, and time is on the hero's side.
+/// Good things come from the same direction as the harmful ones, and reaching the time limit is a win.
 fn windfalls(draft: &mut Draft, sampler: &mut Sampler, (bomber, drop): (Part, Part), way: &'static str) {
     let params = [("orientation", Value::Word(way)), ("cooldown", Value::Count(2))];
     let fruit = draft.spawn(Role::Fruit, SpriteClass::Missile, Body::FoeShot, &params);
@@ -160,7 +160,7 @@ fn windfalls(draft: &mut Draft, sampler: &mut Sampler, (bomber, drop): (Part, Pa
     draft.tell(clause);
 }
 
-/// What comes down must be shot before it lands.
+/// Pests must be shot before they land.
 fn waves(draft: &mut Draft, sampler: &mut Sampler) {
     let params = [("orientation", Value::Word("DOWN")), ("cooldown", Value::Count(draw(sampler, 2, 4)))];
     let pest = draft.spawn(Role::Pest, SpriteClass::Missile, Body::FoeShot, &params);

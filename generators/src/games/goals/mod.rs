@@ -1,4 +1,4 @@
-//! How games are won: one file for each sort of thing to do.
+//! The goals of games: one file for each family.
 
 mod arrive;
 mod carry;
@@ -33,7 +33,7 @@ pub(crate) fn all() -> Vec<&'static Goal> {
     families.into_iter().flatten().collect()
 }
 
-/// A goal of a four-way hero with the usual company; what differs is written over it.
+/// A goal for a hero that moves in four directions, with the usual numbers of other patterns; callers override the rest.
 const fn goal(
     name: &'static str,
     kind: Kind,
@@ -51,12 +51,12 @@ const fn goal(
     }
 }
 
-/// The way out.
+/// Adds an exit.
 fn exit(draft: &mut Draft, body: Body) -> Part {
     draft.place(Role::Exit, SpriteClass::Door, body, &[])
 }
 
-/// A way out that is shut until something opens it: shut, and open.
+/// Adds an exit that is sealed until something opens it; returns the sealed and the open state.
 fn shut_exit(draft: &mut Draft) -> (Part, Part) {
     let open = draft.spawn(Role::Exit, SpriteClass::Door, Body::Spot, &[]);
     let shut = draft.state(open, "sealed", SpriteClass::Immovable, Body::Solid, &[]);

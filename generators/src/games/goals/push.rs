@@ -25,7 +25,7 @@ const fn puzzle(name: &'static str, roles: &'static [Role], build: fn(&mut Draft
     }
 }
 
-/// Something to push.
+/// Adds a crate to push.
 fn block(draft: &mut Draft) -> Part {
     let block = draft.place(Role::Crate, SpriteClass::Passive, Body::Crate, &[]);
     draft.rule(Phase::Push, block, &[AVATAR], Effect::BounceForward);
@@ -41,7 +41,7 @@ fn sockets(draft: &mut Draft, _: &mut Sampler) {
     draft.goal = format!("push every {} into {}", draft.say(block), draft.one(socket));
 }
 
-/// A socket takes one crate, which is then in the way.
+/// A socket takes one crate, which then becomes an obstacle.
 fn fill(draft: &mut Draft, _: &mut Sampler) {
     let block = block(draft);
     let socket = draft.place(Role::Socket, SpriteClass::Immovable, Body::Flat, &[]);
@@ -52,7 +52,7 @@ fn fill(draft: &mut Draft, _: &mut Sampler) {
     draft.goal = format!("fill every {} with {}", draft.say(socket), draft.one(block));
 }
 
-/// A weight on the plate opens the way out.
+/// A crate on the plate opens the exit.
 fn plate(draft: &mut Draft, _: &mut Sampler) {
     let block = block(draft);
     let plate = draft.place(Role::Plate, SpriteClass::Immovable, Body::Flat, &[]);

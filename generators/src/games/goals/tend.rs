@@ -1,4 +1,4 @@
-//! Goals of setting everything right while something undoes it.
+//! Goals of putting everything in order while something undoes the work.
 
 use super::goal;
 use crate::games::body::Body;
@@ -57,7 +57,7 @@ fn sow(draft: &mut Draft, sampler: &mut Sampler) {
     let pest = if sampler.ratio(1, 2) {
         draft.place(Role::Pest, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler))
     } else {
-        // After the sprouts; it strays while there are none.
+        // Chases the sprouts; it strays while there are none.
         let params = [("stype", Value::Part(sprout)), ("cooldown", Value::Count(draw(sampler, 5, 8)))];
         draft.place(Role::Pest, SpriteClass::Chaser, Body::Walker, &params)
     };
@@ -78,7 +78,7 @@ fn sow(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// What spreads has to be cleared faster than it spreads.
+/// The pests spread and must be cleared faster than they spread.
 fn overrun(draft: &mut Draft, sampler: &mut Sampler) {
     let plot = draft.place(Role::Plot, SpriteClass::Immovable, Body::Spot, &[]);
     let pest = draft.spawn(Role::Pest, SpriteClass::RandomNPC, Body::Walker, &threats::straying(sampler));

@@ -1,4 +1,4 @@
-//! Goals of opening what is locked.
+//! Goals of opening locked things.
 
 use super::{exit, goal};
 use crate::games::body::Body;
@@ -34,7 +34,7 @@ const fn warden(name: &'static str, roles: &'static [Role], build: fn(&mut Draft
     }
 }
 
-/// A way out that only the hero with the key can take.
+/// Adds an exit that only the hero with the key can take.
 fn locked_exit(draft: &mut Draft, key: Part) -> Part {
     let exit = exit(draft, Body::Spot);
     let holder = draft.hero_state("keyed");
@@ -63,7 +63,7 @@ fn keen_warden(draft: &mut Draft, sampler: &mut Sampler) {
     robbed(draft, warden);
 }
 
-/// The warden leaves the key when it falls.
+/// The warden drops the key when it is killed.
 fn robbed(draft: &mut Draft, warden: Part) {
     let key = draft.spawn(Role::Key, SpriteClass::Immovable, Body::Item, &[]);
     draft.prey_leaves(warden, key, 3);
@@ -77,7 +77,7 @@ fn robbed(draft: &mut Draft, warden: Part) {
     );
 }
 
-/// One key for all, or several to each.
+/// One key opens all chests, or each chest requires several.
 fn chests(draft: &mut Draft, sampler: &mut Sampler) {
     let keys = draw(sampler, 1, 3);
     let key = draft.place(Role::Key, SpriteClass::Resource, Body::Item, &[("limit", Value::Count(keys + 1))]);

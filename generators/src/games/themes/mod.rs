@@ -1,6 +1,6 @@
-//! The fictions: one file each, data only.
+//! The themes: one file each, data only.
 //!
-//! Within a fiction no word serves two roles, so that any patterns can meet in one game.
+//! Within a theme no word serves two roles, so that any patterns can be combined in one game.
 
 pub(crate) mod bakery;
 pub(crate) mod beehive;

@@ -1,4 +1,4 @@
-//! Foes that go about.
+//! Foes that move.
 
 use super::{foe_of, patroller, pursuing, straying};
 use crate::games::body::Body;
@@ -48,7 +48,7 @@ pub(super) fn sentry(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell_way(foe, clause);
 }
 
-/// Goes straight on, and who knows where from a wall.
+/// Moves straight on, and turns in a random direction at obstacles.
 pub(super) fn drift(draft: &mut Draft, sampler: &mut Sampler) {
     let params = [
         ("orientation", Value::Word(["RIGHT", "DOWN"][sampler.below(2)])),
@@ -60,7 +60,7 @@ pub(super) fn drift(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell_way(foe, clause);
 }
 
-/// Something slow that a hit turns into something quick.
+/// A slow foe that turns into a fast one when it is hit.
 pub(super) fn split(draft: &mut Draft, sampler: &mut Sampler) {
     let slow = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
     let quick = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &pursuing(AVATAR, sampler));
@@ -72,12 +72,12 @@ pub(super) fn split(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// A patroller that lets things fall.
+/// A patroller that drops things.
 pub(crate) fn bombers(draft: &mut Draft, sampler: &mut Sampler) -> (Part, Part) {
     throwers(draft, sampler, ["LEFT", "RIGHT"], "DOWN")
 }
 
-/// A patroller that goes one of these ways at first and throws things that way.
+/// A patroller that starts in one of these directions and throws things in another.
 pub(crate) fn throwers(
     draft: &mut Draft,
     sampler: &mut Sampler,
@@ -105,7 +105,7 @@ pub(super) fn bomb(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// The hero stays below: only what falls harms it.
+/// The hero stays below: only the falling things harm it.
 pub(super) fn rain(draft: &mut Draft, sampler: &mut Sampler) {
     let (bomber, drop) = bombers(draft, sampler);
     draft.prey(bomber, 3);
@@ -113,7 +113,7 @@ pub(super) fn rain(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell(clause);
 }
 
-/// What it carries heals: to be felled rather than fled from.
+/// A foe that leaves medicine when it is killed, so that hunting it pays.
 pub(super) fn bearer(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.place(Role::Wanderer, SpriteClass::RandomNPC, Body::Walker, &straying(sampler));
     let medicine = draft.spawn(Role::Medicine, SpriteClass::Immovable, Body::Item, &[]);

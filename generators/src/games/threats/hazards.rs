@@ -1,4 +1,4 @@
-//! What is to be kept away from, and what time takes.
+//! Hazards to avoid, and health that fades over time.
 
 use super::foe_of;
 use crate::games::body::Body;
@@ -52,7 +52,7 @@ pub(super) fn turret(draft: &mut Draft, sampler: &mut Sampler) {
     draft.tell_way(dart, clause);
 }
 
-/// A vent that bursts with a warning: first it rises in the vent, then it is all around.
+/// A vent that erupts with a warning: the steam first rises in the vent, then it spreads all around.
 pub(super) fn geyser(draft: &mut Draft, sampler: &mut Sampler) {
     let params = [("limit", Value::Count(draw(sampler, 1, 3)))];
     let steam = draft.spawn(Role::Steam, SpriteClass::Flicker, Body::Puff, &params);
@@ -62,7 +62,8 @@ pub(super) fn geyser(draft: &mut Draft, sampler: &mut Sampler) {
     draft.harm(steam, Harm::Lasting);
 }
 
-/// Two types take turns, since none may spread into itself; one makes fewer than one on average, so it stays small.
+/// Two types alternate, since none may spread into itself; each makes fewer than one on average, so the spread stays
+/// small.
 pub(super) fn creep(draft: &mut Draft, sampler: &mut Sampler) {
     let share = ("spreadprob", Value::Hundredths(draw(sampler, 16, 22)));
     let limit = ("limit", Value::Count(draw(sampler, 10, 18)));
@@ -89,7 +90,7 @@ pub(super) fn vent(draft: &mut Draft, sampler: &mut Sampler, stype: Part, (low, 
     draft.tell(clause);
 }
 
-/// Strength fades by the clock, and wounds take of it too.
+/// Health fades over time, and wounds reduce it too.
 pub(super) fn hunger(draft: &mut Draft, sampler: &mut Sampler) {
     let (health, timer) = (draw(sampler, 5, 8), draw(sampler, 8, 16));
     draft.stamina = Stamina::Hearts(health);

@@ -1,4 +1,4 @@
-//! What endangers the hero.
+//! Threats to the hero.
 
 mod foes;
 mod hazards;
@@ -13,11 +13,11 @@ use crate::games::pattern::{Feature, Pattern};
 use crate::games::role::Role;
 use engine::{Sampler, SpriteClass};
 
-/// What harms and moves, and can be hit.
+/// Moving dangers that can be hit.
 const FOE: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey];
-/// The same, and what it leaves behind harms too.
+/// The same, with a harmful trail.
 const STAINING: &[Feature] = &[Feature::Movers, Feature::Harm, Feature::Prey, Feature::Stains];
-/// What harms and moves, and cannot be hit.
+/// Moving dangers that cannot be hit.
 const DANGER: &[Feature] = &[Feature::Movers, Feature::Harm];
 
 const fn threat(
@@ -71,24 +71,24 @@ pub(crate) const THREATS: &[Pattern] = &[
     },
 ];
 
-/// Something that goes straight and turns round; `orientation` is where it starts to.
+/// Adds a patroller that moves straight and turns round; `orientation` is its first direction.
 pub(crate) fn patroller(draft: &mut Draft, role: Role, orientation: &'static str, cooldown: u32) -> Part {
     let params = [("orientation", Value::Word(orientation)), ("cooldown", Value::Count(cooldown))];
     draft.place(role, SpriteClass::Missile, Body::Patroller, &params)
 }
 
-/// A foe that its pattern placed: it harms, and can be hit.
+/// Makes a placed foe harm the hero and be a target of its weapon.
 fn foe_of(draft: &mut Draft, foe: Part, score: i32) {
     draft.harm(foe, Harm::Spent);
     draft.prey(foe, score);
 }
 
-/// How a stray moves: how rarely, and how long in one direction.
+/// The parameters of random movement: the cooldown, and the number of steps in one direction.
 pub(crate) fn straying(sampler: &mut Sampler) -> [(&'static str, Value); 2] {
     [("cooldown", Value::Count(draw(sampler, 2, 4))), ("cons", Value::Count(draw(sampler, 0, 3)))]
 }
 
-/// How a pursuer moves: after whom, and how rarely.
+/// The parameters of pursuit: the target and the cooldown.
 pub(crate) fn pursuing(target: Part, sampler: &mut Sampler) -> [(&'static str, Value); 2] {
     [("stype", Value::Part(target)), ("cooldown", Value::Count(draw(sampler, 2, 4)))]
 }

@@ -1,4 +1,4 @@
-//! Where foes come from.
+//! Sources of foes.
 
 use super::{foe_of, pursuing, straying};
 use crate::games::body::Body;
@@ -7,7 +7,7 @@ use crate::games::effect::Effect;
 use crate::games::role::Role;
 use engine::{Sampler, SpriteClass};
 
-/// What comes out of a nest; `total` 0 is without end.
+/// Adds a nest that spawns foes; with `total` 0 it never stops.
 pub(crate) fn nest(draft: &mut Draft, sampler: &mut Sampler, foe: Part, total: u32) -> Part {
     let total = (total > 0).then_some(("total", Value::Count(total)));
     let params = [
@@ -37,7 +37,7 @@ pub(super) fn nest_of(draft: &mut Draft, sampler: &mut Sampler, foe: Part) {
     draft.tell(clause);
 }
 
-/// Each nest hatches one pursuer after a while, unless the hero is there first.
+/// Each nest hatches one pursuer after a while, unless the hero clears it first.
 pub(super) fn brood(draft: &mut Draft, sampler: &mut Sampler) {
     let foe = draft.spawn(Role::Chaser, SpriteClass::Chaser, Body::Walker, &pursuing(AVATAR, sampler));
     let params = [

@@ -4,7 +4,7 @@ use super::mirror::Mirror;
 use crate::levels::grid::{Grid, WAYS};
 use engine::Sampler;
 
-/// Straight and bent pieces of wall of two to four cells that touch neither each other nor the border.
+/// Draws straight and bent pieces of wall of two to four cells that touch neither each other nor the border.
 pub(super) fn pieces(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let mirror = Mirror::draw(sampler);
     let margin = if ring { 2 } else { 1 };
@@ -52,14 +52,14 @@ pub(super) fn pieces(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [
     }
 }
 
-/// Single blocks two or three cells apart, some left out.
+/// Draws single blocks two or three cells apart, with some omitted.
 pub(super) fn pillars(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let margin = if ring { 2 } else { 1 };
     let (across, down) = (sampler.between(2, 3), sampler.between(2, 3));
     let keep = sampler.between(6, 10);
     let mirror = Mirror::draw(sampler);
     let centre = |size: usize, gap: usize| {
-        // The rest of the width goes to both sides.
+        // The remaining width is divided between both sides.
         let inner = size.saturating_sub(2 * margin);
         margin + (inner.saturating_sub(1) % gap) / 2
     };

@@ -4,10 +4,10 @@
 use crate::levels::grid::Grid;
 use engine::Sampler;
 
-/// Rounds of smoothing.
+/// The number of smoothing rounds.
 const ROUNDS: usize = 3;
 
-/// Draws caves, ever more open, until one region holds most of the inside.
+/// Draws increasingly open caves, until one region holds most of the inside.
 pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let border: Vec<bool> = wall.to_vec();
     let inside = border.iter().filter(|&&wall| !wall).count();
@@ -15,7 +15,7 @@ pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bo
         let mut cells: Vec<bool> = border.iter().map(|&wall| wall || sampler.ratio(fill, 100)).collect();
         for _ in 0..ROUNDS {
             let smooth = |cell: usize| {
-                // What lies outside counts as rock only if the board is closed.
+                // Cells off the board count as rock only if the board is closed.
                 let rock =
                     grid.around(cell).iter().filter(|next| next.map_or(ring, |next| cells[next])).count();
                 rock >= 5 || (cells[cell] && rock >= 4)
@@ -32,7 +32,7 @@ pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bo
     }
 }
 
-/// Single rocks where the cave is widest, so that large halls have something to walk around.
+/// Adds single rocks in the widest places, so that large halls have something to walk around.
 fn roughen(grid: Grid, border: &[bool], sampler: &mut Sampler, cells: &mut [bool]) {
     for cell in 0..grid.len() {
         let clear = grid.around(cell).into_iter().all(|next| next.is_some_and(|next| !cells[next]));

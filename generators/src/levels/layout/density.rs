@@ -1,11 +1,11 @@
-//! More wall, or less, without another structure.
+//! Adjustment of the amount of wall without a change of structure.
 
 use super::mirror::Mirror;
 use crate::levels::grid::Grid;
 use engine::Sampler;
 
-/// Thickens walls, or wears them off at their ends, until the share of wall inside the border is about `share`. What hangs
-/// together stays so, and what is symmetrical too. Cost: O(cells) for each cell that changes, in the worst case.
+/// Thickens walls, or erodes them at their ends, until the share of wall inside the border is about `share`. Regions stay
+/// connected, and symmetries are kept. Cost: O(cells) for each cell that changes, in the worst case.
 pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     let inner: Vec<usize> = (0..grid.len()).filter(|&cell| !grid.on_border(cell)).collect();
     let wanted = (share * inner.len() as f64 + 0.5) as usize;
@@ -13,7 +13,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
     let has = |wall: &[bool]| inner.iter().filter(|&&cell| wall[cell]).count();
     let mut now = has(wall);
     let grow = now < wanted;
-    // Both lead to the goal, but for a cell or two of a symmetrical pair.
+    // Both directions reach the goal, give or take a cell or two of a symmetric pair.
     while if grow { now < wanted } else { now > wanted } {
         let walls =
             |cell: usize| grid.around(cell).into_iter().filter(|next| next.is_none_or(|next| wall[next]));
@@ -22,7 +22,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
             if wall[cell] == grow {
                 0
             } else if grow {
-                // Nooks first, then along what there is.
+                // Nooks first, then cells along existing walls.
                 match (beside(cell), walls(cell).count()) {
                     (3.., _) => 60,
                     (2, 5..) => 30,
@@ -39,7 +39,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
             }
         };
         let weights: Vec<u32> = inner.iter().map(|&cell| weight(cell)).collect();
-        // What would cut is put off until nothing else is left.
+        // A change that would cut off cells is excluded, and another is drawn.
         let mut weights = weights;
         let changed = loop {
             let Some(at) = sampler.weighted(&weights) else { return };

@@ -1,45 +1,45 @@
-//! Walls that run as in examples: every window of three by three cells is one that occurs in some example.
+//! Walls learnt from examples: every window of three by three cells occurs in some example.
 //!
 //! This is the overlapping model of wave function collapse: Karth and Smith 2017, "WaveFunctionCollapse is Constraint
-//! Solving in the Wild". Here the cells of the border are classes of their own, so that windows learnt at an edge stay there,
-//! and the last decisions are taken back before a board is begun anew.
+//! Solving in the Wild". Here the cells of the border are classes of their own, so that windows learnt at an edge stay
+//! there, and the last decisions are undone before a board is restarted.
 
 use crate::levels::grid::Grid;
 use engine::Sampler;
 use std::collections::{BTreeMap, VecDeque};
 
-/// Side of a window, cells.
+/// The side of a window, in cells.
 const SIDE: usize = 3;
-/// Cells of a window.
+/// The number of cells of a window.
 const CELLS: usize = SIDE * SIDE;
-/// Different windows at most, the most frequent ones: time and memory grow with their square.
+/// The maximum number of different windows, the most frequent ones: time and memory grow with its square.
 const MOST: usize = 320;
-/// Boards begun at most.
+/// The maximum number of boards to start.
 const RESTARTS: usize = 2;
-/// Windows looked at, at most, on one board.
+/// The maximum number of windows to examine on one board.
 const WORK: usize = 1_500_000;
-/// Decisions on one board that are remembered to be taken back.
+/// The number of decisions on one board that can be undone.
 const MEMORY: usize = 24;
 
-/// Each cell's class: 0 open, 1 wall, 2 and 3 the same on the border.
+/// The classes of the cells: 0 open, 1 wall, 2 and 3 the same on the border.
 type Window = [u8; CELLS];
 
-/// Windows of examples.
+/// The windows of the examples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Patterns {
-    /// With how often each occurs.
+    /// The windows, with the frequency of each.
     seen: BTreeMap<Window, u32>,
-    /// Of the most frequent ones; see [`Patterns::conclude`].
+    /// The model of the most frequent ones; see [`Patterns::conclude`].
     model: Model,
 }
 
-/// A cell's class.
+/// Returns the class of a cell.
 fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
     2 * u8::from(grid.on_border(cell)) + u8::from(wall)
 }
 
 impl Patterns {
-    /// Adds the windows of a board, and those of its reflection left to right: walls mean the same either way.
+    /// Adds the windows of a board, and those of its left-to-right reflection: walls mean the same either way.
     pub(crate) fn learn(&mut self, grid: Grid, wall: &[bool]) {
         for mirrored in [false, true] {
             for y in 0..(grid.rows + 1).saturating_sub(SIDE) {
@@ -55,12 +55,12 @@ impl Patterns {
         }
     }
 
-    /// Whether there is a structure to learn: walls inside, in some variety.
+    /// Returns `true` if there is a structure to learn: inner walls, in some variety.
     pub(crate) fn has_structure(&self) -> bool {
         self.seen.keys().filter(|window| window.contains(&1)).count() >= 8
     }
 
-    /// After the last board: which windows may overlap. Cost: the square of [`MOST`].
+    /// Computes the windows that may overlap, after the last board. Cost: the square of [`MOST`].
     pub(crate) fn conclude(&mut self) {
         let mut windows: Vec<(u32, Window)> =
             self.seen.iter().map(|(window, &count)| (count, *window)).collect();
@@ -69,7 +69,7 @@ impl Patterns {
         self.model = Model::new(windows);
     }
 
-    /// The share of a board's windows that are known.
+    /// The share of a board's windows that occur in the examples.
     pub(crate) fn familiar(&self, grid: Grid, wall: &[bool]) -> f64 {
         let mut own = Patterns::default();
         own.learn(grid, wall);
@@ -78,7 +78,7 @@ impl Patterns {
         f64::from(known.map(|(_, count)| count).sum::<u32>()) / f64::from(all.max(1))
     }
 
-    /// Walls for a board; None if no board was found within the limits.
+    /// Assembles walls for a board; `None` if none was found within the limits.
     pub(crate) fn assemble(&self, grid: Grid, sampler: &mut Sampler) -> Option<Vec<bool>> {
         if grid.columns <= SIDE || grid.rows <= SIDE {
             return None;
@@ -88,17 +88,17 @@ impl Patterns {
     }
 }
 
-/// Which windows may overlap.
+/// The windows that may overlap.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Model {
     windows: Vec<(u32, Window)>,
-    /// By window: its frequency times the logarithm of that.
+    /// By window: its frequency times the logarithm of its frequency.
     logs: Vec<f64>,
-    /// By window: those that fit one cell to the right of it, one cell down, to the left, up.
+    /// By window: the set of those that fit one cell to the right of it, down, to the left, and up.
     fits: [Vec<Vec<u64>>; 4],
 }
 
-/// Steps from a window to its neighbours, in the order of [`Model::fits`].
+/// The steps from a window to its neighbours, in the order of [`Model::fits`].
 const STEPS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
 impl Model {
@@ -129,7 +129,7 @@ impl Model {
     }
 }
 
-/// A board of which not every window is known yet: for each place, the windows that are still possible there.
+/// A partly decided board: for each place, the windows that are still possible there.
 #[derive(Clone)]
 struct Wave<'a> {
     model: &'a Model,
@@ -138,9 +138,9 @@ struct Wave<'a> {
     /// The places of windows, by their upper left cells.
     places: Grid,
     possible: Vec<u64>,
-    /// Words of a set of windows.
+    /// The number of words in a set of windows.
     words: usize,
-    /// By place: how much choice there is.
+    /// By place: the entropy of the choice.
     entropy: Vec<u64>,
     work: usize,
 }
@@ -156,7 +156,7 @@ fn size(set: &[u64]) -> u32 {
 }
 
 impl<'a> Wave<'a> {
-    /// All windows, but border only where the board has it. None if that leaves a place without any.
+    /// Starts with all windows, except that border cells must match the board. `None` if that leaves a place without any.
     fn new(model: &'a Model, grid: Grid) -> Option<Wave<'a>> {
         let places = Grid { columns: grid.columns + 1 - SIDE, rows: grid.rows + 1 - SIDE };
         let suits = |place: usize, window: &Window| {
@@ -179,12 +179,12 @@ impl<'a> Wave<'a> {
         Some(wave)
     }
 
-    /// Decides the place that leaves the least choice, again and again.
+    /// Repeatedly decides the place with the least entropy.
     fn collapse(mut self, sampler: &mut Sampler) -> Option<Vec<bool>> {
-        // Among equals, by an order that is drawn.
+        // Ties are broken by a random order.
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         sampler.shuffle(&mut order);
-        // What was possible before a decision, and what was decided.
+        // The possibilities before a decision, with the place and the window chosen.
         let mut before: VecDeque<(Vec<u64>, usize, usize)> = VecDeque::new();
         loop {
             let open = order.iter().copied().filter(|&place| self.entropy[place] > 0);
@@ -227,7 +227,8 @@ impl<'a> Wave<'a> {
         &self.possible[place * self.words..][..self.words]
     }
 
-    /// How much choice a place leaves: Shannon's entropy of the frequencies, in thousandths of a nat; 0 if there is none.
+    /// The entropy of a place: Shannon's entropy of the frequencies, in thousandths of a nat plus one; 0 if there is no
+    /// choice.
     fn measure(&self, place: usize) -> u64 {
         let (mut sum, mut logs, mut options) = (0.0, 0.0, 0);
         for at in members(self.set(place)) {
@@ -238,7 +239,8 @@ impl<'a> Wave<'a> {
         if options < 2 { 0 } else { ((libm::log(sum) - logs / sum) * 1000.0) as u64 + 1 }
     }
 
-    /// Rules out, from these places on, what no neighbour allows. None: a place is left without a window.
+    /// Rules out, starting from these places, all windows that no neighbour allows. `None` if a place is left without a
+    /// window.
     fn propagate(&mut self, mut changed: Vec<usize>) -> Option<()> {
         let mut waiting = vec![false; self.places.len()];
         for &place in &changed {
@@ -258,7 +260,7 @@ impl<'a> Wave<'a> {
                         *word |= fit;
                         missing |= possible & !*word;
                     }
-                    // Mostly, a few windows allow all that is possible.
+                    // In most cases, a few windows allow everything that is possible.
                     if missing == 0 {
                         break;
                     }
@@ -307,7 +309,7 @@ mod tests {
         patterns.seen.into_keys().collect()
     }
 
-    /// Every window of what is assembled occurs in the example.
+    /// Every window of an assembled board occurs in the examples.
     #[test]
     fn what_is_assembled_is_made_of_the_example() {
         let boards = [

@@ -24,13 +24,13 @@ impl Mirror {
         ])
     }
 
-    /// The symmetry that walls have, if any.
+    /// Returns the symmetry of the walls, if any.
     pub(crate) fn of_walls(grid: Grid, wall: &[bool]) -> Mirror {
         let kept = |mirror: &Mirror| (0..grid.len()).all(|cell| wall[cell] == wall[mirror.of(grid, cell)]);
         [Mirror::Sides, Mirror::Turn, Mirror::Ends].into_iter().find(kept).unwrap_or(Mirror::None)
     }
 
-    /// The cell on the other side.
+    /// Returns the image of a cell.
     pub(crate) fn of(self, grid: Grid, cell: usize) -> usize {
         let (x, y) = (grid.x(cell), grid.y(cell));
         let (other_x, other_y) = (grid.columns - 1 - x, grid.rows - 1 - y);

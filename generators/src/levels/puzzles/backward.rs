@@ -1,19 +1,19 @@
-//! Breadth-first search backwards from all solved positions: how far each position is from being solved.
+//! Breadth-first search backwards from all solved positions: computes the distance of each position from a solution.
 
 use super::yard::{Position, Pushing, bit, each};
 use crate::levels::grid::{Grid, WAYS};
 
-/// Not known.
+/// An empty slot.
 const NONE: u32 = u32::MAX;
 
-/// Positions that have been met, in the order in which they were, with their distances.
+/// The positions found, in order of discovery, with their distances.
 #[derive(Default)]
 pub(crate) struct Met {
     positions: Vec<Position>,
     distances: Vec<u16>,
-    /// Open addressing: indices of positions; a power of two of them.
+    /// The hash table with open addressing: indices of positions; its size is a power of two.
     slots: Vec<u32>,
-    /// All that can be reached has been met.
+    /// `true` if all reachable positions have been found.
     pub(crate) complete: bool,
 }
 
@@ -22,7 +22,7 @@ impl Met {
         self.positions.len()
     }
 
-    /// All of them, nearest first, each with its distance.
+    /// All positions, nearest first, each with its distance.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&Position, usize)> {
         self.positions
             .iter()
@@ -35,7 +35,7 @@ impl Met {
         Some(usize::from(self.distances[at as usize]))
     }
 
-    /// Where it is, or belongs.
+    /// The slot of a position, or the slot where it belongs.
     fn slot(&self, position: &Position) -> usize {
         let mask = self.slots.len().wrapping_sub(1);
         let mut slot = hash(position) as usize & mask;
@@ -80,8 +80,9 @@ fn hash(position: &Position) -> u64 {
 }
 
 impl Pushing<'_> {
-    /// The least number of pushes from each position, the avatar taken as anywhere where it can walk to: its cell is the
-    /// first of those. At most `most` positions are looked at; then the farthest ones are left out.
+    /// The minimum number of pushes from each position. Positions that differ only by a walk of the avatar count as one,
+    /// with the avatar in the first cell that it can walk to. The search stops after about `most` positions, so that the
+    /// farthest ones are missing.
     ///
     /// Cost: O(positions × things), about a microsecond for each position.
     pub(crate) fn by_pushes(&self, most: usize) -> Met {
@@ -118,7 +119,7 @@ impl Pushing<'_> {
         met
     }
 
-    /// The least number of the avatar's steps from each position.
+    /// The minimum number of the avatar's steps from each position.
     pub(crate) fn by_steps(&self, most: usize) -> Met {
         let mut met = Met::default();
         for solved in self.solved() {
@@ -148,8 +149,8 @@ impl Pushing<'_> {
         met
     }
 
-    /// Steps of the avatar that solve a position with the fewest pushes, walking little before each of them. `pushes` comes
-    /// from [`Pushing::by_pushes`]; none if it does not hold the position.
+    /// The avatar's steps that solve a position with the fewest pushes, with a short walk before each of them. `pushes`
+    /// comes from [`Pushing::by_pushes`]; `None` if it does not hold the position.
     pub(crate) fn solution(&self, pushes: &Met, start: Position) -> Option<Vec<(i32, i32)>> {
         let grid = self.yard.grid;
         let distance = |position: &Position| {

@@ -1,4 +1,4 @@
-//! Floor plans for puzzles: drawn, changed a little, and rated by how far from solved their farthest position is.
+//! Floor plans for puzzles: drawn, varied, and rated by the distance of their farthest position from a solution.
 
 use super::rules::{Home, KINDS, Rules};
 use super::yard::{Cells, Position, Pushing, Yard, bit, each};
@@ -7,16 +7,16 @@ use crate::levels::grid::{Grid, WAYS};
 use crate::{Evaluation, Variation};
 use engine::{Sampler, Seed};
 
-/// Positions looked at for the rating of a floor plan.
+/// The maximum number of positions to examine for the rating of a floor plan.
 const MOST_POSITIONS: usize = 100_000;
-/// How far apart targets of a group are at most, in cells.
+/// The maximum distance of a target from the nearest other one, in cells.
 const GROUP: usize = 2;
-/// A rating of 1.0 stands for so many pushes.
+/// The number of pushes with a rating of 1.0.
 const PERFECT: f64 = 120.0;
-/// Draws of a change before a floor plan is given back as it was.
+/// The number of draws of a change before a floor plan is returned unchanged.
 const REDRAWS: usize = 40;
 
-/// Floor plans of one size, for so many things.
+/// Floor plans of one size, for given numbers of things.
 pub(crate) struct FloorPlans<'a> {
     pub(crate) rules: &'a Rules,
     pub(crate) grid: Grid,
@@ -28,24 +28,24 @@ impl FloorPlans<'_> {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// How many targets there are.
+    /// The number of targets.
     fn homes(&self) -> usize {
         if self.rules.target.is_some() { self.counts[0] } else { 0 }
     }
 
-    /// Open cells at least: room for all things, and not a closet in a block of wall.
+    /// The minimum number of open cells: room for all things, and not just a small closet in a block of wall.
     fn least(&self) -> usize {
         let things: usize = self.counts.iter().sum();
         let share = (self.grid.columns - 2) * (self.grid.rows - 2) * 2 / 5;
         (3 * things + 5).max(share.min(self.most()))
     }
 
-    /// Open cells at first, at most: where things meet anywhere, there are too many positions in a large yard.
+    /// The maximum number of open cells at first: if things may meet anywhere, a large yard has too many positions.
     fn most(&self) -> usize {
         if self.rules.home == Home::Partner { 22 } else { usize::MAX }
     }
 
-    /// Rooms and corridors that hang together, and targets in a group.
+    /// Draws connected rooms and corridors, with targets in a group.
     fn draw(&self, sampler: &mut Sampler) -> Option<Yard> {
         let (columns, rows) = (self.grid.columns - 2, self.grid.rows - 2);
         let mut open: Cells = 0;
@@ -83,12 +83,12 @@ impl FloorPlans<'_> {
         (0..self.grid.len()).filter(|&cell| open & bit(cell) == 0).map(bit).sum()
     }
 
-    /// Whether a target at the cell is one of the group.
+    /// Returns `true` if a target at the cell joins the group.
     fn joins(&self, yard: &Yard, cell: usize) -> bool {
         yard.targets == 0 || each(yard.targets).any(|other| self.grid.manhattan(cell, other) <= GROUP)
     }
 
-    /// Whether it hangs together and has room.
+    /// Returns `true` if the yard is connected and has room.
     fn is_fair(&self, yard: &Yard) -> bool {
         let pushing = Pushing { yard, rules: self.rules };
         let open = pushing.stands(&Position::default());
@@ -104,12 +104,12 @@ impl FloorPlans<'_> {
             && pushing.flood(first, open) == open
     }
 
-    /// A small change: a wall goes or comes, a wall moves, a target moves, or all do.
+    /// Makes a small change: a wall is removed or added, a wall moves, a target moves, or all targets do.
     fn change(&self, yard: &Yard, sampler: &mut Sampler) -> Option<Yard> {
         let mut next = yard.clone();
         let inner = self.inner();
         let wall = |yard: &Yard, cell: usize| yard.wall & bit(cell) != 0;
-        // Where wall and floor meet.
+        // The cells along the edges between wall and floor.
         let edge = |yard: &Yard, walls: bool| -> Vec<usize> {
             let meets = |&cell: &usize| {
                 wall(yard, cell) == walls
@@ -143,7 +143,7 @@ impl FloorPlans<'_> {
         self.is_fair(&next).then_some(next)
     }
 
-    /// How many pushes its farthest position takes.
+    /// The number of pushes from its farthest position.
     pub(crate) fn depth(&self, yard: &Yard) -> usize {
         let pushing = Pushing { yard, rules: self.rules };
         let met = pushing.by_pushes(MOST_POSITIONS);
@@ -151,12 +151,12 @@ impl FloorPlans<'_> {
         starts.map(|(_, pushes)| pushes).max().unwrap_or(0)
     }
 
-    /// How many positions are looked at for its depth.
+    /// The number of positions examined for its depth.
     pub(crate) fn positions(&self, yard: &Yard) -> usize {
         Pushing { yard, rules: self.rules }.by_pushes(MOST_POSITIONS).len()
     }
 
-    /// The pushes that it takes, less what looks careless: halls, and blocks of wall by themselves.
+    /// Rates a yard by the pushes that it takes, with a penalty for halls and isolated wall blocks.
     pub(crate) fn rate(&self, yard: &Yard) -> Evaluation {
         let depth = self.depth(yard);
         let objective = (depth as f64 - self.blemishes(yard)).max(0.0) / PERFECT;
@@ -167,7 +167,7 @@ impl FloorPlans<'_> {
         }
     }
 
-    /// In pushes: what it has to gain by them.
+    /// The penalty for halls and isolated wall blocks, in pushes.
     fn blemishes(&self, yard: &Yard) -> f64 {
         let is_wall = |cell: Option<usize>| cell.is_none_or(|cell| yard.wall & bit(cell) != 0);
         let inner = self.inner();
@@ -180,8 +180,8 @@ impl FloorPlans<'_> {
         1.5 * halls.count() as f64 + crumbs.count() as f64
     }
 
-    /// Floor that no way to the solution needs becomes wall, and walls by themselves go, as long as the farthest position
-    /// stays as far.
+    /// Turns floor that no solution needs into wall, and removes isolated walls, as long as the farthest position does
+    /// not get closer.
     pub(crate) fn tidy(&self, yard: &Yard) -> Yard {
         let mut best = yard.clone();
         let mut depth = self.depth(&best);
@@ -203,7 +203,7 @@ impl FloorPlans<'_> {
         best
     }
 
-    /// Whether things come in pairs.
+    /// The number of things of each kind: in pairs, if they are pushed onto each other.
     pub(crate) fn counts_of(rules: &Rules, things: usize) -> [usize; KINDS] {
         if rules.home == Home::Partner { [(things / 2).max(1); KINDS] } else { [things, 0] }
     }
@@ -226,7 +226,7 @@ impl Variation for FloorPlans<'_> {
         yard
     }
 
-    /// One half of each.
+    /// Combines one half of each parent.
     fn cross(&self, one: &Yard, two: &Yard, sampler: &mut Sampler) -> Yard {
         for _ in 0..REDRAWS {
             let across = sampler.ratio(1, 2);

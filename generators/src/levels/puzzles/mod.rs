@@ -1,5 +1,5 @@
 //! Puzzles of pushed things, made backwards: all positions from which a floor plan can be solved are searched, and the
-//! farthest one is the level.
+//! farthest one becomes the level.
 
 mod backward;
 mod floor;

@@ -1,21 +1,21 @@
-//! What pushing means in a game, for those in which it is all that a win takes.
+//! The rules of pushing, for games that are won by pushing alone.
 
 use crate::GenerateError;
 use crate::levels::palette::{Palette, Walk};
 use engine::analysis::{Condition, Fate, Role, Sink, Steering};
 use engine::{Analysis, SpriteType};
 
-/// Kinds of pushed things at most.
+/// The maximum number of kinds of pushed things.
 pub(crate) const KINDS: usize = 2;
 
-/// Where a thing has to be pushed to.
+/// The destination of a pushed thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Home {
     /// Onto a target, where it vanishes; the target remains.
     Sink,
     /// Onto a target, and both vanish.
     Hole,
-    /// Onto a target, where it can be pushed on from.
+    /// Onto a target, from which it can be pushed off again.
     Place,
     /// Onto a thing of the other kind, and both vanish.
     Partner,
@@ -24,14 +24,14 @@ pub(crate) enum Home {
 /// The rules of pushing.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
-    /// What is pushed: one kind; two if they go together.
+    /// The pushed types: one kind, or two if they are pushed onto each other.
     pub(crate) kinds: Vec<SpriteType>,
     pub(crate) home: Home,
-    /// The type of the targets; none: things go onto things.
+    /// The type of the targets; `None` if things are pushed onto things.
     pub(crate) target: Option<SpriteType>,
-    /// The avatar can stand on a target.
+    /// `true` if the avatar can stand on a target.
     pub(crate) walkable: bool,
-    /// `merges[a][b]`: a thing of kind a that is pushed onto one of kind b ends both.
+    /// `merges[a][b]` is `true` if pushing a thing of kind a onto one of kind b removes both.
     pub(crate) merges: [[bool; KINDS]; KINDS],
 }
 
@@ -98,7 +98,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
     }
 }
 
-/// The rules for one kind of things, which go to targets.
+/// The rules for one kind of things, which are pushed to targets.
 fn single(
     analysis: &Analysis,
     palette: &Palette,

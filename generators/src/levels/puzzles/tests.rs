@@ -1,4 +1,5 @@
-//! Puzzles of every kind of home: the backward search against plain search forward, and against the game itself.
+//! Puzzles of every kind of destination: compares the backward search with plain forward search, and with the game
+//! itself.
 
 use super::floor::FloorPlans;
 use super::rules::{Home, Rules};
@@ -13,7 +14,7 @@ use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use engine::{Action, Analysis, Game, Level, Outcome, Seed, State};
 use std::collections::{BTreeMap, VecDeque};
 
-/// A game of pushing crates; `sprites`, `mapping` and `rules` say where they go.
+/// A game of pushing crates; `sprites`, `mapping` and `rules` define their destination.
 fn crates(sprites: &str, mapping: &str, rules: &str) -> Game {
     let source = format!(
         "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n{sprites}    porter > MovingAvatar\n  \
@@ -86,7 +87,7 @@ fn other_games_are_refused_with_a_reason() {
     refuse("tinkers-attic", "by chance");
 }
 
-/// The pushes from a position to the nearest solved one, by search forward.
+/// The number of pushes from a position to the nearest solved one, by forward search.
 fn forward(pushing: &Pushing<'_>, start: Position) -> Option<usize> {
     let key = |position: &Position| (position.things, position.targets, position.avatar);
     let solved = pushing.solved();
@@ -131,7 +132,7 @@ fn backward_and_forward_agree() {
             for (position, pushes) in starts.step_by(7) {
                 assert_eq!(forward(&pushing, *position), Some(pushes), "{:?} {position:?}", rules.home);
             }
-            // What was not met cannot be solved.
+            // Positions that were not found cannot be solved.
             let floor = pushing.lies(&Position { targets: yard.targets, ..Position::default() });
             let cells: Vec<usize> = each(floor).collect();
             for pair in cells.windows(2).step_by(3).filter(|_| rules.kinds.len() == 1) {
@@ -170,7 +171,8 @@ fn solutions_win_and_levels_vary() {
     }
 }
 
-/// Nearer to a solution there is less to push. Not level by level: a floor plan that cannot be furnished makes room for another.
+/// Closer to the solution there is less to push. Tested in sum: a floor plan that cannot be furnished is replaced by
+/// another.
 #[test]
 fn a_level_starts_where_it_is_asked_to_on_the_way() {
     let game = sink();
@@ -189,7 +191,7 @@ fn a_level_starts_where_it_is_asked_to_on_the_way() {
     assert!(PuzzleVariation::new(&game, config, backwards).is_err());
 }
 
-/// Fewest ticks, proved, with the pushes among them.
+/// The proved minimum of ticks, with the number of pushes among them.
 fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
     let state = analysis.game().start(level, Seed::from_text("proof"));
     let pushes = Pushes::of(analysis, level);
@@ -201,7 +203,7 @@ fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
     (actions.len(), pushes_among(analysis, level, &actions))
 }
 
-/// How many of these actions push something.
+/// The number of these actions that push something.
 fn pushes_among(analysis: &Analysis, level: &Level, actions: &[Action]) -> usize {
     let game = analysis.game();
     let mut state = game.start(level, Seed::from_text("proof"));
@@ -225,7 +227,7 @@ fn median(mut numbers: Vec<usize>) -> usize {
     numbers[numbers.len() / 2]
 }
 
-/// Levels of 8 by 8 cells with three crates: long, and proved to be.
+/// Tests that levels of 8 by 8 cells with three crates are long, with proof.
 fn check_length(game: &Game) {
     let analysis = Analysis::of(game);
     let variation = puzzles(game);

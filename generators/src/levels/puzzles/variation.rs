@@ -12,28 +12,30 @@ use crate::levels::jobs::Jobs;
 use crate::{Annealing, AnnealingConfig, GenerateError, Search, Variation};
 use engine::{Game, Level, Sampler, Seed, SpriteType};
 
-/// Positions looked at for the level of a floor plan.
+/// The maximum number of positions to search for the level of a floor plan.
 const MOST_POSITIONS: usize = 400_000;
-/// Positions with the avatar in a certain cell looked at, to find the longest way; where there are more, any will do.
+/// The maximum number of positions, told apart by the avatar's cell, to search for the longest way; beyond it, any will
+/// do.
 const MOST_STEPS: usize = 250_000;
-/// Positions looked at in all for a level, about: where each floor plan has many, fewer of them are looked at.
+/// The approximate limit of positions to search for a level in all: if floor plans have many, fewer of them are rated.
 const POSITIONS: usize = 1_200_000;
-/// Floor plans asked for at once; they are rated one after the other.
+/// The number of floor plans asked for at once; they are rated one after the other.
 const BATCH: usize = 8;
-/// Floor plans drawn that lead to no level before a seed is given up.
+/// The number of floor plans that may fail to become a level before a seed is given up.
 const ATTEMPTS: u64 = 4;
-/// Changes of a floor plan of which a mutation keeps the best.
+/// The number of changes of a floor plan from which a mutation keeps the best.
 const CHANGES: usize = 6;
 
-/// What is asked of puzzles.
+/// The configuration of puzzles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PuzzleConfig {
-    /// Things to push; none: as many as [`LevelConfig::counts`] says, or two to four, as difficulty and room allow.
+    /// The number of things to push; `None` takes it from [`LevelConfig::counts`], or else uses at least two, as
+    /// difficulty and room allow.
     pub things: Option<usize>,
-    /// Floor plans looked at for a level, at most.
+    /// The maximum number of floor plans to examine for a level.
     pub floor_plans: usize,
-    /// The share of the longest way to a solution that a level is away from it, drawn from this range, rather from its lower
-    /// end; none: as [`LevelConfig::difficulty`] says.
+    /// The range for the distance of a level from its solution, as a share of the longest one; the draw favours the lower
+    /// end. `None` derives it from [`LevelConfig::difficulty`].
     pub way: Option<(f64, f64)>,
 }
 
@@ -43,15 +45,15 @@ impl Default for PuzzleConfig {
     }
 }
 
-/// Levels of a game that is won by pushing things where they belong (Sokoban and its kin).
+/// Levels of a game that is won by pushing things to their places (Sokoban and its relatives).
 ///
-/// A floor plan is annealed on the number of pushes that its farthest position takes; that number is exact, because all
-/// positions are searched backwards from all that are solved (Taylor and Parberry 2011, "Procedural generation of Sokoban
-/// levels"). Of the farthest positions the level is the one that takes the most steps of the avatar. Each level has been
-/// won in the game itself.
+/// Simulated annealing optimises the floor plan for the number of pushes from its farthest position; that number is
+/// exact, because all positions are searched backwards from all solved ones (Taylor and Parberry 2011, "Procedural
+/// generation of Sokoban levels"). Among the farthest positions, the level is the one that takes the most steps of the
+/// avatar. Each level has been won in the game itself.
 ///
-/// Cost: about a tenth of a millisecond for each floor plan of 8 by 8 cells with three things; a second or so for a level
-/// at most, because the positions looked at are limited.
+/// Cost: about a tenth of a millisecond for each floor plan of 8 by 8 cells with three things; at most about a second for
+/// a level, because the number of positions to search is limited.
 pub struct PuzzleVariation<'a> {
     levels: ConstructiveLevels<'a>,
     rules: Rules,
@@ -60,11 +62,11 @@ pub struct PuzzleVariation<'a> {
 }
 
 impl<'a> PuzzleVariation<'a> {
-    /// For a game. Cost: that of a few small puzzles.
+    /// Creates a variation for a game. Cost: that of a few small puzzles.
     ///
     /// # Errors
-    /// [`GenerateError::Unsuitable`] if the game is not won by pushing alone, with the reason; if no board of the size asked
-    /// for is small enough to be searched; and as [`ConstructiveLevels::new`].
+    /// [`GenerateError::Unsuitable`] if the game is not won by pushing alone, with the reason; if no board of the
+    /// requested size is small enough to be searched; and as [`ConstructiveLevels::new`].
     pub fn new(
         game: &'a Game,
         config: LevelConfig,
@@ -94,12 +96,12 @@ impl<'a> PuzzleVariation<'a> {
         Ok(variation)
     }
 
-    /// What the game means.
+    /// The constructive generator for the game, with its analysis.
     pub fn constructive(&self) -> &ConstructiveLevels<'a> {
         &self.levels
     }
 
-    /// The level of a seed with actions that win it: the fewest pushes, not always the fewest actions.
+    /// Creates the level of a seed with actions that win it: they use the fewest pushes, not always the fewest actions.
     pub fn create_solved(&self, seed: Seed) -> Option<Solved> {
         (0..ATTEMPTS).find_map(|attempt| self.made(seed.child("attempt", attempt), self.puzzle.floor_plans))
     }
@@ -108,7 +110,7 @@ impl<'a> PuzzleVariation<'a> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(low, high): (usize, usize)| {
             let low = low.max(6).min(high);
-            // Puzzles gain nothing from wide halls.
+            // Puzzles do not benefit from wide halls.
             sampler.between(low, high.min(low.max(9)))
         };
         let grid = Grid { columns: side(self.config.columns), rows: side(self.config.rows) };
@@ -127,13 +129,13 @@ impl<'a> PuzzleVariation<'a> {
         self.level_of(&floors.tidy(&yard), seed)
     }
 
-    /// The level with the farthest position of a floor plan.
+    /// Makes the level at the farthest position of a floor plan.
     fn level_of(&self, yard: &Yard, seed: Seed) -> Option<Solved> {
         let pushing = Pushing { yard, rules: &self.rules };
         let met = pushing.by_pushes(MOST_POSITIONS);
         let starts = || met.iter().filter(|(position, _)| pushing.is_start(position));
         let most = starts().map(|(_, pushes)| pushes).max()?;
-        // Easy levels start on the way.
+        // Easy levels start closer to the solution.
         let share = match self.puzzle.way {
             Some((from, to)) => {
                 let drawn = seed.child("way", 0).sampler().unit();
@@ -151,13 +153,13 @@ impl<'a> PuzzleVariation<'a> {
             let clear = if clear == 0 { region } else { clear };
             each(clear).map(|avatar| Position { avatar: avatar as u8, ..*position })
         });
-        // Without all steps counted the first one will do.
+        // If the search for steps was cut short, the first one will do.
         let start = stands.max_by_key(|start| (steps.distance(start), std::cmp::Reverse(start.avatar)))?;
         let ways = pushing.solution(&met, start)?;
         self.furnish(yard, &start, &ways, seed)
     }
 
-    /// Puts a position on a board, and around it what else the game has, if it can still be won then.
+    /// Puts a position on a board and furnishes it with the other things of the game, if it can still be won then.
     fn furnish(&self, yard: &Yard, start: &Position, ways: &[(i32, i32)], seed: Seed) -> Option<Solved> {
         let wall = (0..yard.grid.len()).map(|cell| yard.wall & bit(cell) != 0).collect();
         let mut builder = Builder {
@@ -193,7 +195,7 @@ impl<'a> PuzzleVariation<'a> {
         Some(solved(&builder.board).unwrap_or(bare))
     }
 
-    /// The floor plan of a level, if it is one of these puzzles.
+    /// Returns the floor plan of a level, if it is such a puzzle.
     fn yard_of(&self, level: &Level) -> Option<Yard> {
         let grid = Grid { columns: level.columns(), rows: level.rows() };
         if grid.len() > MOST_CELLS {
@@ -217,7 +219,7 @@ impl<'a> PuzzleVariation<'a> {
         (yard.wall & border == border && yard.counts[0] > 0).then_some(yard)
     }
 
-    /// The best of a few floor plans, as a level.
+    /// Rates a few floor plans and makes a level of the best.
     fn best(
         &self,
         parent: &Yard,
@@ -241,7 +243,7 @@ impl Variation for PuzzleVariation<'_> {
         self.create_solved(seed).map(|solved| solved.level)
     }
 
-    /// The best of a few changes of the floor plan, searched anew; the parent itself if that leads nowhere.
+    /// Makes a level of the best of a few changes of the floor plan; returns the parent itself if that fails.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
         let varied = self.yard_of(parent).and_then(|yard| {
             (0..ATTEMPTS)
@@ -250,7 +252,8 @@ impl Variation for PuzzleVariation<'_> {
         varied.unwrap_or_else(|| parent.clone())
     }
 
-    /// Half of one floor plan and half of the other, changed a little and searched anew; a mutation of the first if they do not fit.
+    /// Makes a level of half of one floor plan and half of the other, with a small change; a mutation of the first if
+    /// they do not fit.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.yard_of(one), self.yard_of(two));
         let fit = first
@@ -266,7 +269,7 @@ impl Variation for PuzzleVariation<'_> {
     }
 }
 
-/// The best floor plan of so many.
+/// Returns the best floor plan of this many.
 fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<Yard> {
     let samples: Vec<Yard> = (0..4).filter_map(|at| floors.create(seed.child("sample", at))).collect();
     let positions: usize = samples.iter().map(|yard| floors.positions(yard)).sum();

@@ -1,15 +1,15 @@
-//! A floor plan for pushing: walls and targets as sets of cells, and what a push does.
+//! A floor plan for pushing: walls and targets as sets of cells, and the effect of a push.
 
 use super::rules::{Home, KINDS, Rules};
 use crate::levels::grid::{Grid, WAYS};
 
-/// Cells of a board at most: they are bits of one number.
+/// The maximum number of cells of a board: they are bits of one number.
 pub(crate) const MOST_CELLS: usize = 128;
 
 /// A set of cells.
 pub(crate) type Cells = u128;
 
-/// The set of one cell.
+/// The set with one cell.
 pub(crate) fn bit(cell: usize) -> Cells {
     1 << cell
 }
@@ -29,23 +29,23 @@ pub(crate) struct Yard {
     pub(crate) grid: Grid,
     pub(crate) wall: Cells,
     pub(crate) targets: Cells,
-    /// How many things of each kind there are at the start.
+    /// The number of things of each kind at the start.
     pub(crate) counts: [usize; KINDS],
 }
 
-/// Where everything is.
+/// A position: the cells of things, targets and avatar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Position {
     /// By kind.
     pub(crate) things: [Cells; KINDS],
-    /// The targets that are there.
+    /// The remaining targets.
     pub(crate) targets: Cells,
     /// The cell of the avatar, or the first of those that it can walk to.
     pub(crate) avatar: u8,
 }
 
 impl Position {
-    /// Cells with a thing.
+    /// The cells with a thing.
     pub(crate) fn taken(&self) -> Cells {
         self.things[0] | self.things[1]
     }
@@ -59,18 +59,18 @@ pub(crate) struct Pushing<'a> {
 }
 
 impl Pushing<'_> {
-    /// By how much the index of a cell grows in each of the [`WAYS`].
+    /// The change of a cell's index in each of the [`WAYS`].
     pub(crate) fn strides(&self) -> [isize; 4] {
         WAYS.map(|(x, y)| x as isize + y as isize * self.yard.grid.columns as isize)
     }
 
-    /// Cells where the avatar can be.
+    /// The cells where the avatar can stand.
     pub(crate) fn stands(&self, position: &Position) -> Cells {
         let barred = if self.rules.walkable { 0 } else { position.targets };
         self.inside() & !(self.yard.wall | position.taken() | barred)
     }
 
-    /// Cells where a thing can come to lie.
+    /// The cells where a thing can lie.
     pub(crate) fn lies(&self, position: &Position) -> Cells {
         let sinks = if self.rules.home == Home::Place { 0 } else { position.targets };
         self.inside() & !(self.yard.wall | position.taken() | sinks)
@@ -81,7 +81,7 @@ impl Pushing<'_> {
         if cells == MOST_CELLS { Cells::MAX } else { bit(cells) - 1 }
     }
 
-    /// The cells of `open` that hang together with `from`. Cost: a few operations for each step of the longest way.
+    /// The cells of `open` that are connected with `from`. Cost: a few operations for each step of the longest way.
     pub(crate) fn flood(&self, from: Cells, open: Cells) -> Cells {
         let columns = self.yard.grid.columns;
         let mut reached = from & open;
@@ -95,13 +95,13 @@ impl Pushing<'_> {
         }
     }
 
-    /// The positions in which everything is done, the avatar left out.
+    /// The solved positions, without the avatar.
     pub(crate) fn solved(&self) -> Vec<Position> {
         let all = self.yard.targets;
         let position = |thing: Cells, targets: Cells| Position { things: [thing, 0], targets, avatar: 0 };
         match self.rules.home {
             Home::Sink | Home::Partner => vec![position(0, all)],
-            // Which holes have been filled; all of them, if there are no more than things.
+            // All choices of filled holes; all holes, if there are no more of them than things.
             Home::Hole => subsets(all, self.yard.counts[0])
                 .into_iter()
                 .map(|filled| position(0, all & !filled))
@@ -112,14 +112,14 @@ impl Pushing<'_> {
         }
     }
 
-    /// Whether all things are there.
+    /// Returns `true` if all things are there, and none is in its place yet.
     pub(crate) fn is_start(&self, position: &Position) -> bool {
         let counted = |kind: usize| position.things[kind].count_ones() as usize == self.yard.counts[kind];
         let at_home = self.rules.home == Home::Place && position.things[0] & position.targets != 0;
         (0..KINDS).all(counted) && !at_home
     }
 
-    /// Cells where the push that led to a position may have ended.
+    /// The cells where the push that led to a position may have ended.
     pub(crate) fn ends(&self, after: &Position) -> Cells {
         let more = |kind: usize| (after.things[kind].count_ones() as usize) < self.yard.counts[kind];
         let homes = match self.rules.home {
@@ -131,8 +131,9 @@ impl Pushing<'_> {
         after.taken() | homes
     }
 
-    /// The positions before the push that left the avatar at `near`, coming from `near` plus `stride`: the thing came from
-    /// `near`, and went to `near` minus `stride`. The avatar of those positions is where it pushed from.
+    /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`: the thing
+    /// came from `near`, and went to `near` minus `stride`. The avatar of those positions is at the cell that it pushed
+    /// from.
     pub(crate) fn before(
         &self,
         after: &Position,
@@ -165,7 +166,7 @@ impl Pushing<'_> {
             }
             Home::Hole => {
                 let free = self.yard.targets & !after.targets & !after.taken() & to_bit != 0;
-                // The hole is open again, and neither thing nor avatar is on it.
+                // The hole is open again, with neither thing nor avatar on it.
                 if free && more(0) {
                     let things = [after.things[0] | near_bit, 0];
                     each(Position { things, targets: after.targets | to_bit, avatar });
@@ -183,7 +184,7 @@ impl Pushing<'_> {
         }
     }
 
-    /// The position after a step of the avatar, whose own cell counts; none if it is held up.
+    /// The position after a step of the avatar from its exact cell; `None` if it is blocked.
     pub(crate) fn step(&self, position: &Position, stride: isize) -> Option<Position> {
         let near = usize::from(position.avatar).checked_add_signed(stride)?;
         if self.stands(position) & bit(near) != 0 {
@@ -193,7 +194,7 @@ impl Pushing<'_> {
         let to = near.checked_add_signed(stride).filter(|&to| to < self.yard.grid.len())?;
         let mut after = Position { avatar: near as u8, ..*position };
         after.things[kind] &= !bit(near);
-        // Where it lay there may be a target that the avatar cannot stand on.
+        // The thing may have been on a target that the avatar cannot stand on.
         if self.stands(&after) & bit(near) == 0 {
             return None;
         }
@@ -212,12 +213,12 @@ impl Pushing<'_> {
     }
 }
 
-/// All subsets of so many cells, smallest first.
+/// All subsets of `count` cells.
 fn subsets(cells: Cells, count: usize) -> Vec<Cells> {
     let mut subsets = vec![0];
     for _ in 0..count {
         let larger = subsets.iter().flat_map(|&subset: &Cells| {
-            // Only cells after the last one: each subset comes about once.
+            // Only cells after the last one, so that each subset is made once.
             let after = cells & !(Cells::MAX >> subset.leading_zeros().min(127)) & !subset;
             let after = if subset == 0 { cells } else { after };
             each(after).map(move |cell| subset | bit(cell))

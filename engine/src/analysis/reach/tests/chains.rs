@@ -1,4 +1,4 @@
-//! Chains of causes: what the rules lack, and where.
+//! Chains of causes: the missing requirements of rules, and their places.
 
 use super::*;
 use crate::analysis::{Apart, Lack, Shortage};
@@ -8,7 +8,7 @@ const SPRITES: &str =
 const MAPPING: &str = "w > wall\nl > lamp\nd > door\ng > gem\nh > hero";
 const ENDS: &str = "SpriteCounter stype=gem win=True\nSpriteCounter stype=hero win=False";
 
-/// The chain of the only termination that wins, in a few words.
+/// Checks the chain of the only termination that wins, in short form.
 #[track_caller]
 fn check(rules: &str, level: &str, expect: &str) {
     let analysis = Analysis::of(&game(SPRITES, MAPPING, &format!("hero wall > stepBack\n{rules}"), ENDS));
@@ -71,7 +71,7 @@ fn a_resource_that_is_short() {
     // Nothing gives it.
     let swapped = TOLL.replace("lamp hero", "hero lamp");
     check(&swapped, "wwwwww\nwh lgw\nwwwwww", "gem by Some(2): 2 lamp of 0 by [] from []");
-    // One of two lies behind a wall that nothing opens.
+    // One of two lies behind a wall that cannot be opened.
     let level = "wwwwwww\nwh lgww\nwwwwwww\nwlw   w\nwwwwwww";
     let sources = r#"["lamp at 10 got", "lamp at 22 hero not at 22, behind []"]"#;
     check(TOLL, level, &format!("gem by Some(2): 2 lamp of 1 by [1] from {sources}"));
@@ -85,7 +85,7 @@ fn a_door_in_the_way() {
     let door = format!("door at 9 (door by Some(3): {toll})");
     let expect = format!("gem by Some(4): hero not at 12, behind {:?}", [door]);
     check(rules, "wwwwwww\nwhd lgw\nwwwwwww", &expect);
-    // A wall is nothing that opens.
+    // A wall cannot be opened.
     check(rules, "wwwwww\nwhwlgw\nwwwwww", "gem by Some(4): hero not at 10, behind []");
 }
 
@@ -93,7 +93,7 @@ fn a_door_in_the_way() {
 fn rules_that_come_too_late_or_need_what_is_not_there() {
     check("hero gem > stepBack\ngem hero > killSprite", "hg", "gem by Some(2): hero held up by 1");
     check("gem door > killSprite", "hg", "gem by Some(1): no door");
-    // Doors turn into lamps where the hero comes, who cannot.
+    // The hero turns doors into lamps, but cannot get to one.
     let unmade = "gem by Some(1): no lamp yet (lamp by Some(2): hero not at 10, behind [])";
     check("gem lamp > killSprite\ndoor hero > transformTo stype=lamp", "wwwwww\nwhgwdw\nwwwwww", unmade);
     check("hero gem > stepBack", "hg", "");

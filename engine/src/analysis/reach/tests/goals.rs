@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// A game that is won when no gem is left. The first level may be won; the second one is proved not to be.
+/// A game that is won when no gem is left. The first level may be won; the second one is proved unwinnable.
 #[track_caller]
 fn check(sprites: &str, rules: &str, open: &str, closed: &str) {
     let sprites = format!("wall > Immovable solid=True\ngem > Immovable\n{sprites}");
@@ -40,7 +40,7 @@ fn by_shots() {
     let flak = format!("hero > FlakAvatar stype=shot\n{shot}");
     check(&flak, rules, "  g \n    \nwh w", "   g\n  w \nwh w");
     let shooter = "hero > ShootAvatar stype=shot\nshot > Missile";
-    // A shot does not turn corners.
+    // A shot does not turn.
     let pond = "pond > Immovable";
     let rules = format!("{rules}\nhero pond > stepBack");
     check(&format!("{shooter}\n{pond}"), &rules, "hppg\npppp", "hppp\npppg");
@@ -53,7 +53,7 @@ fn by_shots() {
 
 #[test]
 fn by_jumps() {
-    // A cell is 80 pixels, and a jump lifts by 46. Walls can be climbed: who falls against one stands on it.
+    // A cell is 80 pixels, and a jump lifts by 46. Walls can be climbed: an avatar that falls against one stands on it.
     let hero = "hero > PlatformerAvatar physicstype=CONT gravity=1 max_speed=15 jump_strength=8";
     let stairs = "          \n          \n         g\n        ww\n  h    www\nwwwwwwwwww";
     let cloud = "          \n         g\n          \n          \n  h       \nwwwwwwwwww";
@@ -82,7 +82,7 @@ fn behind_doors() {
 fn with_boxes() {
     let sprites = "hero > MovingAvatar\nbox > Passive";
     let rules = "box hero > bounceForward\nbox wall > undoAll\nbox EOS > undoAll\ngem box > killSprite\nhero gem > stepBack";
-    // In a corner a box stays, and along a wall it comes away from it no more.
+    // A box stays in a corner, and never comes away from a wall.
     check(sprites, rules, "     \nh b g\n     ", "b    \nh   g\n     ");
     check(sprites, rules, "h b g\n     ", "h b  \n    g");
 }
@@ -101,7 +101,7 @@ fn by_what_is_made() {
     let rules = "drop wall > killSprite\ndrop EOS > killSprite\ngem drop > killSprite";
     check(sprites, rules, "hn \n   \n g ", "hn \n   \n  g");
     check(sprites, rules, "hn \n   \n g ", "hn \n w \n g ");
-    // In two steps: what drops splashes, and the splash runs.
+    // In two steps: the drop turns into a splash, and the splash runs.
     let sprites = format!("{sprites}\nsplash > Missile orientation=RIGHT");
     let rules = "drop wall > transformTo stype=splash\ndrop EOS > killSprite\nsplash EOS > killSprite\ngem splash > killSprite";
     check(&sprites, rules, "hn  \n    \n w g", "hn  \n    \n   g");

@@ -1,10 +1,10 @@
-//! Rules and levels at the limits: their reach ends soon, if need be with a coarse answer.
+//! Rules and levels at the limits: their reach is computed fast, with a coarse answer if necessary.
 
 use super::*;
 use crate::limits::{MAX_CELLS, MAX_SIDE};
 use std::fmt::Write;
 
-/// The largest level, all of it one character but for some at the start.
+/// The largest level, filled with one character except at the start.
 fn vast(start: &str, fill: char) -> String {
     let mut level = String::new();
     for row in 0..MAX_CELLS / MAX_SIDE {
@@ -14,7 +14,7 @@ fn vast(start: &str, fill: char) -> String {
     level
 }
 
-/// Whether the answer is coarse.
+/// Returns `true` if the answer is coarse.
 fn is_coarse(sprites: &str, mapping: &str, rules: &str, level: &str) -> bool {
     let game = game(sprites, mapping, rules, "SpriteCounter stype=hero win=False");
     let level = game.level(level).unwrap_or_else(|problems| panic!("{problems}"));
@@ -47,7 +47,7 @@ fn jumps_and_long_strides_in_the_largest_level() {
     assert!(is_coarse(pushed, "h > hero\nw > wall\nb > box", &push, &vast("h w b", ' ')));
 }
 
-/// Doors that open one behind the other, each with the key behind the one before.
+/// Doors in a row, each with its key behind the previous one.
 #[test]
 fn a_long_row_of_doors() {
     let (mut sprites, mut rules) =

@@ -5,7 +5,7 @@ mod hostile;
 use super::*;
 use crate::analysis::tests::{game, named};
 
-/// Where a type can be: `#` between two ticks, `+` within one only.
+/// Returns the cells in which a type can be: `#` between two ticks, `+` only within one.
 fn picture(analysis: &Analysis, reach: &Reach, name: &str) -> String {
     let stype = named(analysis, name);
     let cells = (reach.board.columns * reach.board.rows) as usize;
@@ -27,7 +27,7 @@ fn reach(analysis: &Analysis, level: &str) -> Reach {
     reach
 }
 
-/// A game with walls and whatever else, in a level; where each of the named types can be.
+/// Checks the reachable cells of the named types in a level of a game with walls and the given sprites.
 #[track_caller]
 fn check(sprites: &str, rules: &str, level: &str, expect: &[(&str, &str)]) {
     let symbols = sprites.lines().map(str::trim).filter_map(|line| line.split_once(' '));
@@ -53,9 +53,9 @@ fn walls_stop_and_the_edge_does_not() {
     check("hero > MovingAvatar", undo, "h w \n  w ", &[("hero", "##+.\n##+.")]);
     // Nothing stops it.
     check("hero > MovingAvatar", "hero EOS > stepBack", "hw \n", &[("hero", "###")]);
-    // Two cells at a step skip one wall, not two.
+    // Two cells per step skip one wall, not two.
     check("hero > MovingAvatar speed=2", &all, "hw w ww \n", &[("hero", "#+#+#++.")]);
-    // Half a cell at a time it stops before it, too.
+    // At half a cell per step it stops before the wall, too.
     check("hero > MovingAvatar speed=0.5", &all, "h w ", &[("hero", "##+.")]);
 }
 
@@ -118,14 +118,14 @@ fn missiles_turn_wrap_and_end() {
     ] {
         check(sprites, rule, level, &[("bolt", expected.as_str())]);
     }
-    // Two rows further down, and back.
+    // Two rows further down, and back up.
     let down = "bolt wall > turnAround\nbolt EOS > killSprite";
     check(sprites, down, "hb w\n    \n    \n    ", &[("bolt", "###+\n....\n####\n....")]);
-    // Either way, but not round corners.
+    // Either way, but without turning.
     let sprites = "hero > NullAvatar\nbolt > RandomMissile";
     let rules = "bolt wall > killSprite\nbolt EOS > killSprite";
     check(sprites, rules, "hw \n b \n   ", &[("bolt", ".+.\n###\n.#.")]);
-    // Unless something near turns them.
+    // Unless something nearby turns them.
     let gust = format!("{sprites}\ngust > Immovable");
     let turned = format!("{rules}\nbolt gust > flipDirection");
     check(&gust, &turned, "hw \n bg\n   ", &[("bolt", ".+#\n###\n###")]);
@@ -148,7 +148,7 @@ fn shots_spawns_and_what_they_turn_into() {
             ("duck", ".....\n...#.\n...#.\n...#."),
         ],
     );
-    // Without arrows no ducks.
+    // No ducks without arrows.
     let bare = sprites.replace("stype=arrow", "stype=arrow ammo=quiver") + "\nquiver > Resource";
     check(
         &bare,
@@ -183,7 +183,7 @@ fn things_are_pushed_away_only() {
         "wwwww\nwb  w\nw   w\nw h w\nwwwww",
         &[("box", ".+...\n+#...\n.....\n.....\n.....")],
     );
-    // Who faces the other way pushes the other way: it comes out of the corner.
+    // A hero that faces another way pushes that way: the box leaves the corner.
     let odd = sprites.replace("MovingAvatar", "MovingAvatar orientation=RIGHT");
     check(&odd, rules, "wwwww\nwb  w\nwh  w\nwwwww", &[("box", ".+++.\n+###+\n+###+\n.+++.")]);
 }
@@ -200,10 +200,10 @@ fn keys_open_locks_one_after_the_other() {
     check(sprites, rules, "hk gk  l w", &two);
     let none = [("hero", "###+......")];
     check(sprites, rules, "h  gkk l w", &none);
-    // A key that is not used up by taking is enough for all.
+    // A key that is not used up by taking it is enough for all locks.
     let kept = rules.replace("key hero > collectResource", "key hero > collectResource killResource=False");
     check(sprites, &kept, "hk gk  l w", &open);
-    // Keys that somebody makes are without number.
+    // A spawner makes an unlimited number of keys.
     let forge = format!("{sprites}\nforge > SpawnPoint stype=key");
     check(&forge, rules, "hf g   l w", &[("hero", "#########+")]);
 }
@@ -214,7 +214,7 @@ fn portals_and_disguises() {
     let rules = "hero wall > stepBack\nhero EOS > stepBack\nhero portal > teleportToExit";
     check(sprites, rules, "h p w  x w  ", &[("hero", "####+####+..")]);
     check(sprites, rules, "h p w    w  ", &[("hero", "####+.......")]);
-    // As a ghost it passes the fence.
+    // As a ghost, the avatar passes the fence.
     let analysis = crate::analysis::tests::vault();
     let reach = reach(&analysis, "wwwwwwww\nwA.kf.xw\nwwwwwwww");
     assert_eq!(picture(&analysis, &reach, "plain"), ".+++....\n+###+...\n.+++....");
@@ -233,14 +233,15 @@ fn jumps_have_a_height() {
     };
     let rules = "hero wall > wallStop\nhero EOS > stepBack";
     let level = "          \n          \n          \n          \n  h       \nwwww  wwww";
-    // A cell is 80 pixels: 10 a tick lift it by less than one, 14 by less than two, from where it falls to the ground.
+    // A cell is 80 pixels: a speed of 10 lifts it by less than one cell, 14 by less than two, from the height at
+    // which it falls to the ground.
     let floor = "##########\n##########\n++++##++++";
     let (none, all) = ("..........", "##########");
     let expected = |rows: [&str; 3]| format!("{}\n{floor}", rows.join("\n"));
     for (strength, rows) in [("10", [none, none, all]), ("14", [none, all, all]), ("30", [all; 3])] {
         check(&jump(strength), rules, level, &[("hero", &expected(rows))]);
     }
-    // What lifts it frees it.
+    // A lift that carries it frees it from this limit.
     let carried = format!("{rules}\nhero lift > pullWithIt");
     let sprites = format!("{}\nlift > Missile orientation=UP speed=0.1", jump("10"));
     let level = level.replacen("h ", "hl", 1);
@@ -252,12 +253,12 @@ fn jumps_have_a_height() {
     );
 }
 
-/// What play has shown to be possible.
+/// Possibilities that play has revealed.
 #[test]
 fn odd_ways_through_walls() {
     let none = "hero > NullAvatar\n";
     let edge = "cow EOS > stepBack";
-    // A shield that comes by the clock.
+    // A shield granted by a timer.
     let shielded =
         format!("cow wall > stepBack\ncow TIME > shieldFrom stype=wall ftype=stepBack timer=3\n{edge}");
     check(&format!("{none}cow > RandomNPC"), &shielded, "hcw  ", &[("cow", "#####")]);
@@ -271,11 +272,11 @@ fn odd_ways_through_walls() {
     let drop = format!("{none}cow > Missile orientation=UP\negg > Passive");
     let laid = "cow cow > spawn stype=egg\negg EOS > spawnBelow stype=egg\negg cow > spawnBelow stype=egg";
     check(&drop, laid, "   \n c \nh  ", &[("egg", ".#.\n.#.\n.#.")]);
-    // Who turns into something on the way is put back as that.
+    // A sprite that is transformed on the way is moved back in its new form.
     let turned = format!("{none}cow > Missile orientation=RIGHT\nbull > Passive\nox > Passive");
     let back = "cow wall > transformTo stype=bull\nbull wall > transformTo stype=ox\nox wall > undoAll";
     check(&turned, back, "hc w", &[("ox", ".###")]);
-    // And leaves things where it was as what it was before.
+    // It leaves sprites at the position that it had in its old form.
     let left = format!("{none}cow > Missile orientation=RIGHT\nbull > Passive\negg > Passive");
     let behind = "cow EOS > transformTo stype=bull\nbull bull > spawnBehind stype=egg";
     check(&left, behind, "hc ", &[("egg", ".##")]);
