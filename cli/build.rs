@@ -1,4 +1,5 @@
-//! Tells `arcade --version` the commit that a release build was made from. Other builds know none, so that a commit rebuilds nothing.
+//! Records the commit of a release build for `arcade --version`. Other builds record none, so that a commit does not
+//! trigger a rebuild.
 
 use std::env;
 use std::process::Command;
@@ -14,7 +15,7 @@ fn main() {
         && let Some(commit) = git(&["rev-parse", "--short=12", "HEAD"])
     {
         println!("cargo::rustc-env=ARCADE_COMMIT={commit}");
-        // Where HEAD points, and where that branch is: what a commit or a checkout changes.
+        // HEAD, and the branch that it points to: the files that a commit or a checkout changes.
         for file in ["HEAD", "logs/HEAD"] {
             if let Some(path) = git(&["rev-parse", "--git-path", file]) {
                 println!("cargo::rerun-if-changed={path}");
@@ -23,12 +24,12 @@ fn main() {
     }
 }
 
-/// Tells the project's own clone from one that the sources were unpacked into.
+/// Returns `true` in the project's own clone, and `false` where the sources were unpacked into another one.
 fn is_own_clone() -> bool {
     git(&["rev-parse", "--show-prefix"]).is_some_and(|prefix| prefix == "cli/")
 }
 
-/// The first line that git prints; none without git or outside a clone, as in an unpacked archive.
+/// Returns the first line that git prints; none without git or outside a clone, as in an unpacked archive.
 fn git(arguments: &[&str]) -> Option<String> {
     let output =
         Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;

@@ -1,8 +1,9 @@
-//! How much faster two threads step a batch than one: `cargo bench -p infinite-arcade-agents --bench batch`.
+//! The speedup of two threads over one when stepping a batch: `cargo bench -p infinite-arcade-agents --bench batch`.
 //!
-//! Both play the same episodes of each corpus game, in turns, so that whatever else the machine does falls on both; the
-//! best round of each counts. That the states are the same is asserted. A first round is left out: while the buffers of the
-//! states still grow, threads wait for one another's memory, and a second one gains only half as much.
+//! Both play the same episodes of each corpus game, in turns, so that other load on the machine affects both; the
+//! best round of each counts. The bench asserts that the states are the same. The first round is left out: while the
+//! buffers of the states still grow, threads wait for one another's memory, and a second thread gains only half as
+//! much.
 
 #![allow(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measured")]
@@ -18,9 +19,9 @@ use std::time::Instant;
 const LANES: usize = 1024;
 /// Ticks of a round.
 const TICKS: usize = 64;
-/// How often each number of threads has its turn.
+/// The number of timed rounds for each number of threads.
 const ROUNDS: usize = 5;
-/// Ticks of a call: one, as learners play, and some, as planners do.
+/// Ticks of a call: one, as learners play, and several, as planners do.
 const CALLS: [usize; 2] = [1, 16];
 
 fn main() {
@@ -50,7 +51,7 @@ struct Racer {
     pool: ThreadPool,
     batch: Batch,
     actions: Sampler,
-    /// Whether the buffers of the states have grown: a round was played.
+    /// `true` once a round was played, so that the buffers of the states have grown.
     warm: bool,
     /// Seconds of the best round.
     best: f64,
@@ -64,7 +65,7 @@ impl Racer {
         Racer { pool, batch, actions: seed.child("actions", 0).sampler(), warm: false, best: f64::INFINITY }
     }
 
-    /// Plays a round with so many ticks a call; only the calls are on the clock.
+    /// Plays a round with `ticks` ticks a call; only the calls are timed.
     fn round(&mut self, ticks: usize) {
         let Racer { pool, batch, actions, .. } = self;
         let mut seconds = 0.0;

@@ -1,21 +1,21 @@
 //! Many states of one game, stepped together: for learners that play many episodes at once, and for planners that try many
 //! futures of one state.
 //!
-//! Each state plays by itself, with a chance of its own, and is found under the same number whoever steps it: no result
-//! depends on the number of threads. Actions go in and results come out as slices, so that one call does the work of a
-//! thousand. What to do next is the caller's choice: nothing is reset that nobody asked to reset, and the last state of
-//! an episode can be looked at.
+//! Each state plays by itself, with its own random seed, and keeps its number whichever thread steps it: no result
+//! depends on the number of threads. Actions and results are slices, so that one call does the work of a thousand.
+//! The caller decides what to do next: nothing is reset automatically, and the last state of an episode can be
+//! inspected.
 
 use engine::{Action, Game, Level, Outcome, Seed, State};
 use rayon::prelude::*;
 
-/// Steps that a thread takes on at a time: many enough to be worth its waking, few enough that none waits long for the
-/// last one to finish.
+/// Steps in a task of a thread: enough to be worth waking it, few enough that no thread waits long for the last one
+/// to finish.
 const STEPS_OF_A_TASK: usize = 64;
 
-/// States of one game, each with the episode that it is in. Those of one number are called a lane.
+/// States of one game, each with its current episode. The states and values of one index are called a lane.
 ///
-/// Work is spread over the current rayon pool; fewer than some hundred steps are played where they are asked for.
+/// Work is spread over the current rayon pool; fewer than a few hundred steps run on the calling thread.
 ///
 /// # Examples
 /// Episodes, one after the other in each lane:
@@ -50,7 +50,7 @@ const STEPS_OF_A_TASK: usize = 64;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Futures of one state, each by a plan of its own:
+/// Futures of one state, each with its own plan:
 ///
 /// ```
 /// # use agents::Batch;
@@ -79,52 +79,53 @@ const STEPS_OF_A_TASK: usize = 64;
 pub struct Batch {
     game: Game,
     seed: Seed,
-    /// What episodes begin with: those of lane `i` with the one of number `i % roots.len()`. Never empty.
+    /// The initial states of episodes: lane `i` starts from `i % roots.len()`. Never empty.
     roots: Vec<State>,
     states: Vec<State>,
-    /// How many episodes have ended or been given up before this one.
+    /// The number of episodes of each lane that ended or were abandoned before the current one.
     episodes: Vec<u64>,
     outcomes: Vec<Outcome>,
     scores: Vec<f64>,
 }
 
-/// What a batch cannot do.
+/// The errors of a batch.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BatchError {
     /// There is nothing to play.
     #[error("a batch of episodes needs at least one level")]
     NoLevels,
-    /// Not one action for every state.
+    /// The number of actions is not the number of states.
     #[error("{actions} actions are given for {lanes} states; give one for each")]
     Actions {
-        /// So many are given.
+        /// The number of actions given.
         actions: usize,
-        /// So many states there are.
+        /// The number of states.
         lanes: usize,
     },
-    /// Not equally many actions for every state.
+    /// The number of actions is not a multiple of the number of states.
     #[error("{actions} actions are no plans for {lanes} states; give equally many for each")]
     Plans {
-        /// So many are given.
+        /// The number of actions given.
         actions: usize,
-        /// So many states there are.
+        /// The number of states.
         lanes: usize,
     },
-    /// No state has that number.
+    /// There is no such lane.
     #[error("there is no state {lane} among {lanes}; count from 0")]
     NoLane {
-        /// The number.
+        /// The index given.
         lane: usize,
-        /// So many states there are.
+        /// The number of states.
         lanes: usize,
     },
 }
 
 impl Batch {
-    /// Episodes at their start, in so many lanes. The levels take turns: lane `i` always plays number `i % levels.len()`.
+    /// Starts an episode in each of `lanes` lanes. The levels take turns: lane `i` always plays
+    /// level `i % levels.len()`.
     ///
     /// # Errors
-    /// Without a level.
+    /// If there are no levels.
     pub fn start(game: &Game, levels: &[Level], lanes: usize, seed: Seed) -> Result<Batch, BatchError> {
         if levels.is_empty() {
             return Err(BatchError::NoLevels);
@@ -133,7 +134,7 @@ impl Batch {
         Ok(Batch::of(game, roots, lanes, seed))
     }
 
-    /// So many futures of a state of this game: copies of it, each with another chance, see [`State::fork`].
+    /// Copies a state of this game `lanes` times, each with its own random seed; see [`State::fork`].
     pub fn fork(game: &Game, state: &State, lanes: usize, seed: Seed) -> Batch {
         Batch::of(game, vec![state.clone()], lanes, seed)
     }
@@ -147,8 +148,8 @@ impl Batch {
         batch
     }
 
-    /// Gives up all episodes for futures of this state, see [`Batch::fork`]. Allocates nothing once the buffers have grown
-    /// to its size.
+    /// Replaces all episodes by futures of this state, see [`Batch::fork`]. Allocates nothing once the buffers have
+    /// grown to its size.
     pub fn fork_from(&mut self, state: &State, seed: Seed) {
         self.roots.truncate(1);
         self.roots[0].clone_from(state);
@@ -157,38 +158,38 @@ impl Batch {
         self.begin(|_| true);
     }
 
-    /// How many states there are.
+    /// Returns the number of states.
     pub fn len(&self) -> usize {
         self.states.len()
     }
 
-    /// Whether there are no states at all.
+    /// Returns `true` if there are no states.
     pub fn is_empty(&self) -> bool {
         self.states.is_empty()
     }
 
-    /// The game that all play.
+    /// Returns the game that all lanes play.
     pub fn game(&self) -> &Game {
         &self.game
     }
 
-    /// The states, by lane.
+    /// Returns the states, by lane.
     pub fn states(&self) -> &[State] {
         &self.states
     }
 
-    /// How each episode stands, by lane.
+    /// Returns the outcome of each episode so far, by lane.
     pub fn outcomes(&self) -> &[Outcome] {
         &self.outcomes
     }
 
-    /// The scores, by lane.
+    /// Returns the scores, by lane.
     pub fn scores(&self) -> &[f64] {
         &self.scores
     }
 
-    /// The seed of the episode that a lane is in. In a batch that plays levels, [`Game::start`] with it and the same actions
-    /// give the same states.
+    /// Returns the seed of a lane's current episode. In a batch that plays levels, [`Game::start`] with this seed and
+    /// the same actions give the same states.
     ///
     /// # Errors
     /// If there is no such lane.
@@ -197,10 +198,10 @@ impl Batch {
         Ok(seed_of(self.seed, lane, *episode))
     }
 
-    /// Plays one tick in every lane: its own action, one a lane. Those that are over stay as they are.
+    /// Plays one tick in every lane, with one action a lane. Episodes that are over stay unchanged.
     ///
     /// # Errors
-    /// Unless there are as many actions as states; then nothing is played.
+    /// If the number of actions is not the number of states; then nothing is played.
     pub fn step(&mut self, actions: &[Action]) -> Result<&[Outcome], BatchError> {
         if actions.len() != self.len() {
             return Err(BatchError::Actions { actions: actions.len(), lanes: self.len() });
@@ -208,11 +209,12 @@ impl Batch {
         self.play(actions)
     }
 
-    /// Plays a plan in every lane, all equally long; `plans` is `[lane][tick]`, one plan after the other. The same as that
-    /// many calls of [`Batch::step`], in less time: threads wait for each other once, not every tick.
+    /// Plays a plan in every lane, all of the same length; `plans` is `[lane][tick]`, one plan after the other.
+    /// Equivalent to that many calls of [`Batch::step`], in less time: threads wait for each other once instead of
+    /// every tick.
     ///
     /// # Errors
-    /// Unless there are equally many actions for every state; then nothing is played.
+    /// If the number of actions is not a multiple of the number of states; then nothing is played.
     pub fn play(&mut self, plans: &[Action]) -> Result<&[Outcome], BatchError> {
         let ticks = plans.len().checked_div(self.len()).unwrap_or(0);
         if ticks * self.len() != plans.len() {
@@ -232,7 +234,7 @@ impl Batch {
         Ok(&self.outcomes)
     }
 
-    /// Begins another episode in a lane, with another chance.
+    /// Starts a new episode in a lane, with a new random seed.
     ///
     /// # Errors
     /// If there is no such lane.
@@ -246,8 +248,8 @@ impl Batch {
         Ok(())
     }
 
-    /// Begins another episode in every lane whose episode is over; how many these are. With a call after every step no
-    /// lane ever rests. (A level that is over before its first tick is begun again each time.)
+    /// Starts a new episode in every lane whose episode is over, and returns their number. With a call after every
+    /// step no lane is ever idle. (A level that is over before its first tick is restarted each time.)
     pub fn reset_over(&mut self) -> usize {
         let over = |outcome: &Outcome| *outcome != Outcome::Ongoing;
         let mut count = 0;
@@ -259,7 +261,7 @@ impl Batch {
         count
     }
 
-    /// Puts the lanes whose outcome is such at the start of their episode.
+    /// Resets the lanes with a matching outcome to the start of their episode.
     fn begin(&mut self, whose: impl Fn(&Outcome) -> bool + Sync) {
         let (seed, roots) = (self.seed, &self.roots);
         (&mut self.states, &self.episodes, &mut self.outcomes, &mut self.scores)
@@ -275,7 +277,7 @@ impl Batch {
     }
 }
 
-/// The seed of one episode of a lane.
+/// Returns the seed of one episode of a lane.
 fn seed_of(seed: Seed, lane: usize, episode: u64) -> Seed {
     seed.child("lane", lane as u64).child("episode", episode)
 }

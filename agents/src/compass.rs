@@ -1,31 +1,31 @@
-//! How far is it to what helps to win? A number for a state, from what the rules mean.
+//! A measure of progress towards a win: a number for a state, derived from the meaning of the rules.
 //!
-//! Two parts. *Progress* counts what is done: sprites that a winning termination still wants gone or there, keys that are
-//! held. *Closeness* says how near the next thing is that is worth going to, around what blocks the way; it is below 1, so
-//! that taking something is worth more than standing before the next.
+//! It has two parts. *Progress* counts what is done: sprites that a winning termination still wants gone or present,
+//! and keys that are held. *Closeness* is the nearness of the next useful target, around obstacles; it is below 1, so
+//! that taking something is worth more than standing before the next target.
 
 use engine::analysis::{Attainable, Fate, Goal, Harm, Key, Removal, Touch};
 use engine::{Analysis, Digest, Game, SpriteType, State};
 use std::collections::VecDeque;
 
-/// Cells at which closeness is half.
+/// The distance in cells at which closeness is one half.
 const HALF_WAY: f64 = 8.0;
 const UNREACHED: u16 = u16::MAX;
 
-/// What is worth going to in one game, by avatar type.
+/// The useful targets in one game, by avatar type.
 #[derive(Clone, Debug)]
 pub(crate) struct Compass {
     digest: Digest,
     analysis: Analysis,
-    /// The winning terminations that play can bring about by numbers of sprites.
+    /// The winning terminations that play can cause by numbers of sprites.
     goals: Vec<Goal>,
     /// For each avatar type, in the order of the analysis.
     charts: Vec<Chart>,
-    /// What is to be pushed onto what.
+    /// Pairs of a pushable type and the type to push it onto.
     pushes: Vec<(SpriteType, SpriteType)>,
 }
 
-/// What types are to an avatar of one type.
+/// The roles of types for an avatar of one type.
 #[derive(Clone, Debug)]
 struct Chart {
     avatar: SpriteType,
@@ -36,11 +36,11 @@ struct Chart {
 #[derive(Clone, Debug)]
 struct Target {
     stype: SpriteType,
-    /// Only with so many of a resource.
+    /// The resource required for the target, with its amount.
     needs: Option<(SpriteType, i32)>,
 }
 
-/// Buffers for the search of ways.
+/// Buffers for the distance search.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ways {
     distances: Vec<u16>,
@@ -48,7 +48,7 @@ pub(crate) struct Ways {
 }
 
 impl Compass {
-    /// Reads the rules. Cost: that of [`Analysis::of`].
+    /// Derives the targets from the rules. Cost: that of [`Analysis::of`].
     pub(crate) fn of(game: &Game) -> Compass {
         let analysis = Analysis::of(game);
         let wanted = |goal: &&Goal| {
@@ -74,12 +74,12 @@ impl Compass {
         Compass { digest: game.digest(), analysis, goals, charts, pushes }
     }
 
-    /// Whether it is of this game.
+    /// Returns `true` if the compass was made for this game.
     pub(crate) fn fits(&self, game: &Game) -> bool {
         self.digest == game.digest()
     }
 
-    /// What is done: 0 for nothing, 1 for each sprite and each key.
+    /// Returns the progress of a state: minus one for each missing sprite, plus up to one for the keys held.
     pub(crate) fn progress(&self, game: &Game, state: &State) -> f64 {
         let missing = self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min();
         let avatar = state.avatar_sprite_type();
@@ -94,7 +94,7 @@ impl Compass {
         keys - f64::from(missing.unwrap_or(0).min(1000))
     }
 
-    /// How near the nearest thing is that is worth going to, in [0, 1); 0 if nothing is. Cost: O(cells + sprites).
+    /// Returns the closeness of the nearest useful target, in [0, 1); 0 if there is none. Cost: O(cells + sprites).
     pub(crate) fn closeness(&self, game: &Game, state: &State, ways: &mut Ways) -> f64 {
         let Some(chart) = state.avatar_sprite_type().and_then(|avatar| self.chart(avatar)) else {
             return 0.0;
@@ -104,7 +104,7 @@ impl Compass {
         self.flood(chart, state, at, ways);
         let (columns, rows) = state.size();
         let mut nearest = f64::INFINITY;
-        // The distance of what is not entered is that of the cell before it, plus one.
+        // The distance of a cell that cannot be entered is that of its nearest neighbour, plus one.
         let mut consider = |place: (i32, i32), further: f64, ways: &Ways| {
             let (x, y) = cell(state, place);
             let reached = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].into_iter().filter_map(|(dx, dy)| {
@@ -114,7 +114,7 @@ impl Compass {
                 (steps != UNREACHED).then(|| f64::from(steps) + f64::from(u8::from((dx, dy) != (0, 0))))
             });
             let straight = f64::from((x - at.0).abs() + (y - at.1).abs());
-            // No way is known: worth little, but the nearer, the more.
+            // If no way is known, the target is worth little, but more if it is near.
             let steps = reached.fold(f64::INFINITY, f64::min).min(40.0 + 4.0 * straight);
             nearest = nearest.min(steps + further);
         };
@@ -143,7 +143,7 @@ impl Compass {
         self.charts.iter().find(|chart| chart.avatar == avatar)
     }
 
-    /// Steps from a cell to all others, around what blocks the way.
+    /// Computes the steps from a cell to all others, around obstacles.
     fn flood(&self, chart: &Chart, state: &State, from: (i32, i32), ways: &mut Ways) {
         let (columns, rows) = state.size();
         let Ways { distances, queue } = ways;
@@ -152,7 +152,7 @@ impl Compass {
         let index = |(x, y): (i32, i32)| {
             ((0..columns).contains(&x) && (0..rows).contains(&y)).then(|| (y * columns + x) as usize)
         };
-        // Blocked cells count as reached until the flood is over.
+        // Blocked cells count as reached during the flood.
         for &stype in &chart.blocks {
             for place in state.places(stype) {
                 if let Some(at) = index(cell(state, place)) {
@@ -228,7 +228,7 @@ mod tests {
     use super::*;
     use engine::{Action, Seed};
 
-    /// A key makes another avatar of the bear, and only that one opens the hive.
+    /// A key turns the bear into another avatar, and only that one opens the hive.
     const GAME: &str = "BasicGame\n  SpriteSet\n    hive > Door\n    key > Immovable\n    trap > Immovable\n    avatar >\n      bear > MovingAvatar\n      smith > MovingAvatar\n  LevelMapping\n    h > hive\n    k > key\n    t > trap\n    b > bear\n  InteractionSet\n    avatar wall > stepBack\n    bear hive > stepBack\n    bear trap > killSprite\n    smith trap > killSprite\n    hive smith > killSprite scoreChange=1\n    bear key > transformTo stype=smith\n    key smith > killSprite\n  TerminationSet\n    SpriteCounter stype=hive win=True\n    SpriteCounter stype=avatar win=False\n";
 
     #[track_caller]
@@ -246,14 +246,14 @@ mod tests {
 
     #[test]
     fn keys_come_before_doors_and_ways_lead_around_walls() {
-        // One hive is to go, and the key is two steps away; the hive beside the bear is of no use yet.
+        // One hive must go, and the key is two steps away; the hive beside the bear is still useless.
         check("hb k", &[], -1.0, 2.0);
-        // With the key, the hive is.
+        // With the key, the hive is the target.
         check("hb k", &[Action::Right, Action::Right], 0.0, 3.0);
-        // Around the wall, and around the trap; no hive is to go here.
+        // Around the wall, and around the trap; no hive must go here.
         check("bwk\n w \n   ", &[], 0.0, 6.0);
         check("btk\n t \n   ", &[], 0.0, 6.0);
-        // Nothing worth going to: neither key nor way.
+        // There is no useful target: neither key nor way.
         check("b h", &[], -1.0, f64::INFINITY);
     }
 }

@@ -1,10 +1,10 @@
-//! The player who never touches a key.
+//! The player that never presses a key.
 
 use crate::planner::{Budget, Planner};
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// Always [`Action::Nil`].
+/// A planner that always returns [`Action::Nil`].
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct DoNothing;
 

@@ -1,29 +1,29 @@
-//! What novelty is measured on: which sprites are where, and what the avatar holds.
+//! The features that novelty is measured on: the positions of sprites, and the resources of the avatar.
 
 use engine::analysis::{Analysis, Keying, Motion};
 use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// Amounts of a resource, and numbers of sprites, that are told apart.
+/// The number of distinct amounts of a resource, and of distinct sprite counts.
 const AMOUNTS: usize = 16;
 
-/// The atoms of states that can follow from one state: "a sprite of this type is in this cell", "the avatar holds so many of
-/// this resource". Types that never change are left out.
+/// The atoms of the states reachable from one state: "a sprite of this type is in this cell", "the avatar holds this
+/// amount of this resource". Types that never change are left out.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Features {
     columns: i32,
     rows: i32,
-    /// Those whose places count; by their place in the registry.
+    /// The types whose positions count, as indices into the registry.
     types: Vec<u16>,
-    /// How many of `types`, the first ones, are avatars: where they face counts too, because some turn before they go.
+    /// The number of avatars, which come first in `types`: their facing counts too, because some turn before they go.
     avatars: usize,
-    /// Those whose number counts.
+    /// The types whose number of sprites counts.
     numbers: Vec<u16>,
     resources: Vec<u16>,
 }
 
 impl Features {
-    /// Everything that changes.
+    /// Returns the features of everything that changes.
     pub(crate) fn of(analysis: &Analysis, keying: &Keying, start: &State) -> Features {
         let changes = |stype: SpriteType| {
             analysis.facts(stype).concrete && analysis.facts(stype).possible && !keying.is_constant(stype)
@@ -38,7 +38,8 @@ impl Features {
         Features { columns, rows, types, avatars, numbers: Vec::new(), resources }
     }
 
-    /// Of what moves by itself or soon vanishes, only how many there are: where it is, is not the player's doing, and new all the time.
+    /// Like [`Features::of`], but types that move by themselves or soon vanish only count by number: their positions
+    /// change all the time, and not by the player's doing.
     pub(crate) fn without_bustle(analysis: &Analysis, keying: &Keying, start: &State) -> Features {
         let mut features = Features::of(analysis, keying, start);
         let calm = |&stype: &u16| {
@@ -50,7 +51,7 @@ impl Features {
         features
     }
 
-    /// How many atoms there are.
+    /// Returns the number of atoms.
     pub(crate) fn len(&self) -> usize {
         self.places() + AMOUNTS * (self.resources.len() + self.numbers.len())
     }
@@ -59,18 +60,18 @@ impl Features {
         self.cells() * (self.types.len() + (FACINGS - 1) * self.avatars)
     }
 
-    /// With a cell for all that is outside.
+    /// The number of cells, plus one for everything outside.
     fn cells(&self) -> usize {
         (self.columns * self.rows) as usize + 1
     }
 
-    /// The atoms of a state, some perhaps twice. Cost: O(sprites of types that change).
+    /// Visits the atoms of a state, some perhaps twice. Cost: O(sprites of types that change).
     pub(crate) fn each(&self, state: &State, mut atom: impl FnMut(usize)) {
         let block = state.block();
         let cells = self.cells();
         for (at, &stype) in self.types.iter().enumerate() {
             for (rect, facing) in state.bodies(SpriteType(stype)) {
-                // Where its centre is.
+                // The cell of its centre.
                 let column = rect.x.wrapping_add(rect.w / 2).div_euclid(block);
                 let row = rect.y.wrapping_add(rect.h / 2).div_euclid(block);
                 let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
@@ -120,7 +121,7 @@ impl Atoms {
         Atoms(vec![0; atoms.div_ceil(64)])
     }
 
-    /// Whether the atom was not in the set yet.
+    /// Adds an atom; returns `true` if it was not in the set yet.
     pub(crate) fn insert(&mut self, atom: usize) -> bool {
         let (word, bit) = (&mut self.0[atom / 64], 1 << (atom % 64));
         let is_new = *word & bit == 0;

@@ -1,22 +1,23 @@
-//! What a state is worth by its looks: the reference's two heuristics (`spec/04` §9), quirks included.
+//! Evaluations of a state by its observable features: the reference's two heuristics (`spec/04` §9), quirks included.
 
 use engine::{Category, Game, Outcome, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// A value of states for players who look ahead a little.
+/// A value of states for players with a short look-ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Heuristic {
-    /// The reference's `WinScoreHeuristic`: the score; 1000 for a win and −1000 for a loss, whatever the score. So in a game
-    /// with larger scores going on is better than winning.
+    /// The reference's `WinScoreHeuristic`: the score; 1000 for a win and −1000 for a loss, whatever the score. So in
+    /// a game with larger scores, playing on is better than winning.
     WinScore,
-    /// The reference's `SimpleStateHeuristic`: the score, less for the way to the nearest portal, or to the nearest NPC where
-    /// there are no portals. Distances are squared pixels. NPCs attract, deadly or not, and each one left costs 100 points.
+    /// The reference's `SimpleStateHeuristic`: the score, minus a term for the distance to the nearest portal, or to
+    /// the nearest NPC if there are no portals. Distances are squared pixels. NPCs attract, deadly or not, and each
+    /// remaining one costs 100 points.
     Simple,
 }
 
 impl Heuristic {
-    /// The value of a state that was reached from `root`. Cost: O(1), or O(NPCs and portals).
+    /// Returns the value of a state that was reached from `root`. Cost: O(1), or O(NPCs and portals).
     pub fn value(self, game: &Game, root: &State, state: &State) -> f64 {
         match (self, state.outcome()) {
             (Heuristic::WinScore, Outcome::Won) => 1000.0,
@@ -45,19 +46,20 @@ fn simple(game: &Game, root: &State, state: &State) -> f64 {
     }
 }
 
-/// What is seen of a category.
+/// The observations of a category.
 struct Sighting {
-    /// There was such a type at the root, or is now. (The reference's copies remember the types of the original.)
+    /// `true` if such a type existed at the root or exists now. (The reference's copies remember the types of the
+    /// original.)
     known: bool,
     count: usize,
-    /// The squared distance in pixels of the avatar to the nearest sprite of the last type of which there are any. Not of
-    /// the nearest of all: the reference goes through the types and keeps the last answer.
+    /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any. It is not
+    /// the nearest of all: the reference iterates over the types and keeps the last answer.
     nearest: Option<f64>,
 }
 
 impl Sighting {
     fn of(game: &Game, root: &State, state: &State, category: Category) -> Sighting {
-        // The reference's place of an avatar when the episode is over.
+        // The reference's position of an avatar when the episode is over.
         let from = state.avatar_place().unwrap_or((-1, -1));
         let mut sighting = Sighting { known: false, count: 0, nearest: None };
         let seen = |stype: &SpriteType| game.category(*stype) == category && !game.is_hidden(*stype);
@@ -85,7 +87,7 @@ mod tests {
     use super::*;
     use engine::{Action, Seed};
 
-    /// Cells have ten pixels.
+    /// Cells are ten pixels wide.
     const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    exit > Door\n    far > RandomNPC cons=100\n    near > RandomNPC cons=100\n    coin > Immovable\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    e > exit\n    f > far\n    n > near\n    c > coin\n    p > pit\n  InteractionSet\n    coin avatar > killSprite scoreChange=5\n    exit avatar > killSprite\n    avatar pit > killSprite\n  TerminationSet\n    SpriteCounter stype=coin win=True\n    SpriteCounter stype=avatar win=False\n";
 
     #[track_caller]
@@ -100,7 +102,7 @@ mod tests {
 
     #[test]
     fn values_worked_by_hand() {
-        // Nothing but the score.
+        // Only the score counts.
         check("Acc", Action::Right, 5.0, 5.0);
         // Three cells to a portal: 30 × 30 × 10; NPCs do not matter then.
         check("A n ec", Action::Right, 0.0, -9000.0);

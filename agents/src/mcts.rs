@@ -1,7 +1,7 @@
 //! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS` by calls (`spec/04` §1).
 //!
-//! Open loop: a node is a sequence of actions, not a state; every iteration plays its sequence again from a fresh copy
-//! of the root, with a chance of its own, so the statistics of a node average over what may happen.
+//! Open loop: a node is a sequence of actions, not a state; every iteration replays its sequence from a fresh copy of
+//! the root, with its own random seed, so the statistics of a node average over the possible outcomes.
 //! (Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning"; Browne et al. 2012, "A survey of Monte Carlo tree
 //! search methods".)
 
@@ -28,9 +28,9 @@ pub struct MctsConfig {
 }
 
 impl MctsConfig {
-    /// A difference from the reference: wins and losses weigh like points. With the reference's ±10⁷ one loss seen through
-    /// a node flattens all differences of score there, and the search keeps away from all danger instead of playing.
-    /// On the corpus this wins about a quarter more episodes at equal calls.
+    /// Differs from the reference: wins and losses weigh about as much as points. With the reference's ±10⁷ one loss
+    /// seen through a node hides all score differences there, and the search avoids all danger instead of playing. On
+    /// the corpus this wins about a quarter more episodes at equal calls.
     pub fn bold(depth: u32) -> MctsConfig {
         MctsConfig { depth, win: 10.0, loss: 1.0, ..MctsConfig::default() }
     }
@@ -42,7 +42,7 @@ impl Default for MctsConfig {
     }
 }
 
-/// The planner: plans each decision from nothing, on a fresh tree.
+/// The planner: plans each decision from scratch, on a fresh tree.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Mcts {
     config: MctsConfig,
@@ -60,7 +60,7 @@ struct Node {
     children: [u32; WIDTH],
     visits: f64,
     total: f64,
-    /// Least and greatest result seen through this node.
+    /// The least and greatest results seen through this node.
     least: f64,
     greatest: f64,
 }
@@ -71,19 +71,19 @@ impl Node {
         Node { children: [UNEXPANDED; WIDTH], visits: 0.0, total: 0.0, least, greatest }
     }
 
-    /// The mean result.
+    /// Returns the mean result.
     fn value(&self) -> f64 {
         self.total / (self.visits + EPSILON)
     }
 }
 
 impl Mcts {
-    /// A planner of its own streams of choices and imagined chance.
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
     pub fn new(config: MctsConfig, seed: Seed) -> Mcts {
         Mcts { config, streams: Streams::new(seed), tree: Vec::new(), path: Vec::new(), scratch: None }
     }
 
-    /// One iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls.
+    /// Runs one iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls.
     fn iterate(&mut self, game: &Game, state: &mut State, actions: &[Action], choices: &mut Sampler) -> u64 {
         let mut calls = 0;
         let mut depth = 0;
@@ -128,7 +128,8 @@ impl Mcts {
         calls
     }
 
-    /// The branch of the greatest UCT value: the mean, normalised to what was seen through the node, and exploration.
+    /// Chooses the branch of the greatest UCT value: the mean, normalised to the range seen through the node, plus
+    /// exploration.
     fn select(&self, node: usize, width: usize, choices: &mut Sampler) -> usize {
         let Node { children, visits, least, greatest, .. } = &self.tree[node];
         let logarithm = libm::log(visits + 1.0);
@@ -142,7 +143,7 @@ impl Mcts {
         best(width, |branch| value(branch, choices.unit()))
     }
 
-    /// The most visited branch; the best mean if all that are visited are visited alike.
+    /// Chooses the most visited branch, or the one with the best mean if all visited branches have equal visits.
     fn decide(&self, width: usize, choices: &mut Sampler) -> usize {
         let root = &self.tree[0];
         let child = |branch: usize| self.tree.get(root.children[branch] as usize);

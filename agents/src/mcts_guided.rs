@@ -1,8 +1,8 @@
-//! Monte-Carlo tree search that knows where to go: the reference's search with its known weaknesses mended.
+//! Monte-Carlo tree search guided by the rules of the game: the reference's search with its known weaknesses fixed.
 //!
 //! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off by itself;
-//! `docs/planners.md` says what each is worth. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree
-//! search: long-term versus short-term planning"; knowledge of what is worth going to: Frydenberg et al. 2015,
+//! `docs/planners.md` lists the gain of each. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo
+//! tree search: long-term versus short-term planning"; knowledge of useful targets: Frydenberg et al. 2015,
 //! "Investigating MCTS modifications in general video game playing"; novelty: Soemers et al. 2016, "Enhancements for
 //! real-time Monte-Carlo tree search in general video game playing".)
 
@@ -24,26 +24,27 @@ pub struct GuidedMctsConfig {
     pub depth: u32,
     /// Weight of exploration in UCT.
     pub exploration: f64,
-    /// What a win adds to a result, whose other parts are between −1 and 1 each. The reference adds 10⁷ to the score.
+    /// The value that a win adds to a result, whose other parts are between −1 and 1 each. The reference adds 10⁷ to
+    /// the score.
     pub win: f64,
-    /// What a loss takes from it.
+    /// The value that a loss subtracts from it.
     pub loss: f64,
-    /// Weight of the points gained, as a share of the most that was gained in this episode's searches.
+    /// Weight of the points gained, relative to the most that was gained in this episode's searches.
     pub score: f64,
-    /// By what a result is multiplied for each tick that it is away; 1 in the reference.
+    /// The factor on a result for each tick until it; 1 in the reference.
     pub discount: f64,
-    /// Whether doing nothing is an action; not in the reference.
+    /// `true` if doing nothing is an action; not in the reference.
     pub nil: bool,
-    /// Whether the tree under the chosen action is kept for the next decision; not in the reference.
+    /// `true` if the tree under the chosen action is kept for the next decision; not in the reference.
     pub reuse: bool,
-    /// In rollouts an action is repeated for 1 to so many ticks; 1 in the reference.
+    /// In rollouts an action is repeated for 1 to this many ticks; 1 in the reference.
     pub repeat: usize,
-    /// Weight of coming to a place, with what is held and done, where the avatar was not yet in this episode; 0 in the
-    /// reference.
+    /// Weight of reaching a position, with the same progress, that the avatar has not visited in this episode; 0 in
+    /// the reference.
     pub novelty: f64,
-    /// Weight of coming nearer to what the rules say helps to win; 0 in the reference.
+    /// Weight of progress by the rules: of coming nearer to useful targets; 0 in the reference.
     pub guidance: f64,
-    /// In games without chance, whether a win that was seen is played to its end without another look.
+    /// `true` if a win that the search found in a deterministic game is played to its end without another search.
     pub commit: bool,
 }
 
@@ -71,16 +72,16 @@ impl Default for GuidedMctsConfig {
 pub struct GuidedMcts {
     config: GuidedMctsConfig,
     streams: Streams,
-    /// The root first; between decisions, what is kept.
+    /// The nodes, with the root first; between decisions, the part that is kept.
     tree: Vec<Node>,
-    /// What the branches of the tree stand for.
+    /// The action of each branch of the tree.
     actions: Vec<Action>,
-    /// How often the avatar was where, and in which circumstances.
+    /// The number of visits of each combination of the avatar's position, type and progress.
     #[serde(with = "pairs")]
     visits: BTreeMap<u64, u32>,
     /// The most points gained or lost in a rollout.
     scale: f64,
-    /// What is still to be played of a win that is certain.
+    /// The remaining actions of a certain win.
     plan: VecDeque<Action>,
     #[serde(skip)]
     compass: Option<Box<Compass>>,
@@ -111,7 +112,7 @@ impl Node {
     }
 }
 
-/// A map as a list of pairs: keys of JSON objects are texts.
+/// Serialises a map as a list of pairs, because keys of JSON objects are strings.
 mod pairs {
     use serde::{Deserialize, Deserializer, Serializer};
     use std::collections::BTreeMap;
@@ -125,7 +126,7 @@ mod pairs {
     }
 }
 
-/// What results are measured against.
+/// The values of the root, which results are compared with.
 struct Root {
     score: f64,
     progress: f64,
@@ -133,7 +134,7 @@ struct Root {
 }
 
 impl GuidedMcts {
-    /// A planner of its own streams of choices and imagined chance.
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
     pub fn new(config: GuidedMctsConfig, seed: Seed) -> GuidedMcts {
         GuidedMcts {
             config,
@@ -151,7 +152,7 @@ impl GuidedMcts {
         }
     }
 
-    /// Makes the tree ready: what was kept of the last one, if it still fits.
+    /// Prepares the tree: reuses the part kept from the last decision, if it still fits.
     fn begin(&mut self, game: &Game, state: &State) {
         let mut actions = game.actions(state).to_vec();
         if self.config.nil && !actions.contains(&Action::Nil) {
@@ -167,8 +168,8 @@ impl GuidedMcts {
         }
     }
 
-    /// One iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls, and
-    /// whether it has won.
+    /// Runs one iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls,
+    /// and `true` if it won.
     fn iterate(
         &mut self,
         game: &Game,
@@ -218,7 +219,7 @@ impl GuidedMcts {
         (self.played.len() as u64, state.outcome() == Outcome::Won)
     }
 
-    /// What a rollout is worth: points, the way made, the news, and how it ended.
+    /// Returns the result of a rollout: points, progress, novelty and outcome.
     fn result(&mut self, game: &Game, state: &State, root: &Root, gained: &Gains) -> f64 {
         let config = &self.config;
         self.scale = self.scale.max(gained.value.abs());
@@ -242,7 +243,7 @@ impl GuidedMcts {
         points + end * worth
     }
 
-    /// The branch of the greatest UCT value.
+    /// Chooses the branch of the greatest UCT value.
     fn select(&self, node: usize, decision: &mut Decision) -> usize {
         let Node { children, visits, .. } = &self.tree[node];
         let logarithm = libm::log(visits + 1.0);
@@ -254,7 +255,7 @@ impl GuidedMcts {
         })
     }
 
-    /// The most visited branch, of several the better one.
+    /// Chooses the most visited branch; of equals, the better one.
     fn decide(&self) -> usize {
         best(self.actions.len(), |branch| {
             let child = self.tree.get(self.tree[0].children[branch] as usize);
@@ -269,11 +270,11 @@ impl GuidedMcts {
     }
 }
 
-/// Points gained along a rollout, those further off counting less.
+/// The discounted points gained along a rollout.
 struct Gains {
     score: f64,
     value: f64,
-    /// What counts of what happens in the next tick.
+    /// The weight of the next tick.
     weight: f64,
     discount: f64,
 }
@@ -286,7 +287,7 @@ impl Gains {
     }
 }
 
-/// Where the avatar is, what it is, what it holds and what is done: equal numbers, no news.
+/// Hashes the avatar's position and type and the progress of the game: a known number means no novelty.
 fn circumstances(game: &Game, state: &State, compass: &Compass) -> u64 {
     let (x, y) = state.avatar_place().unwrap_or((-1, -1));
     let block = state.block().max(1);
@@ -342,7 +343,8 @@ mod tests {
     use super::*;
     use crate::{Limits, play};
 
-    /// The key is far beyond the look-ahead, and the exit, locked without it, further: no score shows the way.
+    /// The key is far beyond the look-ahead, and the exit, locked without it, is further still: no score shows the
+    /// way.
     const GAME: &str = "BasicGame\n  SpriteSet\n    exit > Door\n    key > Resource limit=1\n    avatar > MovingAvatar\n  LevelMapping\n    e > exit\n    k > key\n  InteractionSet\n    avatar wall > stepBack\n    key avatar > collectResource\n    exit avatar > killIfOtherHasMore resource=key limit=1\n  TerminationSet\n    SpriteCounter stype=exit win=True\n    Timeout limit=300 win=False\n";
     const LEVEL: &str = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwk                          Aw\nw wwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                           ew\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
 
@@ -361,7 +363,7 @@ mod tests {
         assert_eq!(played(blind, 200).episode.outcome, Outcome::Lost);
     }
 
-    /// Without chance a win that was seen is certain: the last ticks cost nothing.
+    /// In a deterministic game a win that was found is certain: its last ticks need no search.
     #[test]
     fn it_plays_a_certain_win_to_its_end() {
         let config = |commit| GuidedMctsConfig { commit, ..GuidedMctsConfig::default() };

@@ -1,9 +1,9 @@
 //! Open-loop expectimax tree search: the reference's `olets` by calls (`spec/04` §2), the winner of its competition.
 //!
-//! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but no rollout follows: the state at a new node is its
-//! value, and a node is worth a mixture of what ended there and its best child. The tree under the chosen action is kept
-//! for the next decision. (A. Couëtoux 2015; Perez Liebana et al. 2016, "The 2014 general video game playing
-//! competition".)
+//! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but no rollout follows: a new node is evaluated by
+//! its state, and the value of a node is a mixture of the results that ended there and its best child. The tree under
+//! the chosen action is kept for the next decision. (A. Couëtoux 2015; Perez Liebana et al. 2016, "The 2014 general
+//! video game playing competition".)
 
 use crate::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::planner::{Budget, Decision, Planner, Streams};
@@ -18,17 +18,17 @@ const EPSILON: f64 = 1e-4;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OletsConfig {
-    /// Weight of exploration, beside scores that are not normalised.
+    /// Weight of exploration, relative to scores that are not normalised.
     pub exploration: f64,
-    /// Share of the choices on the way down that are uniform.
+    /// The share of uniformly random choices on the way down.
     pub random: f64,
-    /// Places of the avatar that are remembered, one a decision.
+    /// The number of past positions of the avatar to remember, one a decision.
     pub memory: usize,
-    /// What a node loses if it leads to a remembered place.
+    /// The penalty of a node that leads to a remembered position.
     pub penalty: f64,
-    /// What happens to the nodes that are kept from the last decision. Each is to count as one visit with the mean of what
-    /// was seen; the reference, when it divides the sum of the results that ended at a node, divides by the one visit, so
-    /// that the sum stays (`spec/04` §2). True: divide by their number.
+    /// The handling of nodes that are kept from the last decision. Each is to count as one visit with the mean of the
+    /// results seen; the reference divides the sum of the results that ended at a node by that one visit, so that the
+    /// sum stays (`spec/04` §2). `true`: divide by their number.
     pub fixed_refresh: bool,
 }
 
@@ -49,13 +49,14 @@ impl Default for OletsConfig {
 pub struct Olets {
     config: OletsConfig,
     streams: Streams,
-    /// The root first. Between decisions: what is kept, not yet refreshed.
+    /// The nodes, with the root first. Between decisions: the kept nodes, not yet refreshed.
     tree: Vec<Node>,
-    /// What the branches of the tree stand for.
+    /// The action of each branch of the tree.
     actions: Vec<Action>,
-    /// Where the avatar was at the last decisions, but the first of all; the latest last, this one's included.
+    /// The positions of the avatar at the last decisions, without the very first; the latest last, including this
+    /// one's.
     places: VecDeque<(i32, i32)>,
-    /// Whether there was a decision before.
+    /// `true` once there was a decision.
     begun: bool,
     #[serde(skip)]
     path: Vec<usize>,
@@ -69,13 +70,13 @@ struct Node {
     visits: f64,
     /// Sum of the results seen through this node.
     total: f64,
-    /// How many iterations ended here, and the sum of their results.
+    /// The number of iterations that ended here, and the sum of their results.
     exits: f64,
     exit_sum: f64,
-    /// The mean of what ended here, mixed with the value of the best child by their shares of the visits.
+    /// The mean of the results that ended here, mixed with the value of the best child by their shares of the visits.
     value: f64,
     penalty: f64,
-    /// Reached in this decision.
+    /// `true` if reached in this decision.
     reached: bool,
 }
 
@@ -93,7 +94,7 @@ impl Node {
         }
     }
 
-    /// Makes all that was seen count as one visit.
+    /// Makes all results seen so far count as one visit.
     fn refresh(&mut self, fixed: bool) {
         let visits = self.visits.max(1.0);
         self.total /= visits;
@@ -106,7 +107,7 @@ impl Node {
 }
 
 impl Olets {
-    /// A planner of its own streams of choices and imagined chance.
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
     pub fn new(config: OletsConfig, seed: Seed) -> Olets {
         Olets {
             config,
@@ -120,7 +121,8 @@ impl Olets {
         }
     }
 
-    /// Remembers where the avatar is, and makes the tree ready: what was kept of the last one, if it still fits.
+    /// Remembers the position of the avatar, and prepares the tree: reuses the part kept from the last decision, if
+    /// it still fits.
     fn begin(&mut self, actions: Vec<Action>, state: &State) {
         if std::mem::replace(&mut self.begun, true)
             && let Some(place) = state.avatar_place()
@@ -138,7 +140,7 @@ impl Olets {
         self.tree.iter_mut().for_each(|node| node.refresh(self.config.fixed_refresh));
     }
 
-    /// One iteration: down the tree to a new node, and the value of the state there back up. Returns its calls.
+    /// Runs one iteration: down the tree to a new node, and the value of its state back up. Returns its calls.
     fn iterate(&mut self, game: &Game, state: &mut State, decision: &mut Decision) -> u64 {
         let mut node = 0;
         self.path.clear();
@@ -159,7 +161,8 @@ impl Olets {
             if !self.tree[node].reached {
                 self.tree[node].reached = true;
                 self.tree[node].penalty = self.penalty(state);
-                // The first way through a child of the root that was kept ends there, so that it has a result of today.
+                // The first pass through a kept child of the root ends there, so that it has a result of this
+                // decision.
                 if new || self.path.len() == 2 {
                     break;
                 }
@@ -180,20 +183,21 @@ impl Olets {
             let node = &self.tree[at];
             let children = node.children.iter().filter(|&&child| child != UNEXPANDED);
             let best = children.map(|&child| self.tree[child as usize].value).reduce(f64::max);
-            // Iterations end at the root only when there is nothing to plan; elsewhere, before there is a child.
+            // Iterations end at the root only if there is nothing to plan; elsewhere, before there is a child.
             let ended = if node.exits > 0.0 { node.exit_sum / node.exits } else { 0.0 };
             let share = node.exits / node.visits;
             self.tree[at].value = best.map_or(ended, |best| share * ended + (1.0 - share) * best);
         }
     }
 
-    /// What the place that the avatar has come to costs.
+    /// Returns the penalty of the avatar's current position.
     fn penalty(&self, state: &State) -> f64 {
         let known = state.avatar_place().is_some_and(|place| self.places.contains(&place));
         if known { self.config.penalty } else { 0.0 }
     }
 
-    /// The branch to go down: now and then any, else that of the greatest value, exploration and penalty considered.
+    /// Chooses the branch to go down: sometimes a random one, otherwise that of the greatest value, with exploration
+    /// and penalty.
     fn select(&self, node: usize, decision: &mut Decision) -> usize {
         let (choices, width) = (&mut decision.choices, self.actions.len());
         if choices.unit() < self.config.random {
@@ -208,7 +212,7 @@ impl Olets {
         })
     }
 
-    /// The most visited branch; that of the greatest sum if all that are visited are visited alike.
+    /// Chooses the most visited branch, or the one of the greatest sum if all visited branches have equal visits.
     fn decide(&self, decision: &mut Decision) -> usize {
         let width = self.actions.len();
         let child = |branch: usize| self.tree.get(self.tree[0].children[branch] as usize);
@@ -228,16 +232,17 @@ impl Olets {
     }
 }
 
-/// The actions in the order of the reference, which decides ties on the way down and between visits: where nothing beckons
-/// and no other place can be reached at once, an avatar that shoots goes on shooting. The facts leave open where the
-/// reference adds noise against ties; see `docs/planners.md` for what the recorded episodes say.
+/// Returns the actions in the order of the reference, which decides ties on the way down and between visits: if no
+/// branch is better and no other position can be reached at once, an avatar that shoots goes on shooting. The facts
+/// leave open where the reference adds noise against ties; see `docs/planners.md` for the evidence of the recorded
+/// episodes.
 fn in_order(actions: &[Action]) -> Vec<Action> {
     use Action::{Down, Left, Nil, Right, Up, Use};
     [Use, Left, Right, Down, Up, Nil].into_iter().filter(|action| actions.contains(action)).collect()
 }
 
-/// The value of a state so many ticks ahead: the score; a win is worth more the higher the score, and a loss is the worse
-/// the sooner it comes.
+/// Returns the value of a state `depth` ticks ahead: the score; a win is worth more the higher the score, and a loss
+/// is worse the sooner it comes.
 fn result(state: &State, depth: f64) -> f64 {
     let score = state.score();
     match state.outcome() {
@@ -259,7 +264,7 @@ impl Planner for Olets {
         }
         let mut copy = self.scratch.take().unwrap_or_else(|| state.clone());
         let mut calls = 0;
-        // At least one iteration: there must be a child to choose.
+        // At least one iteration: `decide` needs a child.
         loop {
             decision.imagine(&mut copy, state);
             let cost = self.iterate(game, &mut copy, &mut decision);
@@ -282,7 +287,7 @@ mod tests {
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=500 win=False\n";
 
-    /// Where no score shows the way, remembered places push the avatar along the corridor.
+    /// Remembered positions push the avatar along a corridor in which no score shows the way.
     #[test]
     fn it_walks_down_a_long_corridor() {
         let game = Game::from_source(GAME).unwrap();
@@ -312,7 +317,7 @@ mod tests {
         assert_eq!(result(&ended("A g"), 5.0), 0.0);
     }
 
-    /// Worked by hand: a kept node of four visits, three of which ended there with 6 in all.
+    /// Calculated by hand: a kept node of four visits, three of which ended there with a sum of 6.
     #[test]
     fn what_is_kept_counts_as_one_visit() {
         let node = Node { visits: 4.0, total: 10.0, exits: 3.0, exit_sum: 6.0, ..Node::new() };

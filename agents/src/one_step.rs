@@ -13,10 +13,10 @@ const EPSILON: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OneStepConfig {
-    /// What the next states are worth.
+    /// The evaluation of the next states.
     pub heuristic: Heuristic,
-    /// How often each action is tried, at least once; the mean counts. The reference tries once, so one draw of the chance
-    /// decides.
+    /// The number of tries of each action, at least one; the mean counts. The reference tries once, so a single
+    /// random draw decides.
     pub samples: u32,
 }
 
@@ -26,7 +26,7 @@ impl Default for OneStepConfig {
     }
 }
 
-/// The player who looks one tick ahead. Its cost is one call an action and sample, whatever the budget.
+/// The player that looks one tick ahead. Its cost is one call for each action and sample, whatever the budget.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct OneStep {
     config: OneStepConfig,
@@ -36,7 +36,7 @@ pub struct OneStep {
 }
 
 impl OneStep {
-    /// A planner of its own streams of choices and imagined chance.
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
     pub fn new(config: OneStepConfig, seed: Seed) -> OneStep {
         OneStep { config, streams: Streams::new(seed), scratch: None }
     }

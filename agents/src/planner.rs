@@ -1,29 +1,29 @@
-//! What a planner is.
+//! The planner interface.
 
 use engine::{Action, Chance, Game, Sampler, Seed, State};
 use serde::{Deserialize, Serialize};
 
-/// How many forward-model calls a decision may cost.
+/// The number of forward-model calls that a decision may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Budget(pub u64);
 
 /// Chooses actions by looking ahead on copies of the state.
 pub trait Planner {
-    /// The next action, and the forward-model calls that it cost. A search checks its budget before each iteration, so
-    /// it may overshoot by one iteration.
+    /// Returns the next action, and the forward-model calls that it cost. A search checks its budget before each
+    /// iteration, so it may exceed it by one iteration.
     fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64);
 }
 
-/// Where the streams of a planner's decisions come from: each decision has its own, so a planner is saved as its seed and
-/// a count.
+/// The source of the random streams of a planner's decisions: each decision has its own, so a planner can be saved as
+/// its seed and a count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Streams {
     seed: Seed,
     decisions: u64,
 }
 
-/// The streams of one decision: what the planner chooses, and the chance that it imagines.
+/// The random streams of one decision: the planner's choices, and the outcomes that it imagines.
 pub(crate) struct Decision {
     pub(crate) choices: Sampler,
     imagined: Sampler,
@@ -34,7 +34,7 @@ impl Streams {
         Streams { seed, decisions: 0 }
     }
 
-    /// The streams of the next decision.
+    /// Returns the streams of the next decision.
     pub(crate) fn next(&mut self) -> Decision {
         let seed = self.seed.child("decision", self.decisions);
         self.decisions += 1;

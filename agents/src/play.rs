@@ -6,30 +6,30 @@ use engine::{Episode, Game, Level, Seed};
 /// A played episode and what it cost.
 #[derive(Clone, Debug)]
 pub struct Play {
-    /// What was played: replays bit for bit.
+    /// The episode, which replays bit for bit.
     pub episode: Episode,
     /// Forward-model calls of all decisions together.
     pub calls: u64,
 }
 
-/// When a play is broken off.
+/// The limits at which a play is broken off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Ticks at most.
+    /// The most ticks of a play.
     pub ticks: usize,
     /// Forward-model calls of all decisions together: checked before each decision.
     pub calls: u64,
 }
 
 impl Default for Limits {
-    /// None beyond the engine's own tick limit.
+    /// No limit beyond the engine's own tick limit.
     fn default() -> Limits {
         Limits { ticks: usize::MAX, calls: u64::MAX }
     }
 }
 
-/// Plays until the episode is over or a limit is met. `seed` decides the game's chance; the planner has streams of its
-/// own.
+/// Plays until the episode is over or a limit is reached. `seed` decides the game's randomness; the planner has its
+/// own streams.
 pub fn play(
     game: &Game,
     level: &Level,

@@ -1,4 +1,4 @@
-//! Many ways to win one level: the default for "can it be won?".
+//! A portfolio of ways to win one level: the default answer to "can it be won?".
 
 use crate::mcts::{Mcts, MctsConfig};
 use crate::mcts_guided::{GuidedMcts, GuidedMctsConfig};
@@ -11,25 +11,25 @@ use engine::{Action, Analysis, Episode, Level, Outcome, Seed};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// How a budget is shared out.
+/// The division of a budget.
 ///
-/// Where chance decides nothing, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. Then, and
-/// in games of chance from the start, planners play episodes in rounds, a short one each at first, then ever longer ones:
-/// [`Width`] sees far, [`GuidedMcts`] knows where to go, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
+/// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After
+/// that, and in stochastic games from the start, planners play episodes in rounds of growing length: [`Width`] looks
+/// far ahead, [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
 /// risks.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PortfolioConfig {
-    /// Forward-model calls of all together.
+    /// Forward-model calls of all searches and plays together.
     pub budget: u64,
-    /// The share of it that may go into looking for the shortest win.
+    /// The share of it to spend on the shortest win.
     pub shortest: f64,
-    /// The share of it that may go into looking for some win systematically.
+    /// The share of it to spend on any win by systematic search.
     pub systematic: f64,
-    /// Bytes that a systematic search may use.
+    /// The memory limit of a systematic search, in bytes.
     pub bytes: usize,
-    /// Calls of a decision of the planners that play, at most: fewer where a play of [`USUAL_TICKS`], or one until the tick
-    /// that wins, would cost more than its share.
+    /// The most calls of a decision of the planners: fewer if a play of [`USUAL_TICKS`], or one until the winning
+    /// tick, would cost more than its share.
     pub decision: u64,
     /// Look-ahead in ticks of the bold Monte-Carlo tree searches, one player each.
     pub depths: Vec<u32>,
@@ -48,39 +48,39 @@ impl Default for PortfolioConfig {
     }
 }
 
-/// What the portfolio found.
+/// The result of the portfolio.
 #[derive(Clone, Debug)]
 pub struct Solved {
     /// The answer.
     pub solution: Solution,
-    /// Forward-model calls of all together.
+    /// Forward-model calls of all searches and plays together.
     pub calls: u64,
     /// Episodes of the planners that played, in order.
     pub plays: Vec<Play>,
 }
 
-/// Whether a level can be won.
+/// The answer to whether a level can be won.
 #[derive(Clone, Debug)]
 pub enum Solution {
     /// This episode wins.
     Won {
         /// It replays bit for bit.
         episode: Box<Episode>,
-        /// Whether it is proved that no fewer ticks win.
+        /// `true` if it is proved that no fewer ticks win.
         shortest: bool,
     },
-    /// No: all states that can be reached were looked at, so many.
+    /// Proved impossible: all reachable states were searched.
     Impossible {
-        /// Different states.
+        /// The number of distinct states.
         states: u64,
-        /// The actions that lead nearest to a win: see [`Searched::nearest`].
+        /// The actions that lead closest to a win: see [`Searched::nearest`].
         nearest: Vec<Action>,
     },
     /// Not known within the budget.
     Unknown,
 }
 
-/// The first round may cost so small a share of the budget; each round after it twice as much.
+/// The divisor of the budget for the first round; each later round may cost twice as much as the one before.
 const FIRST_ROUND: u64 = 16;
 
 /// Looks for a win. The same configuration and seed give the same answer on any number of threads.
@@ -141,15 +141,15 @@ pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed:
     solved
 }
 
-/// Rounds at most: plays of games that end at once cost next to nothing.
+/// The greatest number of rounds: plays of games that end at once cost next to nothing.
 const MAX_ROUNDS: u64 = 20;
 
-/// Ticks of a play that its share of the budget should last for.
+/// The ticks of a play that its share of the budget should cover.
 const USUAL_TICKS: u64 = 700;
-/// Calls of a decision at least.
+/// The least calls of a decision.
 const LEAST_DECISION: u64 = 30;
 
-/// One play of each planner, with an equal share of the budget: a play stops at the first decision beyond it.
+/// Plays each planner once, with an equal share of the budget: a play stops at the first decision beyond it.
 fn play_round(
     analysis: &Analysis,
     level: &Level,
@@ -161,7 +161,7 @@ fn play_round(
     let players = config.depths.len() + 3;
     let limits = Limits { calls: budget / players as u64, ..Limits::default() };
     let survive = analysis.aims().survive.and_then(|tick| u64::try_from(tick).ok());
-    // Searches overshoot their budget a little.
+    // Searches exceed their budget a little.
     let least = LEAST_DECISION.min(config.decision);
     let affordable = |ticks: u64| (limits.calls / ticks.max(1) * 4 / 5).clamp(least, config.decision);
     (0..players)
@@ -177,7 +177,7 @@ fn play_round(
             };
             let decision = match (survive, number) {
                 (Some(ticks), _) => affordable(ticks + 1),
-                // Looking far takes calls; it is for short wins.
+                // A long look-ahead is expensive; it serves short wins.
                 (None, 0) => config.decision,
                 (None, _) => affordable(USUAL_TICKS),
             };

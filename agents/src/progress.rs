@@ -1,9 +1,9 @@
-//! How far a state is from being won.
+//! The distance of a state from a win.
 
 use engine::State;
 use engine::analysis::{Analysis, Attainable, Condition, Goal};
 
-/// The goals that win, and how far they are.
+/// The goals that win, and their distances.
 #[derive(Clone, Debug)]
 pub(crate) struct Progress<'a> {
     analysis: &'a Analysis,
@@ -16,13 +16,13 @@ impl<'a> Progress<'a> {
         Progress { analysis, goals: winning.collect() }
     }
 
-    /// The sprites that must go or come until the nearest goal of that kind is met; 0 if there is none.
+    /// Returns the number of sprites that must go or come for the nearest goal about sprites; 0 if there is none.
     pub(crate) fn sprites_missing(&self, state: &State) -> u32 {
         let counted = self.goals.iter().filter(|goal| !matches!(goal.condition, Condition::Tick(_)));
         counted.map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(0)
     }
 
-    /// The sprites that must go or come, or the ticks that must pass, until the nearest goal is met.
+    /// Returns the number of sprites that must go or come, or of ticks that must pass, for the nearest goal.
     pub(crate) fn missing(&self, state: &State) -> u32 {
         self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(u32::MAX)
     }

@@ -1,10 +1,10 @@
-//! The players who press any key: the floor of every comparison (`spec/04` §7).
+//! Random players: the baseline of every comparison (`spec/04` §7).
 
 use crate::planner::{Budget, Planner};
 use engine::{Action, Game, Sampler, Seed, State};
 use serde::{Deserialize, Serialize};
 
-/// Uniform over the avatar's actions: the reference's `simpleRandom`, doing nothing left out, or with it.
+/// Uniform over the avatar's actions: the reference's `simpleRandom`, with or without doing nothing.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Random {
     with_nil: bool,
@@ -12,12 +12,12 @@ pub struct Random {
 }
 
 impl Random {
-    /// A player of its own stream of choices, who always does something.
+    /// Creates a player that always does something, with its own random stream of choices.
     pub fn new(seed: Seed) -> Random {
         Random { with_nil: false, choices: seed.child("choices", 0).sampler() }
     }
 
-    /// One for whom doing nothing is an action like the others.
+    /// Creates a player that includes doing nothing as an action.
     pub fn with_nil(seed: Seed) -> Random {
         Random { with_nil: true, ..Random::new(seed) }
     }

@@ -1,4 +1,4 @@
-//! Random search: the reference's `sampleRS` (`spec/04` §4), the floor of evolution at equal calls.
+//! Random search: the reference's `sampleRS` (`spec/04` §4), the baseline of evolution at equal calls.
 
 use crate::heuristics::Heuristic;
 use crate::planner::{Budget, Planner, Streams};
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct RandomSearchConfig {
     /// Ticks of a sequence.
     pub horizon: usize,
-    /// What the state after a sequence is worth.
+    /// The evaluation of the state after a sequence.
     pub heuristic: Heuristic,
 }
 
@@ -22,7 +22,7 @@ impl Default for RandomSearchConfig {
     }
 }
 
-/// Plays random sequences of actions, doing nothing included, and begins with the first one that ends best.
+/// Tries random sequences of actions, doing nothing included, and plays the first action of the best one.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RandomSearch {
     config: RandomSearchConfig,
@@ -32,7 +32,7 @@ pub struct RandomSearch {
 }
 
 impl RandomSearch {
-    /// A planner of its own streams of choices and imagined chance.
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
     pub fn new(config: RandomSearchConfig, seed: Seed) -> RandomSearch {
         RandomSearch { config, streams: Streams::new(seed), scratch: None }
     }

@@ -10,14 +10,14 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Declares the planners once: name, variant, how it is made from a seed. The weakest first.
+/// Declares the planners in one place: name, variant, constructor from a seed. The weakest first.
 macro_rules! planners {
     ($($name:literal $variant:ident($type:ty) $make:expr;)*) => {
         /// The names of all planners, the weakest first.
         pub const PLANNERS: &[&str] = &[$($name),*];
 
-        /// A planner of the registry, with default parameters. It can be saved between two decisions and, once loaded, plans
-        /// on as if it had not been.
+        /// A planner of the registry, with default parameters. It can be saved between two decisions; once loaded, it
+        /// plans on as if it had never been saved.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[serde(tag = "planner")]
         #[allow(missing_docs, clippy::large_enum_variant, reason = "the types say what each is; players are few")]
@@ -69,17 +69,17 @@ pub struct PlannerSpec {
 }
 
 impl PlannerSpec {
-    /// The planner's name, without the budget.
+    /// Returns the planner's name, without the budget.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The calls of a decision, if they are named.
+    /// Returns the calls of a decision, if given.
     pub fn budget(&self) -> Option<Budget> {
         self.budget
     }
 
-    /// The planner, with streams of its own.
+    /// Returns the planner, with its own random streams.
     pub fn player(&self, seed: Seed) -> Player {
         Player::of(&self.name, seed).expect("the name was known when it was read")
     }
@@ -124,7 +124,7 @@ impl fmt::Display for PlannerSpec {
     }
 }
 
-/// A text that names no planner.
+/// The error for a text that names no planner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownPlanner(pub String);
 
@@ -149,10 +149,10 @@ impl fmt::Display for UnknownPlanner {
     }
 }
 
-/// The planner of that name with default parameters, whatever budget is named with it.
+/// Returns the planner of that name with default parameters; a budget in the name is ignored.
 ///
 /// # Errors
-/// If there is none.
+/// If there is no such planner.
 pub fn planner(name: &str, seed: Seed) -> Result<Box<dyn Planner + Send>, UnknownPlanner> {
     Ok(Box::new(name.parse::<PlannerSpec>()?.player(seed)))
 }
@@ -188,7 +188,7 @@ mod tests {
         }
     }
 
-    /// Chance, shooting, portals, threats and something to push: no planner can foresee it all.
+    /// Randomness, shooting, portals, threats and pushing: no planner can foresee it all.
     const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    exit > Door\n    box > Passive\n    arrow > OrientedFlicker limit=5 singleton=True\n    bug > RandomNPC\n    avatar > ShootAvatar stype=arrow\n  LevelMapping\n    . > floor\n    A > avatar floor\n    e > exit floor\n    b > bug floor\n    x > box floor\n  InteractionSet\n    avatar wall > stepBack\n    bug wall > stepBack\n    box wall > undoAll\n    box avatar > bounceForward\n    bug box > stepBack\n    bug arrow > killSprite scoreChange=1\n    avatar bug > killSprite scoreChange=-1\n    exit avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=exit win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
     const LEVEL: &str = "wwwwwwwwwww\nwA..x....bw\nw.........w\nw..b.w..x.w\nw....w...ew\nwwwwwwwwwww\n";
 
@@ -225,7 +225,7 @@ mod tests {
         }
     }
 
-    /// The game's own chance is not seen: with another future, but the same present, the decision is the same.
+    /// The game's own random stream is hidden: with another future, but the same present, the decision is the same.
     #[test]
     fn nobody_foresees_the_future() {
         let game = Game::from_source(GAME).unwrap();

@@ -13,16 +13,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RheaConfig {
-    /// Plans that live at a time; fewer if the budget does not suffice to try so many.
+    /// The number of plans in the population; fewer if the budget does not suffice to try them all.
     pub population: usize,
     /// Ticks of a plan.
     pub horizon: usize,
-    /// Genes of a child that are drawn anew, perhaps as they were.
+    /// The number of genes of a child to redraw, possibly with the same value.
     pub mutations: usize,
-    /// What the state after a plan is worth.
+    /// The evaluation of the state after a plan.
     pub heuristic: Heuristic,
-    /// A difference from the reference, which begins each decision with random plans: keep the plans of the decision before,
-    /// one tick on, with a random last action. Off by default.
+    /// Differs from the reference, which begins each decision with random plans: keeps the plans of the previous
+    /// decision, shifted by one tick, with a random last action. Off by default.
     pub shift: bool,
 }
 
@@ -32,7 +32,7 @@ impl Default for RheaConfig {
     }
 }
 
-/// The planner: in each decision evolves plans, and does what the best one begins with.
+/// The planner: evolves plans in each decision, and plays the first action of the best one.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Rhea {
     config: RheaConfig,
@@ -49,12 +49,12 @@ struct Individual {
 }
 
 impl Rhea {
-    /// A planner of its own streams of choices and imagined chance.
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
     pub fn new(config: RheaConfig, seed: Seed) -> Rhea {
         Rhea { config, streams: Streams::new(seed), plans: Vec::new(), scratch: None }
     }
 
-    /// The first generation, as far as the budget goes, but at least one.
+    /// Makes the first generation, as large as the budget allows, but at least one plan.
     fn first(
         &mut self,
         sequences: &mut Sequences<'_>,
@@ -85,8 +85,8 @@ impl Rhea {
         population
     }
 
-    /// A child of two different plans: each gene from either, then a few drawn anew. (The reference's tournament has as
-    /// many places as parents, so it selects nobody.) Of a single plan, a mutant.
+    /// Makes a child of two different plans: each gene from either, then a few drawn anew. (The reference's
+    /// tournament has as many places as parents, so it does not select.) With a single plan, makes a mutant.
     fn child(
         &self,
         population: &[Individual],
@@ -110,7 +110,7 @@ impl Rhea {
     }
 }
 
-/// Stable: of equal values, the older first.
+/// Sorts the best first; stable, so of equal values the older is first.
 fn best_first(population: &mut [Individual]) {
     population.sort_by(|a, b| b.value.total_cmp(&a.value));
 }
@@ -122,7 +122,7 @@ impl Planner for Rhea {
         let mut sequences = Sequences::new(game, state, heuristic, budget, self.scratch.take());
         let mut population = self.first(&mut sequences, budget, &mut decision);
         while !sequences.is_spent() {
-            // The best one stays; as many children as there were others, or one beside a single plan.
+            // The best plan stays; there are as many children as there were others, or one beside a single plan.
             let mut next = Vec::with_capacity(population.len());
             for _ in 1..population.len().max(2) {
                 if sequences.is_spent() {
@@ -133,7 +133,7 @@ impl Planner for Rhea {
                 next.push(Individual { genes, value });
             }
             let size = population.len();
-            // Where the budget ran out, those are left that would have had to go: they are no better than the best.
+            // If the budget ran out, some plans stay that would have been replaced: they are no better than the best.
             population.splice(1..(1 + next.len()).min(size), next);
             best_first(&mut population);
             population.truncate(size);

@@ -12,7 +12,7 @@ pub(crate) struct Sequences<'a> {
     game: &'a Game,
     state: &'a State,
     heuristic: Heuristic,
-    /// The avatar's actions, and doing nothing.
+    /// The avatar's actions, including doing nothing.
     alphabet: Vec<Action>,
     copy: State,
     budget: u64,
@@ -35,28 +35,28 @@ impl<'a> Sequences<'a> {
         Sequences { game, state, heuristic, alphabet, copy, budget: budget.0, calls: 0 }
     }
 
-    /// Any gene.
+    /// Draws a gene.
     pub(crate) fn gene(&self, decision: &mut Decision) -> Gene {
         decision.choices.below(self.alphabet.len()) as Gene
     }
 
-    /// Whether a gene stands for an action: an avatar that has become another one may have fewer.
+    /// Returns `true` if a gene stands for an action: a transformed avatar may have fewer actions.
     pub(crate) fn has(&self, gene: Gene) -> bool {
         usize::from(gene) < self.alphabet.len()
     }
 
-    /// Any sequence.
+    /// Draws a sequence.
     pub(crate) fn random(&self, horizon: usize, decision: &mut Decision) -> Vec<Gene> {
         (0..horizon).map(|_| self.gene(decision)).collect()
     }
 
-    /// What a gene stands for.
+    /// Returns the action of a gene.
     pub(crate) fn action(&self, gene: Gene) -> Action {
         self.alphabet[usize::from(gene)]
     }
 
-    /// The value of the state after a sequence, or at the end of the episode. When the budget runs out on the way, as in
-    /// the reference, that of the state then.
+    /// Returns the value of the state after a sequence, or at the end of the episode. If the budget runs out on the
+    /// way, it is that of the state at that point, as in the reference.
     pub(crate) fn value(&mut self, genes: &[Gene], decision: &mut Decision) -> f64 {
         decision.imagine(&mut self.copy, self.state);
         for &gene in genes {
@@ -69,17 +69,17 @@ impl<'a> Sequences<'a> {
         self.heuristic.value(self.game, self.state, &self.copy)
     }
 
-    /// Forward-model calls so far.
+    /// Returns the forward-model calls so far.
     pub(crate) fn calls(&self) -> u64 {
         self.calls
     }
 
-    /// Whether the budget is spent, or nothing is left to plan.
+    /// Returns `true` if the budget is spent, or nothing is left to plan.
     pub(crate) fn is_spent(&self) -> bool {
         self.calls >= self.budget || self.state.is_over()
     }
 
-    /// The buffer, for the next decision.
+    /// Returns the buffer, for the next decision.
     pub(crate) fn into_scratch(self) -> State {
         self.copy
     }

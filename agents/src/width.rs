@@ -1,11 +1,11 @@
-//! Iterated width with replanning, for games of chance too.
+//! Iterated width with replanning, for stochastic games too.
 //!
-//! Each decision looks ahead breadth first from copies of the state, each with a chance of its own, and goes on only from
-//! what is new: a sprite where none of its type has been in this look-ahead (IW(1): Lipovetzky and Geffner 2012, "Width and
-//! serialization of classical planning problems"; Lipovetzky, Ramirez and Geffner 2015, "Classical planning with
-//! simulators: results on the Atari video games"). So it sees far with few calls where random rollouts stay near. The best
-//! plans found, one for each first action, are then played again with other chances, because one look at a game of chance
-//! is luck; the plan that does best in the mean decides.
+//! Each decision looks ahead breadth first from copies of the state, each with its own random seed, and continues
+//! only from novel states: those with a sprite where none of its type has been in this look-ahead (IW(1): Lipovetzky
+//! and Geffner 2012, "Width and serialization of classical planning problems"; Lipovetzky, Ramirez and Geffner 2015,
+//! "Classical planning with simulators: results on the Atari video games"). So it looks far ahead with few calls,
+//! where random rollouts stay near. The best plans found, one for each first action, are then tried again with other
+//! seeds, because a single look at a stochastic game may be luck; the plan that does best on average is played.
 
 use crate::features::{Atoms, Features};
 use crate::planner::{Budget, Decision, Planner, Streams};
@@ -19,16 +19,16 @@ use std::collections::VecDeque;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WidthConfig {
-    /// What a reward is worth one tick later.
+    /// The factor on a reward for each tick of delay.
     pub discount: f64,
-    /// The share of the budget that is spent on looking ahead; the rest tries the plans again.
+    /// The share of the budget for looking ahead; the rest tries the plans again.
     pub look: f64,
-    /// Ticks of a plan that are tried again: beyond, there is time to plan again.
+    /// The ticks of a plan that are tried again: later ticks can be planned again in time.
     pub horizon: usize,
-    /// A loss weighs as much as so many of the largest gains seen.
+    /// The weight of a loss, in multiples of the largest gain seen.
     pub loss: f64,
-    /// What it is worth to come to a state with something that the episode has not had yet, in points; half of that for
-    /// what was there for one tick, a third for two.
+    /// The value of reaching a state with something new in this episode, in points; half of it for something that was
+    /// present in one tick, a third for two.
     pub curiosity: f64,
 }
 
@@ -38,7 +38,7 @@ impl Default for WidthConfig {
     }
 }
 
-/// A win weighs as much as so many of the largest gains seen.
+/// The weight of a win, in multiples of the largest gain seen.
 const WIN: f64 = 20.0;
 
 /// The planner.
@@ -48,7 +48,7 @@ pub struct Width {
     streams: Streams,
     /// The largest change of the score in one tick seen so far, at least 1.
     unit: f64,
-    /// In how many ticks of the episode each atom was there.
+    /// The number of ticks of the episode in which each atom was present.
     been: Option<(Features, Vec<u32>)>,
     /// The rest of the last plan.
     plan: Option<Plan>,
@@ -58,18 +58,18 @@ pub struct Width {
     pool: Vec<State>,
 }
 
-/// Actions, and what they were worth when they were found.
+/// Actions, and their values when they were found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Plan {
     actions: Vec<Action>,
     /// The discounted rewards up to and with each action.
     values: Vec<f64>,
-    /// What its end is worth besides.
+    /// The extra value of its end.
     bonus: f64,
 }
 
 impl Plan {
-    /// The rewards of so many ticks.
+    /// Returns the discounted rewards of the first `ticks` ticks.
     fn value(&self, ticks: usize) -> f64 {
         let last = ticks.min(self.values.len());
         last.checked_sub(1).map_or(0.0, |last| self.values[last])
@@ -79,7 +79,7 @@ impl Plan {
         self.value(usize::MAX) + self.bonus
     }
 
-    /// What is left after the first action.
+    /// Returns the rest of the plan after its first action.
     fn rest(&self, discount: f64) -> Option<Plan> {
         let (&first, values) = self.values.split_first()?;
         if values.is_empty() {
@@ -98,14 +98,14 @@ struct Node {
     parent: usize,
     action: Action,
     depth: u32,
-    /// Discounted rewards on the way, curiosity left out.
+    /// Discounted rewards on the way, without curiosity.
     value: f64,
-    /// What distinguishes it as an end of a plan.
+    /// The value as the end of a plan.
     worth: f64,
 }
 
 impl Width {
-    /// A planner of its own streams of choices and imagined chance.
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
     pub fn new(config: WidthConfig, seed: Seed) -> Width {
         Width {
             config,
@@ -118,7 +118,7 @@ impl Width {
         }
     }
 
-    /// The reward of a step.
+    /// Returns the reward of a step.
     fn reward(&mut self, progress: &Progress<'_>, before: &State, after: &State) -> f64 {
         let gain = after.score() - before.score();
         self.unit = self.unit.max(gain.abs());
@@ -132,7 +132,7 @@ impl Width {
         gain + nearer.clamp(-3.0, 3.0) * self.unit + end
     }
 
-    /// One look ahead: the tree of novel states. Returns the plans, the best one for each first action, and the calls.
+    /// Builds the tree of novel states. Returns the plans, the best one for each first action, and the calls.
     fn look(
         &mut self,
         analysis: &Analysis,
@@ -223,7 +223,8 @@ impl Width {
         calls
     }
 
-    /// The rewards of the first ticks of a plan with another chance, whether the game went on, and the calls.
+    /// Tries the first ticks of a plan with another seed. Returns the rewards, `true` if the game went on, and the
+    /// calls.
     fn try_plan(
         &mut self,
         analysis: &Analysis,
@@ -253,7 +254,7 @@ fn discount(discount: f64, depth: u32) -> f64 {
     (0..depth).fold(1.0, |weight, _| weight * discount)
 }
 
-/// What can be done, waiting included.
+/// Returns the available actions, including waiting.
 fn choices(game: &Game, state: &State) -> impl Iterator<Item = Action> + use<> {
     let actions = game.actions(state);
     let waits = !actions.contains(&Action::Nil);
@@ -291,7 +292,7 @@ impl Planner for Width {
                 tried.count += 1.0;
             }
         }
-        // What a plan promises beyond the horizon counts as often as it comes that far.
+        // The value of a plan beyond the horizon counts in proportion to the tries that reach it.
         let expected = |(plan, tried): (&Plan, &Tried)| {
             if tried.count == 0.0 {
                 return plan.worth();
@@ -314,7 +315,7 @@ impl Planner for Width {
     }
 }
 
-/// What came of trying a plan: sums over the tries.
+/// The results of trying a plan: sums over the tries.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tried {
     value: f64,

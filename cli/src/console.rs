@@ -10,7 +10,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Where a verb writes.
+/// The output streams of a verb.
 pub(crate) struct Console {
     json: bool,
     quiet: bool,
@@ -20,10 +20,10 @@ pub(crate) struct Console {
 /// The state of standard output.
 #[derive(Default)]
 struct Output {
-    /// The reader has left (`arcade … | head`), or writing has failed: nothing more is written.
+    /// `true` once the reader has left (`arcade … | head`) or writing has failed: nothing more is written.
     is_closed: bool,
     failure: Option<io::Error>,
-    /// A document has been written; there is never a second one.
+    /// `true` once a document has been written; there is never a second one.
     is_documented: bool,
 }
 
@@ -48,15 +48,16 @@ impl Console {
         Console { json, quiet, output: Mutex::default() }
     }
 
-    /// Writes to standard output. A reader that leaves early changes nothing: the verb goes on to its end, and to its exit
-    /// status. A device that is full is reported by [`finish`](Console::finish), when the files of the verb are written.
+    /// Writes to standard output. A reader that leaves early changes nothing: the verb runs to its end and keeps its
+    /// exit status. A full device is reported by [`finish`](Console::finish), after the files of the verb are
+    /// written.
     fn out(&self, text: std::fmt::Arguments<'_>, is_document: bool) {
         let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
         output.is_documented |= is_document;
         output.write(&mut io::stdout().lock(), text);
     }
 
-    /// Takes note of how it went where a library wrote to standard output.
+    /// Records the result of a library's own write to standard output.
     pub(crate) fn printed(&self, result: io::Result<()>) {
         let result = result.and_then(|()| io::stdout().flush());
         self.output.lock().unwrap_or_else(PoisonError::into_inner).note(result);
@@ -82,21 +83,21 @@ impl Console {
         }
     }
 
-    /// The answer, for people; nothing where JSON is wanted.
+    /// Prints the answer for people; nothing if JSON is wanted.
     pub(crate) fn say(&self, text: impl Display) {
         if !self.json {
             self.out(format_args!("{}\n", shown(&text.to_string())), false);
         }
     }
 
-    /// The content of a file, as it is, for people; nothing where JSON is wanted.
+    /// Prints the content of a file unchanged, for people; nothing if JSON is wanted.
     pub(crate) fn file(&self, content: &str) {
         if !self.json {
             self.out(format_args!("{content}"), false);
         }
     }
 
-    /// The answer, for programs; nothing where text is wanted.
+    /// Prints the answer for programs; nothing if text is wanted.
     pub(crate) fn document(&self, value: &impl Serialize) -> Result<(), Failure> {
         if self.json {
             let text = serde_json::to_string_pretty(value)
@@ -106,25 +107,25 @@ impl Console {
         Ok(())
     }
 
-    /// A line of JSON, for people and programs alike: what a verb says that goes on after its answer.
+    /// Prints a line of JSON, for people and programs alike: the output of a verb that goes on after its answer.
     pub(crate) fn line(&self, value: &serde_json::Value) {
         self.out(format_args!("{value}\n"), true);
     }
 
-    /// Remarks beside the answer.
+    /// Prints a remark beside the answer.
     pub(crate) fn remark(&self, text: impl Display) {
         if !self.quiet {
             let _ = writeln!(io::stderr(), "{}", shown(&text.to_string()));
         }
     }
 
-    /// The failure, said even when quiet; as a document too where JSON is wanted and the verb has written none.
+    /// Prints the failure, even when quiet; also as a document if JSON is wanted and the verb has written none.
     pub(crate) fn error(&self, failure: &Failure) {
         self.report(failure);
         self.error_document(failure);
     }
 
-    /// The failure for programs, where JSON is wanted and no document has been written.
+    /// Prints the failure for programs, if JSON is wanted and no document has been written.
     pub(crate) fn error_document(&self, failure: &Failure) {
         let is_documented = self.output.lock().unwrap_or_else(PoisonError::into_inner).is_documented;
         if self.json && !is_documented {
@@ -136,7 +137,7 @@ impl Console {
         let _ = writeln!(io::stderr(), "error: {}", shown(&failure.to_string()));
     }
 
-    /// A bar on standard error if that is a terminal.
+    /// Returns a progress bar on standard error, hidden unless that is a terminal.
     pub(crate) fn progress(&self, length: u64, what: &'static str) -> ProgressBar {
         let bar = ProgressBar::with_draw_target(
             Some(length),
@@ -156,7 +157,7 @@ impl Console {
     }
 }
 
-/// Time spent, for remarks: the one clock of the workspace. No output that is recorded depends on it.
+/// Elapsed time, for remarks: the only clock of the workspace. No recorded output depends on it.
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {
@@ -165,19 +166,19 @@ impl Stopwatch {
         Stopwatch(Instant::now())
     }
 
-    /// Since the start.
+    /// Returns the seconds since the start.
     pub(crate) fn seconds(&self) -> f64 {
         self.0.elapsed().as_secs_f64()
     }
 }
 
-/// A remark on what is done otherwise than was asked for: said even when quiet.
+/// Prints a remark on an action that differs from the request, even when quiet.
 pub(crate) fn warn(text: impl Display) {
     let _ = writeln!(io::stderr(), "note: {}", shown(&text.to_string()));
 }
 
-/// Text as a terminal may see it. It may quote what a stranger wrote, so that control characters are spelt out, but for
-/// the colours of our own diagnostics, which have some where standard error is a terminal.
+/// Makes text safe for a terminal. It may quote untrusted input, so control characters are escaped, except for the
+/// colours of our own diagnostics on a terminal.
 fn shown(text: &str) -> Cow<'_, str> {
     let is_terminal = io::stderr().is_terminal();
     escaped(text, &if is_terminal { colours() } else { Vec::new() })
@@ -195,7 +196,7 @@ fn colours() -> Vec<String> {
     found
 }
 
-/// Control characters but line feeds and tabs as `\u{1b}`, except in the sequences that are `kept`.
+/// Escapes control characters other than line feeds and tabs as `\u{1b}`, except in the sequences in `kept`.
 fn escaped<'a>(text: &'a str, kept: &[String]) -> Cow<'a, str> {
     let is_escaped = |character: char| character.is_control() && !matches!(character, '\n' | '\t');
     if !text.contains(is_escaped) {

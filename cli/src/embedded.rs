@@ -1,4 +1,4 @@
-//! What the binary carries: the corpus and the recipes, so that an installed `arcade` works in an empty directory.
+//! The corpus and the recipes that the binary carries, so that an installed `arcade` works in an empty directory.
 
 use crate::failure::Failure;
 use engine::Digest;
@@ -9,7 +9,7 @@ static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../corpora");
 static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../seeds");
 static LOCKFILE: &[u8] = include_bytes!("../../Cargo.lock");
 
-/// The corpus games, by name.
+/// Returns the corpus games, by name.
 pub(crate) fn corpus() -> Result<Corpus, Failure> {
     let mut games = Vec::new();
     for folder in CORPORA.dirs() {
@@ -26,12 +26,12 @@ pub(crate) fn corpus() -> Result<Corpus, Failure> {
     Ok(Corpus { games })
 }
 
-/// The text of a recipe of `seeds/`, by name.
+/// Returns the text of a recipe of `seeds/`, by name.
 pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }
 
-/// The names of the recipes of `seeds/`.
+/// Returns the names of the recipes of `seeds/`.
 pub(crate) fn recipe_names() -> Vec<String> {
     let name = |file: &include_dir::File<'_>| Some(file.path().file_stem()?.to_string_lossy().into_owned());
     let mut names: Vec<String> = SEEDS.files().filter_map(name).collect();
@@ -39,7 +39,7 @@ pub(crate) fn recipe_names() -> Vec<String> {
     names
 }
 
-/// Digest of the Cargo.lock that this binary was built with.
+/// Returns the digest of the Cargo.lock that this binary was built with.
 pub(crate) fn lockfile() -> Digest {
     Digest::of(LOCKFILE)
 }

@@ -1,5 +1,5 @@
-//! Recorded episodes as the user names them: what `arcade validate --witness` and `arcade play --record` write, and the
-//! witnesses of a snapshot.
+//! Recorded episodes as the user names them: the files that `arcade validate --witness` and `arcade play --record`
+//! write, and the witnesses of a snapshot.
 
 use crate::failure::Failure;
 use crate::input::{GameInput, Named, read_text};
@@ -9,7 +9,7 @@ use serde::Deserialize;
 use snapshots::Witness;
 use std::path::Path;
 
-/// An episode of the longest play has some 100 bytes a tick.
+/// The largest file of an episode: the longest one has some 100 bytes a tick.
 const MAX_EPISODE: usize = 1 << 22;
 
 /// An episode, alone or as a snapshot's witness.
@@ -27,7 +27,7 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
         Ok(Recorded::Witness(witness)) => Ok(witness.episode),
         Ok(Recorded::Episode(episode)) => Ok(episode),
         Err(_) => {
-            // The kinds together say no more than "none fits": what is wrong with an episode says more.
+            // The error of the untagged enum only says that no kind fits; that of an episode is more helpful.
             let error = serde_json::from_str::<Episode>(&text).err();
             let why = error.map_or(String::new(), |error| format!(" ({error})"));
             Err(Failure::malformed(format!(
@@ -38,14 +38,14 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
     }
 }
 
-/// Writes an episode: the file is complete, or as it was before.
+/// Writes an episode: the file is complete, or unchanged.
 pub(crate) fn write(path: &Path, episode: &Episode) -> Result<(), Failure> {
     let text = serde_json::to_string(episode)
         .map_err(|error| Failure::environment(error, "the episode cannot be written as JSON"))?;
     whole_file::write(path, text.as_bytes())
 }
 
-/// The level to show: the one that is named; else the one that the episode was recorded on; else the first.
+/// Finds the level to show: the named one, or else the one that the episode was recorded on, or else the first.
 pub(crate) fn level(
     input: &GameInput,
     game: &Game,
@@ -70,7 +70,7 @@ pub(crate) fn level(
         })?;
         return checked(first);
     };
-    // Levels with problems are not the one that the episode was recorded on.
+    // A level with problems cannot be the one that the episode was recorded on.
     let mut fitting = levels.into_iter().filter_map(|named| Some((game.level(&named.text).ok()?, named)));
     let found = fitting.find(|(level, _)| level.digest() == episode.level);
     found.map(|(level, named)| (named, level)).ok_or_else(|| {
@@ -81,7 +81,7 @@ pub(crate) fn level(
     })
 }
 
-/// Checks that the episode is one of this game and level, and replays.
+/// Checks that the episode belongs to this game and level, and that it replays.
 pub(crate) fn check(path: &Path, episode: &Episode, game: &Game, level: &Level) -> Result<(), Failure> {
     let help = |error: engine::Divergence| {
         Failure::malformed(format!(

@@ -1,4 +1,4 @@
-//! Why a verb has no answer, and the exit status that says so.
+//! The failures of a verb, with their exit statuses.
 
 use crate::diagnostics::Problems;
 use serde_json::{Value, json};
@@ -13,7 +13,7 @@ pub(crate) const MALFORMED: u8 = 2;
 /// An environment failure: I/O, network, disk full.
 pub(crate) const ENVIRONMENT: u8 = 3;
 
-/// No answer.
+/// The reasons for having no answer.
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// Usage, VGDL or recipe errors.
@@ -22,21 +22,21 @@ pub(crate) enum Failure {
     Environment(anyhow::Error),
 }
 
-/// Yes or no, or why there is neither.
+/// The answer of a verb: yes, no, or a failure.
 pub(crate) type Answer = Result<bool, Failure>;
 
 impl Failure {
-    /// The question is malformed, in these words.
+    /// A malformed question, with this message.
     pub(crate) fn malformed(message: impl fmt::Display) -> Failure {
         Failure::Malformed(anyhow::anyhow!("{message}"))
     }
 
-    /// An environment failure, in these words.
+    /// An environment failure, with this message.
     pub(crate) fn environment(error: impl Into<anyhow::Error>, what: impl fmt::Display) -> Failure {
         Failure::Environment(error.into().context(what.to_string()))
     }
 
-    /// The file at `path` cannot be read: the user named one that is not there, or the system refuses.
+    /// A file at `path` that cannot be read: the user named a missing file, or the system refuses.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
         let name = path.display();
         match error.kind() {
@@ -53,7 +53,7 @@ impl Failure {
         }
     }
 
-    /// The file at `path` cannot be written: the user named an impossible place, or the system refuses.
+    /// A file at `path` that cannot be written: the user named an impossible place, or the system refuses.
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
         let name = path.display();
         match error.kind() {
@@ -77,7 +77,7 @@ impl Failure {
         }
     }
 
-    /// The failure for programs; `problems` has a place for each where a file of the user is at fault.
+    /// Returns the failure for programs; `problems` locates each problem of a user's file.
     pub(crate) fn document(&self) -> Value {
         let (kind, error) = match self {
             Failure::Malformed(error) => ("malformed", error),
@@ -105,7 +105,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The next move, where the cause suggests one.
+/// Returns advice, if the cause suggests some.
 fn advice(kind: ErrorKind) -> Option<&'static str> {
     match kind {
         ErrorKind::PermissionDenied => Some("check the permissions of the file and of the folders above it"),

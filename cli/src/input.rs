@@ -7,7 +7,7 @@ use engine::{Game, MAX_LEVEL_TEXT, MAX_SOURCE};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// A text and what the user calls it.
+/// A text and its name for the user.
 #[derive(Clone, Debug)]
 pub(crate) struct Named {
     pub(crate) name: String,
@@ -19,7 +19,7 @@ pub(crate) struct Named {
 pub(crate) struct GameInput {
     /// The game's text, under the name that messages use.
     pub(crate) source: Named,
-    /// What tables call it.
+    /// Its name in tables.
     pub(crate) title: String,
     levels: Vec<LevelInput>,
 }
@@ -31,7 +31,7 @@ enum LevelInput {
 }
 
 impl LevelInput {
-    /// The number in its name: `lvl3.txt` is level 3.
+    /// Returns the number in its name: `lvl3.txt` is level 3.
     fn number(&self) -> Option<usize> {
         let name = match self {
             LevelInput::File(path) => path.file_name()?.to_str()?,
@@ -57,23 +57,23 @@ impl LevelInput {
 }
 
 impl GameInput {
-    /// Compiles the game; `as_reference`: with the reference's recovery from faults.
+    /// Compiles the game; `as_reference` enables the reference's recovery from faults.
     pub(crate) fn compile(&self, as_reference: bool) -> Result<Game, Failure> {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
         load(&self.source.text).map_err(|problems| crate::diagnostics::failure(&self.source, &problems.0))
     }
 
-    /// How many levels come with the game.
+    /// Returns the number of levels that come with the game.
     pub(crate) fn count(&self) -> usize {
         self.levels.len()
     }
 
-    /// The levels that come with the game.
+    /// Returns the levels that come with the game.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
         self.levels.iter().map(LevelInput::read).collect()
     }
 
-    /// A level as the user names it: a file, or the number of one that comes with the game.
+    /// Returns a level as the user names it: a file, or the number of one that comes with the game.
     pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
         let path = Path::new(name);
         if paths::look(path)?.is_some() {
@@ -151,10 +151,11 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     })
 }
 
-/// The word for all corpus games, where there is no folder of that name.
+/// The word for all corpus games, if there is no folder of that name.
 const CORPUS: &str = "corpus";
 
-/// Finds games: what [`game`] finds, all games in a folder of such folders, and `corpus`: all games of the corpus.
+/// Finds games: those that [`game`] finds, all games in a folder of such folders, and `corpus` for all games of the
+/// corpus.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
     let found = paths::look(path)?;
@@ -179,7 +180,7 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Advice for a folder without a game: it may be a release, whose games are further down.
+/// Advice for a folder without a game: it may be a release, whose games are in subfolders.
 fn no_game_in(folder: &Path) -> Failure {
     let name = folder.display();
     let below = folder.join("games");
@@ -194,7 +195,7 @@ fn no_game_in(folder: &Path) -> Failure {
     }
 }
 
-/// The path in the same folder whose name is the nearest to this one's, as after a slip of the fingers.
+/// Finds the path in the same folder whose name is closest to this one's, for typing errors.
 fn beside(path: &Path) -> Option<String> {
     let folder = path.parent()?;
     let wanted = path.file_name()?.to_string_lossy();
@@ -205,12 +206,12 @@ fn beside(path: &Path) -> Option<String> {
     Some(folder.join(near).display().to_string())
 }
 
-/// Returns whether a text looks like a level: rows of characters of one width, with nothing that a game has.
+/// Returns `true` if a text looks like a level: rows of characters of one width, without anything that a game has.
 fn is_level(text: &str) -> bool {
     let rows: Vec<&str> = text.lines().map(str::trim_end).collect();
     let width = |row: &&str| row.chars().count();
     let widest = rows.iter().map(width).max().unwrap_or_default();
-    // Rows of one width, blanks at their ends aside; a word alone may be anything.
+    // Rows of one width, ignoring blanks at their ends; a single word may be anything.
     let full = rows.iter().filter(|row| width(row) == widest).count();
     let speaks = |row: &&str| {
         let words =
@@ -220,7 +221,7 @@ fn is_level(text: &str) -> bool {
     rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(speaks)
 }
 
-/// Returns whether a text is surely a game: it has two of the sections, each on a line of its own.
+/// Returns `true` if a text is certainly a game: it has two of the sections, each on a line of its own.
 fn is_game(text: &str) -> bool {
     let sections = ["SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
     text.lines().filter(|line| sections.contains(&line.trim())).count() > 1
@@ -241,7 +242,7 @@ fn game_in(folder: &Path) -> Result<Option<GameInput>, Failure> {
     Ok(Some(GameInput { source, title, levels: level_files(folder)? }))
 }
 
-/// The first of these that the folder has.
+/// Returns the first of these files that the folder has.
 pub(crate) fn first_file(folder: &Path, names: [&str; 2]) -> Result<Option<PathBuf>, Failure> {
     for name in names {
         let path = folder.join(name);
@@ -264,7 +265,7 @@ fn level_files(folder: &Path) -> Result<Vec<LevelInput>, Failure> {
     Ok(files.into_iter().map(|(_, path)| LevelInput::File(path)).collect())
 }
 
-/// What a folder holds, sorted by name.
+/// Returns the entries of a folder, sorted by name.
 pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
@@ -283,7 +284,7 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// The first bytes of a release's archive.
 const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// Reads a text file of at most `limit` bytes; of a larger one no more than that is read.
+/// Reads a text file of at most `limit` bytes; of a larger file no more is read.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.display();
     let file = std::fs::File::open(path).map_err(|error| Failure::read(path, error))?;

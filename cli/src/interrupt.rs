@@ -1,9 +1,9 @@
-//! Ctrl-C and its like: work that can be taken up again says so before the program ends.
+//! Signal handling: on Ctrl-C and similar signals, resumable work prints a hint before the program ends.
 //!
-//! A verb whose work is kept on the disk calls [`watch`] before it starts, and [`defer`] when it is done. The first of SIGINT, SIGTERM,
-//! SIGHUP and SIGQUIT then ends the program with status 128 + signal, as shells call it, after a word about `--resume`; another one
-//! meanwhile ends it at once. A signal that was ignored when the program started, as `nohup` has it, stays ignored. SIGKILL cannot be
-//! caught: what is on the disk has to be enough to go on with at any moment.
+//! A verb whose work is kept on the disk calls [`watch`] before it starts, and [`defer`] when it is done. The first
+//! of SIGINT, SIGTERM, SIGHUP and SIGQUIT then prints a hint about `--resume` and ends the program with status 128 +
+//! signal, as in shells; a second one ends it at once. A signal that was ignored when the program started, as with
+//! `nohup`, stays ignored. SIGKILL cannot be caught, so the files on the disk must always be enough to resume.
 
 #[cfg(unix)]
 mod unix {
@@ -13,15 +13,16 @@ mod unix {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::thread;
 
-    /// True if the program is about to end by a signal.
+    /// `true` if the program is about to end by a signal.
     static ENDING: AtomicBool = AtomicBool::new(false);
 
-    /// Has the signals caught from here on. `last` is done first, and may take some seconds; then `hint` is written to standard error.
+    /// Catches the signals from now on. `last` runs first, and may take some seconds; then `hint` is written to
+    /// standard error.
     pub(crate) fn watch(last: impl FnOnce() + Send + 'static, hint: String) {
         let ignored = ignored();
         let caught =
             [SIGINT, SIGTERM, SIGHUP, SIGQUIT].into_iter().filter(|signal| !ignored.contains(signal));
-        // Without it, a signal ends the program as it always does.
+        // Without it, a signal ends the program as usual.
         let Ok(mut signals) = Signals::new(caught) else { return };
         thread::spawn(move || {
             let mut first = Some((last, hint));
@@ -41,14 +42,15 @@ mod unix {
         });
     }
 
-    /// Waits for the end, if the program is about to end by a signal: nothing more is to be said or written.
+    /// Waits for the end if the program is about to end by a signal, so that nothing more is printed or written.
     pub(crate) fn defer() {
         while ENDING.load(Ordering::SeqCst) {
             thread::park();
         }
     }
 
-    /// The signals that are ignored already; where the system does not tell, those that shells let programs in the background ignore.
+    /// Returns the signals that are already ignored; if the system does not tell, those that shells ignore for
+    /// background programs.
     fn ignored() -> Vec<i32> {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -62,10 +64,10 @@ mod unix {
 #[cfg(unix)]
 pub(crate) use unix::{defer, watch};
 
-/// Elsewhere, the system ends the program without a word.
+/// Does nothing on other systems: the system ends the program silently.
 #[cfg(not(unix))]
 pub(crate) fn watch(_: impl FnOnce() + Send + 'static, _: String) {}
 
-/// Elsewhere, there is nothing to wait for.
+/// Does nothing on other systems.
 #[cfg(not(unix))]
 pub(crate) fn defer() {}

@@ -1,4 +1,4 @@
-//! The pages of `docs/`, which the binary carries, as a terminal shows them.
+//! The pages of `docs/`, embedded in the binary, formatted for a terminal.
 
 use crate::failure::Failure;
 use include_dir::{Dir, include_dir};
@@ -9,15 +9,15 @@ static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../docs");
 
 /// A page of the manual.
 pub(crate) struct Page {
-    /// The name that `arcade docs` takes: that of the file, or of the folder for its README.
+    /// The name that `arcade docs` takes: that of the file, or that of the folder for its README.
     pub(crate) name: String,
-    /// The path below `docs/`, without the ending.
+    /// The path below `docs/`, without the extension.
     path: String,
     /// Markdown.
     pub(crate) text: &'static str,
 }
 
-/// All pages, sorted by path; the page of a folder comes before those in it.
+/// Returns all pages, sorted by path; the page of a folder comes before those in it.
 pub(crate) fn pages() -> Vec<Page> {
     let mut pages = Vec::new();
     let mut folders: Vec<&'static Dir<'_>> = vec![&DOCS];
@@ -29,7 +29,7 @@ pub(crate) fn pages() -> Vec<Page> {
     pages
 }
 
-/// The page of this name, or of this path.
+/// Returns the page with this name or path.
 pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
     let mut pages = pages();
     if let Some(found) = find(&pages, wanted) {
@@ -63,7 +63,8 @@ impl Page {
         Some(Page { name, path, text: file.contents_utf8()? })
     }
 
-    /// The folder of the page below `docs/`, empty for a page that lies there itself. A folder's own page lies in it.
+    /// Returns the folder of the page below `docs/`; empty for a top-level page. A folder's own page lies in the
+    /// folder.
     pub(crate) fn folder(&self) -> &str {
         match DOCS.get_dir(&self.path) {
             Some(_) => &self.path,
@@ -71,12 +72,12 @@ impl Page {
         }
     }
 
-    /// The heading.
+    /// Returns the heading.
     pub(crate) fn title(&self) -> &str {
         self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
     }
 
-    /// The page with its links as text: the names of other pages in brackets, addresses and files of the source in
+    /// Returns the page with its links as text: the names of other pages in brackets, addresses and source files in
     /// parentheses.
     pub(crate) fn plain(&self, pages: &[Page]) -> String {
         let mut plain = String::with_capacity(self.text.len());
@@ -109,7 +110,7 @@ impl Page {
     }
 }
 
-/// The links and pictures of a page: where they stand, where their text stands, and their targets.
+/// Returns the links and pictures of a page: their ranges, the ranges of their texts, and their targets.
 fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
     let mut links = Vec::new();
     let mut open: Option<(Range<usize>, Option<Range<usize>>, String)> = None;
@@ -131,7 +132,7 @@ fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
     links
 }
 
-/// The path of a link's target in the source, from the folder of its page.
+/// Returns the path of a link's target in the source, relative to the folder of its page.
 fn resolved(folder: &str, file: &str) -> String {
     let mut parts = vec!["docs"];
     for part in folder.split('/').chain(file.split('/')) {
@@ -200,7 +201,7 @@ mod tests {
         }
     }
 
-    /// Sources of the workspace that may speak to users, without tests.
+    /// Sources of the workspace that may print messages for users, without tests.
     fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(folder).expect("readable") {
             let path = entry.expect("readable").path();
@@ -215,7 +216,7 @@ mod tests {
         }
     }
 
-    /// An installed binary has no folder `docs/`: whatever speaks to users names a page of `arcade docs`.
+    /// An installed binary has no folder `docs/`: messages for users name a page of `arcade docs`.
     #[test]
     fn messages_and_templates_name_pages_that_the_binary_has() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -231,7 +232,7 @@ mod tests {
             let place = file.strip_prefix(&root).expect("below").display();
             let product = text.split("#[cfg(test)]").next().unwrap_or_default();
             for (number, line) in product.lines().enumerate() {
-                // Comments speak to readers of the source; those that are help have a test of their own.
+                // Comments are for readers of the source; those that become help have a test of their own.
                 if line.trim_start().starts_with("//") || file.ends_with("manual.rs") {
                     continue;
                 }

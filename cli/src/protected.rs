@@ -1,4 +1,4 @@
-//! Releases as places to write to: whatever is added to one keeps it from verifying, or is published with it.
+//! Protection of releases: a file added to one breaks its verification, or is published with it.
 
 use crate::failure::Failure;
 use crate::shell;
@@ -8,7 +8,8 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// Refuses to write at `place` if it lies in a release, or in the part of one that is held back; its `papers/` are open to all.
+/// Refuses to write at `place` if it lies in a release, or in the held-back part of one; its `papers/` folder is
+/// allowed.
 pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     let there = resolved(place);
     for folder in there.ancestors().skip(1) {
@@ -26,10 +27,10 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The first bytes of a manifest, which is canonical JSON. Other programs have files of that name, too.
+/// The first bytes of a manifest, which is canonical JSON. Other programs have files of that name too.
 const MANIFEST_START: &[u8] = b"{\n  \"canary\": ";
 
-/// Tells a folder with a release's manifest from any other.
+/// Returns `true` for a folder with a release's manifest.
 fn is_release(folder: &Path) -> bool {
     let start = || {
         let mut bytes = Vec::new();
@@ -39,18 +40,18 @@ fn is_release(folder: &Path) -> bool {
     start().is_ok_and(|bytes| bytes == MANIFEST_START)
 }
 
-/// Starts the draft of a folder or file that lies in no release.
+/// Starts the draft of a folder or file outside any release.
 pub(crate) fn draft(out: &Path) -> Result<Draft, Failure> {
     check(out)?;
     Draft::create(out).map_err(crate::verbs::verify::failure)
 }
 
-/// The absolute path, as far as it exists with links followed.
+/// Returns the absolute path, with links followed as far as it exists.
 fn resolved(place: &Path) -> PathBuf {
     for above in place.ancestors() {
         let known = if above.as_os_str().is_empty() { Path::new(".") } else { above };
         if let Ok(folder) = fs::canonicalize(known) {
-            // Joining nothing would add a slash.
+            // Joining an empty path would add a slash.
             return match place.strip_prefix(above) {
                 Ok(rest) if rest.as_os_str().is_empty() => folder,
                 Ok(rest) => folder.join(rest),

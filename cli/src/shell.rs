@@ -2,14 +2,14 @@
 
 use std::ffi::OsStr;
 
-/// An argument as a shell takes it: quoted if it holds a blank or anything else that a shell reads as its own. What is not
-/// Unicode is shown approximately.
+/// Returns an argument as a shell takes it: quoted if it holds a blank or any other special character. Text that is
+/// not Unicode is shown approximately.
 pub(crate) fn quoted(argument: impl AsRef<OsStr>) -> String {
     let text = argument.as_ref().to_string_lossy();
     shlex::try_quote(&text).map_or_else(|_| text.replace('\0', ""), |quoted| quoted.into_owned())
 }
 
-/// A command line of these arguments, `arcade` first.
+/// Returns a command line of these arguments, with `arcade` first.
 pub(crate) fn command<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> String {
     let arguments = arguments.into_iter().map(quoted);
     ["arcade".to_owned()].into_iter().chain(arguments).collect::<Vec<_>>().join(" ")

@@ -1,4 +1,4 @@
-//! The number of threads. No byte of any output depends on it.
+//! The number of threads. No output depends on it.
 
 use crate::console;
 use crate::failure::Failure;
@@ -6,19 +6,19 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::sync::Once;
 use std::thread::available_parallelism;
 
-/// The most threads of a pool: more would only wait for each other, and thousands of them for minutes.
+/// The most threads of a pool: more would only wait for each other, and starting thousands takes minutes.
 const MOST: usize = 256;
 
-/// Done when a user was told of [`MOST`]: a verb may ask for several pools.
+/// Guards the warning about [`MOST`]: a verb may ask for several pools.
 static TOLD: Once = Once::new();
 
-/// Starts the threads that verbs without `--jobs` work on. Left to itself, the library would start as many as
-/// `RAYON_NUM_THREADS` says, whatever that is.
+/// Starts the threads for verbs without `--jobs`. By default, the library would start as many as `RAYON_NUM_THREADS`
+/// says, without a limit.
 pub(crate) fn start() -> Result<(), Failure> {
     ThreadPoolBuilder::new().num_threads(usual()).build_global().map_err(failure)
 }
 
-/// Runs on so many threads; as many as there are cores if none are named.
+/// Runs the work on this number of threads; by default on one for each core.
 pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     if jobs == Some(0) {
         return Err(Failure::malformed("--jobs takes a number of threads, at least 1"));
@@ -33,7 +33,7 @@ pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + S
     Ok(pool.map_err(failure)?.install(work))
 }
 
-/// The number of threads where the user names none.
+/// Returns the number of threads if the user gives none.
 fn usual() -> usize {
     #[expect(
         clippy::disallowed_methods,
@@ -44,7 +44,7 @@ fn usual() -> usize {
     bounded(wanted.as_deref(), cores)
 }
 
-/// The wanted number where that is sensible; else a thread for each core.
+/// Returns the wanted number if it is sensible, or else a thread for each core.
 fn bounded(wanted: Option<&str>, cores: usize) -> usize {
     let wanted = wanted.and_then(|text| text.parse().ok()).filter(|wanted| (1..=MOST).contains(wanted));
     wanted.unwrap_or(cores).clamp(1, MOST)

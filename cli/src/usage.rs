@@ -1,4 +1,4 @@
-//! The command line as it was typed: parsed, or refused in plain words.
+//! Parsing of the command line, and its error messages.
 
 use crate::Cli;
 use crate::console::Console;
@@ -11,12 +11,12 @@ use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::num::{IntErrorKind, ParseIntError};
 
-/// The command line with all its verbs.
+/// Returns the command line with all its verbs.
 pub(crate) fn command() -> Command {
     numeric_flags_take_negative_numbers(Cli::command())
 }
 
-/// Parses the arguments, or returns the exit status with which they are refused. Asking for help is no refusal.
+/// Parses the arguments, or returns the exit status of their rejection. Asking for help is not an error.
 pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
     let parsed = command()
         .try_get_matches_from(arguments)
@@ -30,7 +30,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
             return console.finish(Ok(true));
         }
         let message = in_words(&error);
-        // Colours are for terminals, and a program reads the first line of the document instead.
+        // Colours are for terminals; programs read the first line of the document instead.
         let told = message.as_ref().map_or_else(|| error.render().to_string(), Clone::clone);
         match message {
             Some(message) => drop(write!(std::io::stderr(), "{message}")),
@@ -42,7 +42,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
     })
 }
 
-/// The same error, in which no verb is proposed that is not for people.
+/// Removes hidden verbs from the suggestions of an error.
 fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     let Some(ContextValue::Strings(verbs)) = error.get(ContextKind::ValidSubcommand) else { return error };
     let command = command();
@@ -52,13 +52,13 @@ fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Returns whether `--json` is among the flags. Where the line cannot be parsed, this is all there is to go by.
+/// Returns `true` if `--json` is among the flags. If the line cannot be parsed, this is the only source.
 fn is_json_wanted(arguments: &[OsString]) -> bool {
     let flags = arguments.iter().take_while(|argument| *argument != OsStr::new("--"));
     flags.into_iter().any(|argument| argument == OsStr::new("--json"))
 }
 
-/// Makes `--budget -5` a number that is wrong rather than a flag that nobody knows.
+/// Treats `--budget -5` as an invalid number instead of an unknown flag.
 fn numeric_flags_take_negative_numbers(command: Command) -> Command {
     let numbers = [
         TypeId::of::<u16>(),
@@ -74,7 +74,7 @@ fn numeric_flags_take_negative_numbers(command: Command) -> Command {
     command.mut_subcommands(numeric_flags_take_negative_numbers)
 }
 
-/// A plain message for a number that cannot be read, where the library would say "invalid digit found in string".
+/// Returns a plain message for an invalid number; the library would say "invalid digit found in string".
 fn in_words(error: &clap::Error) -> Option<String> {
     if error.kind() != ErrorKind::ValueValidation {
         return None;
@@ -145,7 +145,7 @@ pub(crate) mod tests {
         for_each_verb(&mut |path, verb| {
             let help = verb.clone().render_long_help().to_string();
             assert!(!help.contains("docs/"), "{path}\n{help}");
-            // Lines are wrapped anywhere.
+            // Help text may be wrapped at any word.
             let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
             for rest in help.split("`arcade docs ").skip(1) {
                 let name = rest.split('`').next().unwrap_or_default();

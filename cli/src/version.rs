@@ -3,7 +3,8 @@
 use snapshots::version::CURRENT;
 use std::sync::LazyLock;
 
-/// The version with what it mints and replays, and the commit where a build knows it:
+/// The version with the generation and semantics that it mints and replays, and the commit, if the build recorded
+/// one:
 /// `0.12.0 (GENERATION 12, SEMANTICS 3, commit 0123456789ab)`.
 static VERSION: LazyLock<String> = LazyLock::new(|| {
     let commit = option_env!("ARCADE_COMMIT").map_or(String::new(), |commit| format!(", commit {commit}"));

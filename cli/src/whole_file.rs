@@ -1,4 +1,4 @@
-//! Writing single files, each complete or as it was before.
+//! Writing of single files: each is complete, or unchanged.
 
 use crate::failure::Failure;
 use crate::protected;
@@ -7,18 +7,19 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// The beginning and end of the names of unfinished files. They lie beside their places, and `arcade clean` knows them.
+/// The beginning and end of the names of unfinished files. They lie beside their targets, and `arcade clean`
+/// recognises them.
 pub(crate) const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 
-/// Writes the file at `path` beside its place, waits until it is on disk, and moves it there in one step.
+/// Writes a temporary file beside `path`, waits until it is on disk, and moves it to `path` in one step.
 ///
-/// If that fails, or if the process is killed, what was there before is untouched. Links are followed. Devices and pipes
-/// (`/dev/stdout`) are written in place.
+/// If that fails, or if the process is killed, the previous content is untouched. Links are followed. Devices and
+/// pipes (`/dev/stdout`) are written in place.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     write_with(path, |file| file.write_all(bytes))
 }
 
-/// As [`write`], for content that is written piece by piece.
+/// Like [`write`], for content that is written in pieces.
 pub(crate) fn write_with(
     path: &Path,
     content: impl FnOnce(&mut File) -> io::Result<()>,
@@ -45,19 +46,19 @@ fn replace(path: &Path, content: impl FnOnce(&mut File) -> io::Result<()>) -> io
         _ => Path::new("."),
     };
     let mut fresh = beside(folder)?;
-    // While it is written, `arcade clean` leaves it alone, where the file system has locks.
+    // The lock tells `arcade clean` to leave the file alone while it is written, if the file system supports locks.
     let _ = fresh.as_file().try_lock();
     content(fresh.as_file_mut())?;
     if let Some(before) = before {
         fresh.as_file().set_permissions(before.permissions())?;
     }
     fresh.as_file().sync_all()?;
-    // Dropping what could not be moved removes it.
+    // Dropping a file that could not be moved removes it.
     fresh.persist(&place).map_err(|failed| failed.error)?;
     sync(folder)
 }
 
-/// The place of a file of this path: links, even those to files that are not there yet, lead to their targets.
+/// Returns the target of this path: links, even those to missing files, are followed.
 fn destination(path: &Path) -> io::Result<PathBuf> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_symlink() => match fs::canonicalize(path) {
@@ -71,19 +72,19 @@ fn destination(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// A new file in this folder, with the permissions that any new file has.
+/// Creates a new file in this folder, with the default permissions of new files.
 fn beside(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = Builder::new();
     builder.prefix(UNFINISHED.0).suffix(UNFINISHED.1);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    // The name of the scratch file would only confuse: the cause alone goes on.
+    // The name of the scratch file would only confuse: keep only the cause.
     builder
         .tempfile_in(folder)
         .map_err(|error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error))
 }
 
-/// Waits until the names in a folder are on disk. Only Unix lets a folder be opened and waited for.
+/// Waits until the entries of a folder are on disk. Only Unix allows that.
 fn sync(folder: &Path) -> io::Result<()> {
     if cfg!(unix) {
         File::open(folder)?.sync_all()?;
@@ -105,7 +106,7 @@ mod tests {
         let home = tempfile::tempdir().expect("temporary folder");
         let path = home.path().join("win.json");
         write(&path, b"old").expect("written");
-        // As on a disk that is full after some bytes.
+        // Simulates a disk that is full after some bytes.
         let cut = write_with(&path, |file| {
             file.write_all(b"ne")?;
             Err(ErrorKind::StorageFull.into())
@@ -147,7 +148,7 @@ mod tests {
         fs::remove_file(&target).expect("removed");
         write(&link, b"again").expect("written");
         assert_eq!(fs::read(&target).expect("there"), b"again");
-        // Readable by whom any new file is readable by.
+        // The file has the permissions of any other new file.
         fs::write(home.path().join("plain"), "").expect("written");
         let mode = |name: &str| fs::metadata(home.path().join(name)).expect("there").permissions().mode();
         assert_eq!(mode("target"), mode("plain"));

@@ -1,4 +1,4 @@
-//! A state of a game as a picture: the board, and if asked for a caption and a legend.
+//! A state of a game as a picture: the board, with an optional caption and legend.
 
 use crate::caption;
 use crate::colour::{GRID, GROUND, INK};
@@ -11,28 +11,28 @@ use crate::shape::Point;
 use engine::{SpriteRecord, SpriteType, State};
 use std::collections::BTreeSet;
 
-/// The fewest pixels of a cell: below, tiles are dots.
+/// The fewest pixels of a cell: in smaller cells, tiles are dots.
 pub const MIN_CELL: u32 = 4;
 /// The most pixels of a cell.
 pub const MAX_CELL: u32 = 256;
 /// The most pixels of a picture.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
-/// Pixels across of a picture with a caption or a legend, at least.
+/// The least width of a picture with a caption or a legend, in pixels.
 const MIN_WIDTH: u32 = 260;
 
-/// A sprite over another one in the same rectangle is drawn this much smaller, so that both are seen.
+/// The scale of a sprite over another one in the same rectangle, so that both are visible.
 const OVER: f32 = 0.78;
 
-/// How many times as long as wide a sprite must be to be drawn as a plate.
+/// The ratio of length to width from which a sprite is drawn as a plate.
 const LONG: f32 = 1.3;
 
-/// How a state is drawn.
+/// The style of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
     /// Pixels of a cell, [`MIN_CELL`] to [`MAX_CELL`].
     pub cell: u32,
-    /// Tick, score, what the avatar holds and the outcome, under the board.
+    /// Tick, score, resources of the avatar and the outcome, under the board.
     pub caption: bool,
     /// The sprite types of the game with their tiles, under the board.
     pub legend: bool,
@@ -44,7 +44,7 @@ impl Style {
         Style { cell, caption: false, legend: false }
     }
 
-    /// Cells so large that the longer side of the board has about 900 pixels, 8 to 40 each.
+    /// Returns a cell size such that the longer side of the board has about 900 pixels, 8 to 40 each.
     pub fn cell_for(columns: u32, rows: u32) -> u32 {
         (900 / columns.max(rows).max(1)).clamp(8, 40)
     }
@@ -66,8 +66,8 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
     Ok(picture)
 }
 
-/// A picture with its board, whose sprites `draw` puts in, given the left edge; with the legend and with room for the caption
-/// above it, as the style has it; and the height of the board, below which the caption goes.
+/// Makes a picture with its board, whose sprites `draw` adds, given the left edge; with the legend and with room for
+/// the caption above it, as the style says. Also returns the height of the board, below which the caption goes.
 pub(crate) fn framed(
     looks: &Looks,
     (columns, rows): (u32, u32),
@@ -89,7 +89,7 @@ pub(crate) fn framed(
     let left = (width - own) / 2;
     ground(&mut picture, left, own, height, cell);
     draw(&mut picture, left);
-    // What leaves the board is covered by what lies around it.
+    // The margins cover parts of sprites that leave the board.
     for (x, w) in [(0, left), (left + own, width - own - left)] {
         if w > 0 {
             picture.rect(Place { x: x as f32, y: 0.0, w: w as f32, h: height as f32 }, INK);
@@ -154,8 +154,8 @@ pub(crate) fn over(place: Place) -> Place {
     Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }
 }
 
-/// A sprite much wider than high, or higher than wide, is a plate of its size with its form in the middle: stretched, it would
-/// not be recognised. Where the form goes.
+/// Draws a plate for a sprite much wider than high, or higher than wide, with its glyph in the middle: stretched, the
+/// glyph would not be recognised. Returns the place of the glyph.
 fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     let Place { x, y, w, h } = place;
     let side = w.min(h);
@@ -171,7 +171,7 @@ fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
 /// A killed avatar, in [`SpriteRecord::flags`].
 const DISABLED: u16 = 1;
 
-/// Where a sprite's front points: its orientation, or for crafts without one their rotation.
+/// Returns the direction of a sprite's front: its orientation, or for crafts without one their rotation.
 fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
     if !glyph.turns() && glyph != Glyph::Avatar {
         return None;
@@ -184,7 +184,7 @@ fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
         .then(|| [libm::cos(rotation) as f32, libm::sin(rotation) as f32])
 }
 
-/// A direction made one long; none if it points nowhere.
+/// Returns a direction as a unit vector; none if it points nowhere.
 pub(crate) fn unit((x, y): (f64, f64)) -> Option<Point> {
     let length = (x * x + y * y).sqrt();
     (length > 0.0).then(|| [(x / length) as f32, (y / length) as f32])

@@ -1,4 +1,4 @@
-//! The strip under a board: tick, score, what the avatar holds, how it ended.
+//! The strip under a board: tick, score, resources of the avatar, outcome.
 
 use crate::board::Style;
 use crate::colour::{Colour, GREEN, INK, PAPER, VERMILION};
@@ -9,7 +9,8 @@ use engine::{Outcome, State};
 /// Letters of the outcome and the gap before it.
 const ENDING: usize = 9;
 
-/// Height of the strip: one row, and another if there is something to hold or to lose. The same for all states.
+/// Returns the height of the strip: one row, and another if avatars can have resources or health. The same for all
+/// states.
 pub(crate) fn height(looks: &Looks, style: &Style) -> u32 {
     let rows = if looks.has_holdings() { 2 } else { 1 };
     if style.caption { rows * row(style) + row(style) / 2 } else { 0 }
@@ -29,7 +30,7 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, state: &State, style: &
     let (x, y) = (size * 0.4, top as f32 + row * 0.35);
     let first = format!("tick {}  score {}", state.tick() + 1, state.score());
     let room = letters.saturating_sub(1);
-    // On a narrow board the outcome matters more than the count.
+    // On a narrow board the outcome is more important than the score.
     let whole = first.chars().count() + if word.is_empty() { 0 } else { ENDING } <= room;
     if whole || word.is_empty() {
         picture.text((x, y), size, PAPER, &shortened(&first, room));
@@ -43,7 +44,7 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, state: &State, style: &
     }
 }
 
-/// How an outcome is called, and the colour behind it.
+/// Returns the word for an outcome, and the colour behind it.
 fn ending(outcome: Outcome) -> (&'static str, Colour) {
     match outcome {
         Outcome::Ongoing => ("", INK),
@@ -54,7 +55,7 @@ fn ending(outcome: Outcome) -> (&'static str, Colour) {
     }
 }
 
-/// What the avatar holds and its health: `key 2  health 3`.
+/// Returns the avatar's resources and health: `key 2  health 3`.
 pub fn holdings(looks: &Looks, state: &State) -> String {
     let game = looks.game();
     let held = game.held_by_avatar(state).into_iter().filter(|(_, amount)| *amount != 0);

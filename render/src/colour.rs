@@ -1,4 +1,4 @@
-//! Colours, and those that stand for roles where a game names none.
+//! Colours, and the default colours of roles.
 
 /// Red, green and blue, 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -23,37 +23,37 @@ pub(crate) const BLUE: Colour = Colour([0x00, 0x72, 0xb2]);
 pub(crate) const VERMILION: Colour = Colour([0xd5, 0x5e, 0x00]);
 pub(crate) const PURPLE: Colour = Colour([0xcc, 0x79, 0xa7]);
 
-/// For what stands still and matters little: two greys and two browns.
+/// Colours for types that stand still and matter little: two greys and two browns.
 pub(crate) const SLATE: Colour = Colour([0x6c, 0x75, 0x86]);
 pub(crate) const STONE: Colour = Colour([0x9a, 0x9c, 0xa3]);
 pub(crate) const EARTH: Colour = Colour([0xb5, 0x93, 0x68]);
 pub(crate) const WOOD: Colour = Colour([0xc9, 0x92, 0x4a]);
 
 impl Colour {
-    /// This colour with `share` parts of 100 of another.
+    /// Returns this colour with `share` parts of 100 of another.
     pub(crate) fn mixed(self, other: Colour, share: u32) -> Colour {
         let blend =
             |a: u8, b: u8| (u32::from(a) * (100 - share) + u32::from(b) * share).div_euclid(100) as u8;
         Colour(std::array::from_fn(|at| blend(self.0[at], other.0[at])))
     }
 
-    /// A lighter one of the same hue.
+    /// Returns a lighter colour of the same hue.
     pub(crate) fn light(self) -> Colour {
         self.mixed(PAPER, 45)
     }
 
-    /// A darker one of the same hue; a lighter one of what is dark already.
+    /// Returns a darker colour of the same hue, or a lighter one of a dark colour.
     pub(crate) fn shade(self) -> Colour {
         if self.luma() < 60 { self.mixed(PAPER, 35) } else { self.mixed(INK, 40) }
     }
 
-    /// How bright it looks, 0 to 255 (the weights of ITU-R BT.601).
+    /// Returns the luma, 0 to 255 (the weights of ITU-R BT.601).
     pub(crate) fn luma(self) -> u32 {
         let [red, green, blue] = self.0.map(u32::from);
         (299 * red + 587 * green + 114 * blue) / 1000
     }
 
-    /// The square of the distance to another, red, green and blue counted alike.
+    /// Returns the squared distance to another colour, with equal weights for red, green and blue.
     pub(crate) fn distance(self, other: Colour) -> u32 {
         self.0.iter().zip(other.0).map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
     }

@@ -1,20 +1,20 @@
-//! What keeps a picture from being drawn or written.
+//! The errors of drawing and writing pictures.
 
 use crate::board::{MAX_CELL, MAX_PIXELS, MIN_CELL};
 
-/// No picture.
+/// A picture that could not be drawn or written.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     /// A cell is too small or too large.
     #[error("{cell} pixels a cell; a cell has {MIN_CELL} to {MAX_CELL}")]
     Cell {
-        /// Pixels asked for.
+        /// The pixels requested.
         cell: u32,
     },
     /// The picture has too many pixels.
     #[error("the picture would have {pixels} pixels, more than {MAX_PIXELS}; draw smaller cells")]
     TooLarge {
-        /// How many it would have.
+        /// The number of pixels it would have.
         pixels: u64,
     },
     /// The picture has no pixels.

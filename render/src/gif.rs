@@ -1,7 +1,8 @@
 //! Episodes as animated GIF.
 //!
-//! All frames share one palette, made before the first one is written: the exact colours of all tiles, then the blends that
-//! smooth edges bring: first those without anything near, most frequent first. A frame holds only the rectangle that changed.
+//! All frames share one palette, made before the first one is written: the exact colours of all tiles, then the
+//! blends of smooth edges: first those with no similar colour, most frequent first. A frame holds only the rectangle
+//! that changed.
 
 use crate::colour::Colour;
 use crate::error::RenderError;
@@ -12,12 +13,12 @@ use std::collections::BTreeMap;
 
 /// Colours of a palette, beside the entry for [`UNCHANGED`].
 const COLOURS: usize = 255;
-/// The entry that leaves a pixel as it was: long runs of it take little room.
+/// The entry that leaves a pixel unchanged: long runs of it compress well.
 const UNCHANGED: u8 = 255;
-/// The last frame stays so many times as long as the others.
+/// The duration of the last frame, in multiples of the others.
 const LAST: u16 = 12;
 
-/// How far from all others (squared distance) a blend must be to enter the palette: first those without anything near.
+/// The squared distances from all others that a blend needs to enter the palette, in successive passes.
 const APART: [u32; 3] = [1200, 300, 0];
 
 /// Writes pictures of one size as frames of an endlessly repeating GIF.
@@ -25,9 +26,9 @@ pub struct Animation {
     painter: Painter,
     encoder: ::gif::Encoder<Vec<u8>>,
     palette: Vec<Colour>,
-    /// The nearest entry of the palette, for every colour met so far.
+    /// The nearest entry of the palette, for every colour seen so far.
     nearest: BTreeMap<Colour, u8>,
-    /// What the last frame shows; empty before the first one.
+    /// The pixels of the last frame; empty before the first one.
     before: Vec<Colour>,
     /// The same as indices into the palette.
     shown: Vec<u8>,
@@ -39,8 +40,8 @@ pub struct Animation {
 }
 
 impl Animation {
-    /// An animation of pictures like `specimens`, the first of which sets the size; a frame lasts `delay` hundredths of a
-    /// second. Colours that no specimen shows are drawn in the nearest one of the palette.
+    /// Starts an animation of pictures like `specimens`, the first of which sets the size; a frame lasts `delay`
+    /// hundredths of a second. Colours that no specimen shows are mapped to the nearest one of the palette.
     ///
     /// # Errors
     /// If the first picture is empty, or larger than a GIF can be.
@@ -93,7 +94,7 @@ impl Animation {
         }
     }
 
-    /// The file.
+    /// Returns the file.
     ///
     /// # Errors
     /// If the memory is full.
@@ -105,7 +106,7 @@ impl Animation {
         Ok(self.encoder.into_inner()?)
     }
 
-    /// Looks up only what changed: most pixels are what they were.
+    /// Looks up only the changed pixels: most stay the same.
     fn indices(&mut self, image: &Image) -> Vec<u8> {
         let Animation { palette, nearest, before, shown, .. } = self;
         let mut last = None;
@@ -129,7 +130,7 @@ impl Animation {
     }
 }
 
-/// Exact colours of tiles first, then by how many pixels of the specimens have them; ties by colour.
+/// Returns the exact colours of tiles first, then blends by number of pixels in the specimens; ties by colour.
 fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, RenderError> {
     let shapes = specimens.iter().flat_map(Picture::tiles).flat_map(|tile| &tile.shapes);
     let mut palette: Vec<Colour> = shapes.map(|shape| shape.colour).collect();
@@ -146,7 +147,7 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     blends.retain(|(colour, _)| !palette.contains(colour));
     // Stable, so that equally frequent ones stay sorted by colour.
     blends.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
-    // Those far from what is there first: many rare blends are better served by one entry in their midst.
+    // Those far from all entries first: many rare blends are better served by one entry in their midst.
     for apart in APART {
         for &(colour, _) in &blends {
             if palette.len() < COLOURS && palette.iter().all(|known| known.distance(colour) > apart) {
@@ -157,8 +158,8 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     Ok(palette)
 }
 
-/// The smallest rectangle (left, top, right, bottom) that holds all differences; one pixel if there are none, all of it
-/// for a first frame.
+/// Returns the smallest rectangle (left, top, right, bottom) that holds all differences; one pixel if there are none,
+/// the whole for a first frame.
 fn changed(before: &[u8], now: &[u8], width: usize) -> [usize; 4] {
     if before.len() != now.len() {
         return [0, 0, width, now.len() / width.max(1)];

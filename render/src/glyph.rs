@@ -1,41 +1,41 @@
-//! The forms that tiles take: one for each thing that a player must tell apart.
+//! The glyphs of tiles: one for each kind of thing that a player must tell apart.
 
 use crate::colour::{self, Colour};
 use engine::analysis::{Harm, Key, Motion, Role, Steering};
 use engine::{Analysis, SpriteClass, SpriteType};
 
-/// Declares the glyphs once: variant, what a stranger would call the form, what it means, colour, letters of a terminal.
+/// Declares the glyphs in one place: variant, form, meaning, colour, letters of a terminal.
 macro_rules! glyphs {
     ($($name:ident, $form:literal, $meaning:literal, $colour:ident, $unicode:literal, $ascii:literal;)*) => {
-        /// The form of a tile.
+        /// The glyph of a tile.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Glyph { $(#[doc = $meaning] $name),* }
 
         impl Glyph {
-            /// All, in the order of legends.
+            /// All glyphs, in the order of legends.
             pub const ALL: &[Glyph] = &[$(Glyph::$name),*];
 
-            /// What it looks like, in a few words.
+            /// Returns its form, in a few words.
             pub fn form(self) -> &'static str {
                 match self { $(Glyph::$name => $form),* }
             }
 
-            /// What it stands for, in a few words.
+            /// Returns its meaning, in a few words.
             pub fn meaning(self) -> &'static str {
                 match self { $(Glyph::$name => $meaning),* }
             }
 
-            /// Its colour where the game names none.
+            /// Returns its default colour.
             pub(crate) fn colour(self) -> Colour {
                 match self { $(Glyph::$name => colour::$colour),* }
             }
 
-            /// Two columns of a terminal.
+            /// Returns its sign in two columns of a terminal.
             pub fn unicode(self) -> &'static str {
                 match self { $(Glyph::$name => $unicode),* }
             }
 
-            /// Two columns of a terminal that knows ASCII only.
+            /// Returns its sign in two columns of a terminal that knows ASCII only.
             pub fn ascii(self) -> &'static str {
                 match self { $(Glyph::$name => $ascii),* }
             }
@@ -87,7 +87,7 @@ glyphs! {
 }
 
 impl Glyph {
-    /// The form of a sprite type: from its role first, then from how it moves and what it is made for.
+    /// Chooses the glyph of a sprite type: by its role first, then by its movement and its purpose.
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Glyph {
         let facts = analysis.facts(stype);
         let wanted = analysis.aims().remove.contains(&stype);
@@ -142,7 +142,7 @@ impl Glyph {
         }
     }
 
-    /// How many forms of it there are, so that several types of one glyph differ in more than colour.
+    /// Returns the number of its variants, so that several types of one glyph differ in more than colour.
     pub(crate) fn variants(self) -> usize {
         match self {
             Glyph::Enemy | Glyph::Gem | Glyph::Key | Glyph::Gate => 4,
@@ -151,20 +151,21 @@ impl Glyph {
         }
     }
 
-    /// Whether its front shows: the tile turns with the sprite's orientation.
+    /// Returns `true` if the tile turns with the sprite's orientation.
     pub(crate) fn turns(self) -> bool {
         use Glyph as G;
         matches!(self, G::Craft | G::Charger | G::HostileShot | G::Bolt | G::Blade | G::Conveyor)
     }
 
-    /// Whether the tile fills its cell: neighbours join, and what is in the cell besides is drawn over it.
+    /// Returns `true` if the tile fills its cell: neighbours join, and other sprites of the cell are drawn over it.
     pub(crate) fn is_ground(self) -> bool {
         use Glyph as G;
         matches!(self, G::Wall | G::Breakable | G::Soil | G::Mire | G::Conveyor | G::Spring | G::Floor)
     }
 }
 
-/// What moves makes it, and it makes nothing: a bomb that is dropped, not a cart that comes out of a shed.
+/// Returns `true` if a moving type makes it, and it makes nothing: a bomb that is dropped, not a cart that comes out
+/// of a shed.
 fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     let drops = |maker: SpriteType| {
         let facts = analysis.facts(maker);
@@ -173,8 +174,8 @@ fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.facts(stype).makes.is_empty() && analysis.game().sprite_types().any(drops)
 }
 
-/// It stays when it is touched, and several level characters place it together with something else: the ground of a
-/// part of the board rather than a thing on it.
+/// Returns `true` if it stays when it is touched, and several level characters place it together with something else:
+/// it is the ground of a part of the board and not a thing on it.
 fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let stays = analysis.avatars().iter().all(|avatar| !analysis.touch(avatar.stype, stype).ends_other());
@@ -183,15 +184,15 @@ fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     stays && facts.motion == Motion::Still && facts.symbols.iter().filter(below).count() > 1
 }
 
-/// Rules are about it, and no level character places anything over it: nothing happens to the avatar on it, but it is no
-/// ground either.
+/// Returns `true` if rules concern it, and no level character places anything over it: nothing happens to the avatar
+/// on it, but it is not ground either.
 fn is_thing(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let above = |symbol: &u8| game.places(*symbol).last() == Some(&stype);
     !analysis.is_scenery(stype) && analysis.facts(stype).symbols.iter().all(above)
 }
 
-/// What gives a key: a button if touching it is enough, coins if many can be held.
+/// Returns the glyph of a type that gives a key: a button if touching it is enough, coins if many can be held.
 fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
     let many = |resource: SpriteType| {
         analysis.resources().iter().any(|known| known.stype == resource && known.limit > 2)

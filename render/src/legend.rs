@@ -1,4 +1,4 @@
-//! The key to a board: each sprite type that players can see, with its tile.
+//! The legend of a board: each sprite type that players can see, with its tile.
 
 use crate::board::Style;
 use crate::colour::{GROUND, INK};
@@ -8,7 +8,7 @@ use engine::SpriteType;
 
 /// Pixels between the edge, the entries and their parts.
 const GAP: u32 = 8;
-/// Height of the letters of a name, and of what it means below, pixels.
+/// Height of the letters of a name, and of its meaning below, in pixels.
 const NAME: f32 = 15.0;
 const MEANING: f32 = 11.0;
 
@@ -19,7 +19,7 @@ struct Entry<'a> {
     name: &'a str,
 }
 
-/// How the entries are laid out, in pixels.
+/// The layout of the entries, in pixels.
 struct Layout {
     columns: u32,
     /// From one entry to the next.

@@ -1,10 +1,10 @@
-//! Letters as strokes: a font of our own, so that pictures need none of the system's.
+//! Letters as strokes: a built-in font, so that pictures need none of the system's.
 
 use crate::colour::Colour;
 use crate::shape::{Outline, Paint, Point, Shape};
 
-/// The strokes of `!` to `~`, parted by blanks. A stroke is a list of points, two digits each: column 0 to 4, row 0 to 9;
-/// capitals stand on row 7 and reach up to row 1. A point alone is a dot.
+/// The strokes of `!` to `~`, separated by blanks. A stroke is a list of points, two digits each: column 0 to 4, row
+/// 0 to 9; capitals stand on row 7 and reach up to row 1. A single point is a dot.
 const STROKES: [&str; 94] = [
     "2125 27",
     "1113 3133",
@@ -102,10 +102,10 @@ const STROKES: [&str; 94] = [
     "0413243544",
 ];
 
-/// What stands for any other letter.
+/// The strokes for any other letter.
 const UNKNOWN: &str = "0141470701";
 
-/// A letter in the left three fifths of a unit square.
+/// Returns the shapes of a letter in the left three fifths of a unit square.
 pub(crate) fn shapes(letter: char, colour: Colour) -> Vec<Shape> {
     let known = (letter as usize).checked_sub('!' as usize).and_then(|at| STROKES.get(at));
     let strokes = match letter {

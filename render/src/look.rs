@@ -1,28 +1,28 @@
-//! What each sprite type of one game looks like.
+//! The looks of the sprite types of one game.
 
 use crate::colour::{Colour, INK, PAPER};
 use crate::glyph::Glyph;
 use engine::analysis::{Deed, Key};
 use engine::{Analysis, Game, SpriteType};
 
-/// Colours closer than this (squared distance) do not tell two types of one form apart.
+/// The squared distance below which colours are too similar to tell two types of one glyph apart.
 const ALIKE: u32 = 3000;
 
-/// The look of a sprite type: all that its tile is drawn from, orientation apart.
+/// The look of a sprite type: the input of its tile, except orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Look {
-    /// The form.
+    /// The glyph.
     pub glyph: Glyph,
     /// The main colour: the game's own, or that of the glyph.
     pub colour: Colour,
-    /// Which of the glyph's variants, from 0. Keys and the gates that they open have the same.
+    /// The variant of the glyph, from 0. Keys and the gates that they open have the same.
     pub variant: u8,
-    /// Dots that tell apart what form and colour do not.
+    /// The number of dots, for types that share glyph and colour.
     pub pips: u8,
 }
 
 impl Look {
-    /// A glyph as it looks in a game that names no colour and has one type of it.
+    /// Returns the look of a glyph in a game that names no colour and has one type of it.
     pub fn plain(glyph: Glyph) -> Look {
         Look { glyph, colour: glyph.colour(), variant: 0, pips: 0 }
     }
@@ -33,22 +33,23 @@ impl Look {
 pub struct Looks {
     game: Game,
     looks: Vec<Look>,
-    /// By type: players see its sprites.
+    /// By type: `true` if players see its sprites.
     visible: Vec<bool>,
     /// Types whose sprites can be seen in some episode.
     shown: Vec<SpriteType>,
-    /// Avatars can hold resources or have health.
+    /// `true` if avatars can hold resources or have health.
     holdings: bool,
 }
 
 impl Looks {
-    /// The looks of an analysed game. Cost: O(types²).
+    /// Computes the looks of an analysed game. Cost: O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
         let game = analysis.game();
         let visible: Vec<bool> = game.sprite_types().map(|stype| !analysis.facts(stype).hidden).collect();
         let glyphs: Vec<Glyph> = game.sprite_types().map(|stype| Glyph::of(analysis, stype)).collect();
         let mut looks: Vec<Look> = glyphs.iter().map(|&glyph| Look::plain(glyph)).collect();
-        // What the game can show, so that types which never occur use no form up. Gates come last: they follow their keys.
+        // The looks that the game can show, so that types which never occur use up no variant. Gates come last: they
+        // follow their keys.
         let mut seen: Vec<Look> = Vec::new();
         let mut order: Vec<SpriteType> = game.sprite_types().collect();
         order.sort_by_key(|stype| glyphs[stype.index()] == Glyph::Gate);
@@ -81,33 +82,33 @@ impl Looks {
         Looks { game: game.clone(), looks, visible, shown, holdings }
     }
 
-    /// The game that they are of.
+    /// Returns the game that they belong to.
     pub fn game(&self) -> &Game {
         &self.game
     }
 
-    /// The look of a type.
+    /// Returns the look of a type.
     pub fn look(&self, stype: SpriteType) -> Look {
         self.looks[stype.index()]
     }
 
-    /// The types whose sprites players can ever see, in registry order.
+    /// Returns the types whose sprites players can ever see, in registry order.
     pub fn shown(&self) -> impl Iterator<Item = SpriteType> + '_ {
         self.shown.iter().copied()
     }
 
-    /// Whether an avatar can hold something or has health: what captions tell besides the score.
+    /// Returns `true` if an avatar can hold something or has health: captions then show more than the score.
     pub fn has_holdings(&self) -> bool {
         self.holdings
     }
 
-    /// Whether players see sprites of the type.
+    /// Returns `true` if players see sprites of the type.
     pub fn is_visible(&self, stype: SpriteType) -> bool {
         self.visible[stype.index()]
     }
 }
 
-/// The variant of the key that opens a gate.
+/// Returns the variant of the key that opens a gate.
 fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize> {
     let lock = analysis.locks().iter().find(|lock| lock.stype == gate)?;
     let key = match lock.key {
@@ -118,7 +119,7 @@ fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize
     looks.get(key.index()).filter(|look| look.glyph == Glyph::Key).map(|look| usize::from(look.variant))
 }
 
-/// The colour of the nth type of a glyph without a colour of its own: of the same hue.
+/// Returns the colour of the nth type of a glyph without a colour of its own: of the same hue.
 fn shifted(colour: Colour, nth: usize) -> Colour {
     match nth % 3 {
         0 => colour,

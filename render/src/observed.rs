@@ -1,4 +1,4 @@
-//! What a player is shown as a picture.
+//! Observations of a player as pictures.
 
 use crate::board::{Style, framed, over, unit};
 use crate::error::RenderError;
@@ -7,8 +7,9 @@ use crate::look::Looks;
 use crate::picture::{Picture, Place};
 use engine::Observation;
 
-/// Draws an observation: no more than it tells. So sprites fill the cells that they overlap, and only the avatar's front
-/// shows; the avatar is drawn once, in the cell of its middle. The caption of the style is left out. Cost: O(cells).
+/// Draws an observation with no more information than it holds: sprites fill the cells that they overlap, and only
+/// the avatar's front shows; the avatar is drawn once, in the cell of its middle. The caption of the style is left
+/// out. Cost: O(cells).
 ///
 /// # Errors
 /// If a cell is too small or too large, or the picture would be.

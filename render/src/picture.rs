@@ -1,4 +1,4 @@
-//! A picture: tiles, and where they are stamped. Both back-ends draw it, in the same order.
+//! A picture: tiles, and the places where they are stamped. Both back-ends draw it, in the same order.
 
 use crate::art;
 use crate::colour::Colour;
@@ -23,7 +23,7 @@ pub struct Place {
     pub h: f32,
 }
 
-/// What a tile is drawn from: equal keys are one tile.
+/// The inputs of a tile: equal keys are one tile.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Key {
     Plain(Colour),
@@ -42,7 +42,7 @@ pub struct Tile {
 }
 
 impl Tile {
-    /// Whether it is one colour from edge to edge.
+    /// Returns `true` if it has a single colour and fills the square.
     pub(crate) fn is_plain(&self) -> bool {
         self.name.is_none() && matches!(&self.shapes[..], [only] if only.outline == whole())
     }
@@ -58,7 +58,7 @@ fn whole() -> Outline {
 pub struct Stamp {
     /// Index into [`Picture::tiles`].
     pub tile: usize,
-    /// Where.
+    /// Its place.
     pub place: Place,
 }
 
@@ -78,34 +78,34 @@ impl Picture {
         Picture { width, height, ..Picture::default() }
     }
 
-    /// Width in pixels.
+    /// Returns the width in pixels.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Height in pixels.
+    /// Returns the height in pixels.
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// The tiles, each once, in the order of their first use.
+    /// Returns the tiles, each once, in the order of their first use.
     pub fn tiles(&self) -> &[Tile] {
         &self.tiles
     }
 
-    /// By tile: what it was drawn from. Equal keys are equal tiles, in other pictures too.
+    /// Returns the key of each tile. Equal keys are equal tiles, in other pictures too.
     pub(crate) fn keys(&self) -> Vec<&Key> {
         let mut keys: Vec<(usize, &Key)> = self.keys.iter().map(|(key, &at)| (at, key)).collect();
         keys.sort_unstable_by_key(|&(at, _)| at);
         keys.into_iter().map(|(_, key)| key).collect()
     }
 
-    /// What is stamped, in drawing order.
+    /// Returns the stamps, in drawing order.
     pub fn stamps(&self) -> &[Stamp] {
         &self.stamps
     }
 
-    /// A rectangle of one colour.
+    /// Adds a rectangle of one colour.
     pub(crate) fn rect(&mut self, place: Place, colour: Colour) {
         let tile = self.tile(Key::Plain(colour), || Tile {
             shapes: vec![Shape { outline: whole(), paint: Paint::Fill, colour }],
@@ -114,7 +114,7 @@ impl Picture {
         self.stamps.push(Stamp { tile, place });
     }
 
-    /// A sprite's tile; `facing`: where its front points, of unit length.
+    /// Adds a sprite's tile; `facing` is the direction of its front, of unit length.
     pub(crate) fn sprite(&mut self, place: Place, name: &str, look: Look, facing: Option<Point>) {
         let front = facing.map(|direction| direction.map(|part| (part * 1000.0).round() as i16));
         let facing = front.map(|front| front.map(|part| f32::from(part) / 1000.0));
@@ -125,7 +125,8 @@ impl Picture {
         self.stamps.push(Stamp { tile, place });
     }
 
-    /// A line of text whose top left corner is at `(x, y)`, letters `size` pixels high; as wide as [`text_width`] says.
+    /// Adds a line of text with its top left corner at `(x, y)` and letters `size` pixels high; [`text_width`]
+    /// returns its width.
     pub(crate) fn text(&mut self, (x, y): (f32, f32), size: f32, colour: Colour, text: &str) {
         let mut x = x;
         for letter in text.chars() {
@@ -138,7 +139,7 @@ impl Picture {
         }
     }
 
-    /// Another picture, shrunk or enlarged, with its top left corner at `(x, y)`. What lies wholly outside of it is left out.
+    /// Adds another picture, scaled, with its top left corner at `(x, y)`. Stamps wholly outside of it are left out.
     pub(crate) fn inset(&mut self, other: &Picture, (x, y): (f32, f32), scale: f32) {
         let mut here = vec![0; other.tiles.len()];
         for (key, &at) in &other.keys {
@@ -162,12 +163,12 @@ impl Picture {
     }
 }
 
-/// The width of a line of text, in pixels.
+/// Returns the width of a line of text, in pixels.
 pub(crate) fn text_width(text: &str, size: f32) -> f32 {
     text.chars().count() as f32 * size * ADVANCE
 }
 
-/// A text cut to at most so many letters, the last two of them dots if it is cut.
+/// Cuts a text to at most `letters` letters, the last two of them dots if it is cut.
 pub(crate) fn shortened(text: &str, letters: usize) -> String {
     if text.chars().count() <= letters {
         return text.to_owned();

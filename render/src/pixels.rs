@@ -21,24 +21,24 @@ pub struct Image {
     pub pixels: Vec<Colour>,
 }
 
-/// Draws pictures, and keeps the pixels of tiles for the next ones. The same picture gives the same pixels, on every
-/// machine and whatever was drawn before.
+/// Draws pictures, and caches the pixels of tiles. The same picture gives the same pixels, on every machine and
+/// whatever was drawn before.
 #[derive(Debug, Default)]
 pub struct Painter {
-    /// The tiles met so far, numbered.
+    /// The number of each tile seen so far.
     numbers: BTreeMap<Key, usize>,
     /// By number of the tile, width and height.
     tiles: BTreeMap<(usize, u32, u32), Pixmap>,
 }
 
 impl Painter {
-    /// A painter who has drawn nothing yet.
+    /// Creates a painter with an empty cache.
     pub fn new() -> Painter {
         Painter::default()
     }
 
-    /// Draws a picture. Sprites are moved to whole pixels. Cost: O(pixels of the stamps), and more for tiles that are
-    /// drawn for the first time.
+    /// Draws a picture. Sprites are aligned to whole pixels. Cost: O(pixels of the stamps), and more for tiles that
+    /// are drawn for the first time.
     ///
     /// # Errors
     /// If the picture is empty.
@@ -56,7 +56,7 @@ impl Painter {
         for stamp in picture.stamps() {
             let Some((x, y, w, h)) = snapped(stamp, width, height) else { continue };
             let drawn = &picture.tiles()[stamp.tile];
-            // A single colour, or a giant, of which no more than that could be seen anyway.
+            // A single colour, or a tile so large that its details would be invisible.
             if drawn.is_plain() || u64::from(w) * u64::from(h) > MAX_TILE {
                 let colour = drawn.shapes.first().map_or(PAPER, |shape| shape.colour);
                 image.fill((x, y), (w, h), colour);
@@ -71,7 +71,7 @@ impl Painter {
 }
 
 impl Image {
-    /// Fills a rectangle, as far as it lies in the image.
+    /// Fills a rectangle, clipped to the image.
     fn fill(&mut self, (x, y): (i32, i32), (w, h): (u32, u32), colour: Colour) {
         let span = |from: i32, size: u32, limit: u32| {
             let (start, limit) = (i64::from(from), i64::from(limit));
@@ -86,7 +86,7 @@ impl Image {
     /// Lays a tile over the image, its top left corner at `(x, y)`.
     fn blend(&mut self, tile: &Pixmap, x: i32, y: i32) {
         let (width, height) = (self.width as usize, self.height as usize);
-        // What is left of the image, or above, is skipped.
+        // Parts to the left of the image, or above it, are skipped.
         let [skipped_columns, skipped_rows] = [x, y].map(|at| at.min(0).unsigned_abs() as usize);
         let (left, top) = (x.max(0) as usize, y.max(0) as usize);
         let sources = tile.pixels().chunks(tile.width() as usize).skip(skipped_rows);
@@ -96,7 +96,7 @@ impl Image {
             for (pixel, below) in source.zip(target.iter_mut().skip(left)) {
                 let through = 255 - u16::from(pixel.alpha());
                 let own = [pixel.red(), pixel.green(), pixel.blue()];
-                // The tile's colours are multiplied with its alpha already.
+                // The tile's colours are premultiplied with its alpha.
                 let mix = |at: usize| {
                     own[at].saturating_add(((u16::from(below.0[at]) * through + 127) / 255) as u8)
                 };

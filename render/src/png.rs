@@ -4,7 +4,7 @@ use crate::error::RenderError;
 use crate::picture::Picture;
 use crate::pixels::{Image, Painter};
 
-/// The picture as a PNG file.
+/// Returns the picture as a PNG file.
 ///
 /// # Errors
 /// If it is empty.

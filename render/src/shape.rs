@@ -1,14 +1,15 @@
-//! The vector shapes that tiles are made of: the one description that both back-ends draw.
+//! The vector shapes of tiles: the common input of both back-ends.
 //!
-//! A tile is a unit square: x to the right, y down, both from 0 to 1. Nothing is transparent, so that a picture needs few
-//! colours and looks the same however it is layered.
+//! A tile is a unit square: x to the right, y down, both from 0 to 1. Nothing is transparent, so that a picture needs
+//! few colours and looks the same in any layering.
 
 use crate::colour::Colour;
 
 /// A point of the unit square.
 pub type Point = [f32; 2];
 
-/// Where a cubic arc of a quarter circle has its control points: the usual approximation, 0.03 % off at most.
+/// The distance of the control points of a cubic arc for a quarter circle: the usual approximation, with an error of
+/// at most 0.03 %.
 const QUARTER: f32 = 0.552_284_8;
 
 /// A step of an outline.
@@ -28,7 +29,7 @@ pub enum Segment {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline(pub Vec<Segment>);
 
-/// How an outline is drawn.
+/// The painting mode of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Paint {
     /// Filled (non-zero winding).
@@ -40,11 +41,11 @@ pub enum Paint {
 /// An outline with its paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Where.
+    /// The outline.
     pub outline: Outline,
-    /// How.
+    /// The painting mode.
     pub paint: Paint,
-    /// In which colour.
+    /// The colour.
     pub colour: Colour,
 }
 
@@ -112,7 +113,7 @@ impl Outline {
         Outline::polygon(&(0..2 * points).map(corner).collect::<Vec<Point>>())
     }
 
-    /// With every point put through `place`.
+    /// Returns the outline with every point mapped by `place`.
     pub(crate) fn mapped(mut self, place: impl Fn(Point) -> Point) -> Outline {
         for segment in &mut self.0 {
             match segment {
@@ -126,7 +127,8 @@ impl Outline {
         self
     }
 
-    /// Turned around the middle of the tile, so that what pointed right points along `direction`, of unit length.
+    /// Returns the outline rotated around the middle of the tile, such that right becomes `direction`, of unit
+    /// length.
     pub(crate) fn turned(self, [cos, sin]: Point) -> Outline {
         self.mapped(|[x, y]| {
             let (x, y) = (x - 0.5, y - 0.5);
@@ -134,7 +136,7 @@ impl Outline {
         })
     }
 
-    /// The left half mirrored to the right: points become `1 - x`.
+    /// Returns the mirror image: points become `1 - x`.
     pub(crate) fn mirrored(self) -> Outline {
         self.mapped(|[x, y]| [1.0 - x, y])
     }

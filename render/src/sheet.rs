@@ -11,15 +11,15 @@ use crate::picture::{ADVANCE, Picture, Place, shortened};
 const GAP: u32 = 16;
 /// Height of the letters of a caption, pixels.
 const LETTER: u32 = 15;
-/// From a line of a caption to the next, pixels.
+/// The line height of a caption, in pixels.
 const LEADING: u32 = 19;
 
-/// Lines of a caption at most.
+/// The most lines of a caption.
 const LINES: usize = 4;
 
-/// Puts pictures side by side in rows of `columns`, each shrunk to fit a square of `side` pixels (never enlarged), under
-/// it its caption. The first line of a caption is shortened to fit; what follows a line feed is broken into three more lines
-/// at most. A row is as high as its highest picture and its longest caption.
+/// Puts pictures side by side in rows of `columns`, each shrunk to fit a square of `side` pixels (never enlarged),
+/// with its caption below. The first line of a caption is shortened to fit; the text after a line feed is broken into
+/// at most three more lines. A row is as high as its highest picture and its longest caption.
 ///
 /// # Errors
 /// If the sheet would have more than [`MAX_PIXELS`].
@@ -62,7 +62,8 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
     Ok(sheet)
 }
 
-/// The lines of a caption; at least one. Words that are too long for a line are shortened, and so is the last of too many lines.
+/// Returns the lines of a caption; at least one. Words that are too long for a line are shortened, and so is the last
+/// line if there are too many.
 fn broken(caption: &str, letters: usize) -> Vec<String> {
     let (first, rest) = caption.split_once('\n').unwrap_or((caption, ""));
     let mut lines = vec![first.to_owned()];
@@ -82,7 +83,7 @@ fn broken(caption: &str, letters: usize) -> Vec<String> {
     lines.iter().map(|line| shortened(line, letters)).collect()
 }
 
-/// Every glyph with what it stands for, in rows of `columns`: a legend to all boards.
+/// Returns every glyph with its meaning, in rows of `columns`: a legend to all boards.
 pub fn gallery(columns: usize) -> Picture {
     const SIDE: u32 = 44;
     const STEP: u32 = 290;

@@ -1,10 +1,11 @@
-//! Pictures as SVG: each tile once, used where it is stamped.
+//! Pictures as SVG: each tile is defined once and used where it is stamped.
 
 use crate::picture::{Picture, Tile};
 use crate::shape::{Outline, Paint, Segment, Shape};
 use std::fmt::Write;
 
-/// The picture as an SVG document; the same picture gives the same bytes. Hovering over a sprite tells its name.
+/// Returns the picture as an SVG document; the same picture gives the same bytes. Hovering over a sprite shows its
+/// name.
 pub fn svg(picture: &Picture) -> String {
     let (width, height) = (picture.width(), picture.height());
     let mut text = format!(
@@ -26,7 +27,8 @@ pub fn svg(picture: &Picture) -> String {
     text
 }
 
-/// A tile as an SVG group of this id, in a unit square: for pages that stamp it many times. Hovering over it tells its name.
+/// Returns a tile as an SVG group of this id, in a unit square: for pages that stamp it many times. Hovering over it
+/// shows its name.
 pub fn svg_tile(id: &str, tile: &Tile) -> String {
     let mut text = format!("<g id=\"{id}\">");
     if let Some(name) = &tile.name {
@@ -65,7 +67,7 @@ fn path(outline: &Outline) -> String {
     text
 }
 
-/// In thousandths, without needless digits.
+/// Formats a value in thousandths, without needless digits.
 fn number(value: f32) -> String {
     let thousandths = (f64::from(value) * 1000.0).round() as i64;
     let (sign, size) = (if thousandths < 0 { "-" } else { "" }, thousandths.unsigned_abs());

@@ -1,24 +1,25 @@
-//! One character for each sprite type of a game, for boards as text: ASCII as long as it lasts.
+//! One character for each sprite type of a game, for boards as text: ASCII while there are free characters.
 
 use crate::glyph::Glyph;
 use crate::look::Looks;
 use engine::{Analysis, SpriteType};
 
-/// The characters of the types that players can see. Static: the same game always gives the same.
+/// The characters of the types that players can see. The same game always gives the same characters.
 #[derive(Clone, Debug)]
 pub struct Symbols(Vec<char>);
 
 /// An empty cell, or one with nothing but floor.
 pub const EMPTY: char = '.';
 
-/// Characters that are given to types for which neither their own nor a letter of their name is free. After them come the
-/// letters of other alphabets, so that no two types ever share one.
+/// Characters for types whose own character and letters of their name are taken. After them come the letters of other
+/// alphabets, so that no two types ever share one.
 const SPARE: &str =
     "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
 
 impl Symbols {
-    /// A type has the level character that places it on top of floor alone, if there is one and it is free; else a letter
-    /// of its name; else any. Types that are never seen, and floors that no rule is about, have [`EMPTY`].
+    /// Gives each type the level character that places it on top of floor alone, if there is one and it is free;
+    /// otherwise a letter of its name; otherwise any character. Types that are never seen, and floors that no rule
+    /// concerns, have [`EMPTY`].
     pub fn of(analysis: &Analysis, looks: &Looks) -> Symbols {
         let game = analysis.game();
         let is_floor = |stype: SpriteType| {
@@ -55,7 +56,7 @@ impl Symbols {
         Symbols(symbols)
     }
 
-    /// The character of a type.
+    /// Returns the character of a type.
     pub fn symbol(&self, stype: SpriteType) -> char {
         self.0[stype.index()]
     }

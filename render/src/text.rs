@@ -1,4 +1,4 @@
-//! A state as text: one character a cell, then the caption, the legend, and what a character cannot show.
+//! A state as text: one character a cell, then the caption, the legend, and the contents of crowded cells.
 
 use crate::caption;
 use crate::glyph::Glyph;
@@ -8,11 +8,11 @@ use engine::{Outcome, SpriteType, State};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Cells with several sprites that are told one by one.
+/// The most cells with several sprites to list.
 const MAX_STACKS: usize = 20;
 
-/// The board in lines of characters; a cell shows the uppermost sprite in it. Sprites between cells are in all that they
-/// overlap. Each line ends with a newline. Cost: O(sprites + cells).
+/// Returns the board in lines of characters; a cell shows the uppermost sprite in it. Sprites between cells are in
+/// all that they overlap. Each line ends with a newline. Cost: O(sprites + cells).
 pub fn rows(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     let columns = state.size().0.max(1) as usize;
     let cells = stacks(looks, symbols, state);
@@ -21,7 +21,8 @@ pub fn rows(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     cells.chunks(columns).map(row).collect()
 }
 
-/// The whole text: the rows, the caption, a legend of the types that are on the board, and the cells with several sprites.
+/// Returns the whole text: the rows, the caption, a legend of the types on the board, and the cells with several
+/// sprites.
 pub fn text(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     let game = looks.game();
     let mut text = rows(looks, symbols, state);
@@ -54,7 +55,7 @@ pub fn text(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     text
 }
 
-/// Row-major: the types seen in each cell, in drawing order, floors left out.
+/// Returns the types seen in each cell, row-major, in drawing order, without floors.
 fn stacks(looks: &Looks, symbols: &Symbols, state: &State) -> Vec<Vec<SpriteType>> {
     let game = looks.game();
     let by_name = |name: &String| {

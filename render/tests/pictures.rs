@@ -1,9 +1,9 @@
-//! Pictures of a small board of our own: pinned, and read back by other programs' readers.
+//! Pictures of a small board: pinned, and read back by independent readers.
 
 use engine::{Action, Analysis, Digest, Game, Level, Seed, State};
 use render::{Animation, Glyph, Looks, Painter, RenderError, Style, Symbols};
 
-/// Something of everything that must not be confused.
+/// A sample of all forms that must not be confused.
 const GAME: &str = "
 BasicGame
     SpriteSet
@@ -98,7 +98,7 @@ fn pixels_are_the_same_on_every_machine() {
     let mut painter = Painter::new();
     let digest = pixels(&mut painter, &looks, &state, &style);
     assert_eq!(digest.to_string(), "2cb101baf506e85e37173c8dcb96cd01385a165c4096b8cf0864679465c49547");
-    // Whatever was drawn before.
+    // The result does not depend on earlier pictures.
     pixels(&mut painter, &looks, &state, &Style::bare(9));
     assert_eq!(pixels(&mut painter, &looks, &state, &style), digest);
 }
@@ -202,7 +202,7 @@ fn a_gif_has_a_frame_for_the_start_and_one_for_each_tick() {
         }
         frames += 1;
     }
-    // What the frames leave behind is the last picture, but for blends that the palette has no place for.
+    // The frames add up to the last picture, except for blends that did not fit into the palette.
     for (got, wanted) in canvas.iter().zip(&last.pixels) {
         let off = got.iter().zip(wanted.0).map(|(a, b)| a.abs_diff(b)).max();
         assert!(off <= Some(40), "{got:?} for {wanted:?}");

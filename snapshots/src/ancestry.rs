@@ -1,4 +1,4 @@
-//! The releases before: what a new one must not hold again.
+//! The ancestors of a release: the games and levels that a new release must not repeat.
 
 use crate::card::{Card, Origin};
 use crate::contents::Contents;
@@ -12,23 +12,23 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use validators::novelty::GameForm;
 
-/// Why a release cannot follow another.
+/// The reasons why a release cannot follow another.
 #[derive(Debug, thiserror::Error)]
 pub enum AncestryError {
     /// The recipe names another parent.
     #[error("the recipe's parent is {asked}, but the root of `{name}` is {found}")]
     OtherParent {
-        /// In the recipe.
+        /// The root that the recipe names.
         asked: Digest,
-        /// Of the folder.
+        /// The root of the folder.
         found: Digest,
-        /// Of the folder.
+        /// The name of the folder.
         name: String,
     },
     /// The parent is damaged.
     #[error("the parent does not verify: {0}")]
     Damaged(String),
-    /// What the parent tells of its own ancestors is of another version.
+    /// The parent's record of its own ancestors is in another version's format.
     #[error(
         "what the parent knows of the releases before it cannot be read ({0}): use the arcade that minted it"
     )]
@@ -41,13 +41,13 @@ pub enum AncestryError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// The canonical item, rules and level, that a level of a game is: equal for the same but for names, the order of rules and the
-/// symmetries of the board.
+/// The canonical item (rules and level) of a level of a game. Items are equal if they differ only in names, in the
+/// order of rules or by a symmetry of the board.
 pub(crate) fn item(form: &GameForm, likeness: &Likeness, level: &engine::Level) -> Digest {
     Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }
 
-/// The games and levels of a release that none after it may hold again.
+/// The games and levels of a release that no later release may repeat.
 #[derive(Debug, Default)]
 pub(crate) struct Holdings {
     /// The rules of its generated games, without names, in the order of its items.
@@ -59,10 +59,10 @@ pub(crate) struct Holdings {
 }
 
 impl Holdings {
-    /// Of a sound release. Cost: one pass over its games, and some milliseconds each.
+    /// Reads the holdings of a sound release. Cost: one pass over its games, and some milliseconds each.
     ///
     /// # Errors
-    /// A card, a game or a level is none, or cannot be read.
+    /// A card, a game or a level is malformed or cannot be read.
     pub(crate) fn read(contents: &Contents, manifest: &Manifest) -> Result<Holdings, AncestryError> {
         let damaged = |path: &str| AncestryError::Damaged(format!("{path}: not what a release has there"));
         let read = |path: &str| -> Result<String, AncestryError> {
@@ -91,12 +91,13 @@ impl Holdings {
         Ok(found)
     }
 
-    /// The knowledge of a release that follows the one with this manifest, which holds this.
+    /// Returns the `known` field for a release that follows the one with this manifest, where `self` is what that one
+    /// holds.
     ///
     /// # Errors
-    /// The `known` of that one is of another version.
+    /// The `known` field of that manifest is in another version's format.
     pub(crate) fn known_after(&self, manifest: &Manifest) -> Result<Known, AncestryError> {
-        // Of the recipe this part alone, so that recipes with keys of other versions can be followed.
+        // Only this part of the recipe is read, so that recipes with keys of other versions can be followed.
         let mut known: Known = match manifest.recipe.get("known") {
             None => Known::default(),
             Some(known) => serde_json::from_value(known.clone()).map_err(AncestryError::Unreadable)?,
@@ -108,13 +109,13 @@ impl Holdings {
     }
 }
 
-/// Lets a recipe follow the release in `parent`, a folder or an archive: the recipe names its root, and holds what it and
-/// all before it hold.
+/// Makes a recipe follow the release in `parent`, a folder or an archive: the recipe then names its root and lists
+/// what it and all its ancestors hold.
 ///
 /// Cost: one pass over the files, and some milliseconds a game.
 ///
 /// # Errors
-/// The parent is not the one that the recipe names, or not sound.
+/// The parent is not the one that the recipe names, or it is not sound.
 pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
     let (integrity, contents) = Contents::open(parent)?;
     let manifest = &integrity.manifest;

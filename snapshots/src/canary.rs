@@ -1,12 +1,12 @@
-//! The canary: a GUID that every file of a release carries where it can, so that a corpus that swallowed the
-//! release can be searched for it.
+//! The canary: a GUID that every file of a release carries if its format allows. A corpus can be searched for it, to
+//! tell whether the release is in it.
 
 use engine::Digest;
 
-/// Changing this text changes every canary: it belongs to format 1.
+/// The key derivation context. Changing it changes every canary: it belongs to format 1.
 const CONTEXT: &str = "infinite-arcade 1 canary";
 
-/// The canary that belongs to `of`: the commitment of a sealed release, the recipe of an open one.
+/// The canary of `of`: of the commitment of a sealed release, or of the recipe of an open one.
 ///
 /// The first 16 bytes of BLAKE3's `derive_key(CONTEXT, of)`, as an RFC 9562 version 8 GUID in lower case:
 /// it says nothing about what `of` was made from.
@@ -27,7 +27,7 @@ pub fn canary(of: &Digest) -> String {
     text
 }
 
-/// Whether `text` has the shape of a canary: 8-4-4-4-12 lower-case hexadecimal digits, version 8, variant 10.
+/// Tests whether `text` has the shape of a canary: 8-4-4-4-12 lower-case hexadecimal digits, version 8, variant 10.
 pub(crate) fn is_canary(text: &str) -> bool {
     text.len() == 36
         && text.bytes().enumerate().all(|(index, byte)| match index {

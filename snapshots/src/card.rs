@@ -1,11 +1,11 @@
-//! `card.json`: what a game of a release is, where it comes from, and what its judges found.
+//! `card.json`: the description of a game of a release, its origin, and the results of its judges.
 
 use engine::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use validators::{Ladder, Rate};
 
-/// Where a game comes from.
+/// The origin of a game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Origin {
@@ -14,20 +14,20 @@ pub enum Origin {
         /// Its folder in the corpus.
         name: String,
     },
-    /// A game that the rule generator made.
+    /// A game made by the rule generator.
     Generated {
         /// The generator.
         generator: String,
         /// The patterns that were composed.
         patterns: Vec<String>,
-        /// Which candidate for its place it was, counted from 0.
+        /// The index of the candidate among those for its place, from 0.
         candidate: u32,
     },
 }
 
 impl Origin {
-    /// The patterns of mechanics that a generated game was composed of, each once: without its fiction, and without what
-    /// search and shrinking did to it.
+    /// The patterns of mechanics that a generated game was composed of, without duplicates: excluding its theme, and
+    /// the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept = |pattern: &&str| !["edit/", "fiction/"].iter().any(|other| pattern.starts_with(other));
@@ -35,11 +35,11 @@ impl Origin {
     }
 }
 
-/// A level and what its judges found.
+/// A level and the results of its judges.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelCard {
-    /// File beside the card.
+    /// The file beside the card.
     pub file: String,
     /// Digest of the level's canonical text.
     pub digest: Digest,
@@ -49,27 +49,28 @@ pub struct LevelCard {
     pub rows: usize,
     /// The generator that made it.
     pub generator: String,
-    /// The difficulty that was asked for, from 0 to 1.
+    /// The difficulty that was requested, from 0 to 1.
     pub difficulty: f64,
-    /// Which candidate for its place it was, counted from 0.
+    /// The index of the candidate among those for its place, from 0.
     pub candidate: u32,
-    /// Ticks of the witness.
+    /// The ticks of the witness.
     pub witness_ticks: usize,
-    /// Score of the witness.
+    /// The score of the witness.
     pub witness_score: f64,
-    /// Ticks of the shortest win, where it is proved that no fewer win.
+    /// The ticks of the shortest win, if it is proved to be the shortest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optimal_ticks: Option<usize>,
-    /// Forward-model calls that it took to find the witness.
+    /// The forward-model calls that the search for the witness took.
     #[serde(default)]
     pub search_calls: u64,
-    /// How often plain Monte-Carlo tree search won.
+    /// The win rate of plain Monte-Carlo tree search.
     pub mcts: Rate,
-    /// How random players fared.
+    /// The win rate of random players.
     pub random: Rate,
-    /// How players fared who did nothing.
+    /// The win rate of players that do nothing.
     pub idle: Rate,
-    /// How the players of a ladder fared, and how hard that makes the level, if the recipe asks for `skill`.
+    /// The results of the players of a ladder, and the difficulty that follows from them, if the recipe asks for
+    /// `skill`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
 }
@@ -78,28 +79,28 @@ pub struct LevelCard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Card {
-    /// The release's mark: text that holds it should not be trained on.
+    /// The release's canary: text that contains it should not be trained on.
     pub canary: String,
-    /// Folder in `games/`.
+    /// The folder in `games/`.
     pub id: String,
-    /// Title in the game's own fiction.
+    /// The title under the game's own theme.
     pub title: String,
-    /// What it is, for people.
+    /// A description for people.
     pub description: String,
-    /// How to win, for people.
+    /// The goal in words, for people.
     pub goal: String,
-    /// Which kind of game.
+    /// The kind of game.
     pub kind: String,
-    /// Whether anything moves unless the player acts.
+    /// `true` if something moves even if the player does not act.
     pub real_time: bool,
-    /// Whether chance plays no part.
+    /// `true` if chance plays no part.
     pub deterministic: bool,
-    /// Digest of the game's canonical text without comments.
+    /// The digest of the game's canonical text without comments.
     pub digest: Digest,
-    /// Where it comes from.
+    /// The origin of the game.
     pub origin: Origin,
     /// The rules in plain English.
     pub rules: String,
-    /// Its levels, from the easiest asked for to the hardest.
+    /// The levels, in order of the requested difficulty, from the easiest to the hardest.
     pub levels: Vec<LevelCard>,
 }

@@ -1,5 +1,5 @@
-//! The chain of releases: each names the root of the one before, so that nobody can change history without changing
-//! every release since.
+//! The chain of releases: each names the root of its predecessor, so that history cannot be changed without changing
+//! every later release.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -20,19 +20,19 @@ use crate::verify::COMPLETE;
 use engine::{Digest, SEMANTICS};
 use generators::GENERATION;
 
-/// How many releases a folder may hold that is searched for them; also how many other things.
+/// The most releases that a folder searched for them may hold, and the most other entries.
 pub const MAX_RELEASES: usize = 10_000;
 
 /// A release as the chain sees it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Link {
-    /// Name of the release.
+    /// The name of the release.
     pub name: String,
     /// Its root.
     pub root: Digest,
-    /// The root of the release before, as it names it.
+    /// The root of its predecessor, as the release states it.
     pub parent: Option<Digest>,
-    /// The folder or archive where it was found; as nearly as Unicode can where it is written as data.
+    /// The folder or archive where it was found; serialised with invalid Unicode replaced.
     #[serde(serialize_with = "shown")]
     pub place: PathBuf,
 }
@@ -49,30 +49,32 @@ impl Link {
     }
 }
 
-/// The releases before one, and what is wrong with them.
+/// The predecessors of a release, and the problems with them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Chain {
-    /// From the release that was asked about back to the oldest that was found.
+    /// The releases from the one that was asked about back to the oldest that was found.
     pub releases: Vec<Link>,
-    /// Whether the last of them names no release before it.
+    /// `true` if the last of them names no predecessor.
     pub complete: bool,
-    /// Releases that were given besides, which are none of the chain.
+    /// The number of other releases that were given and are not part of the chain.
     pub others: usize,
-    /// All that is wrong; empty if the chain is complete and there is no other history.
+    /// The problems; empty if the chain is complete and there is no other history.
     pub problems: Vec<String>,
 }
 
-/// Follows the roots from `start` back among the releases in `folders`, each a release (folder or archive) or a folder of
-/// releases. The integrity of every one that is given is checked; `start` is taken to be checked.
+/// Follows the roots from `start` back among the releases in `folders`, each a release (folder or archive) or a folder
+/// of releases. Checks the integrity of each of them; `start` must have been checked.
 ///
-/// A chain is sound if every root that is named is found, up to a release that names none; if no two releases that were
-/// given have one name; if no two follow the same release of the chain, which would be two histories, and none follows a
-/// release that was not given, which may be one of two; and if each release of the chain knows what those before it
-/// hold, and holds none of it again.
+/// A chain is sound if
+/// - every root that is named is found, up to a release that names none;
+/// - no two of the given releases have the same name;
+/// - no two follow the same release of the chain, which would be two histories, and none follows a release that was
+///   not given, which may be one of two;
+/// - each release of the chain lists what its predecessors hold, and repeats none of it.
 ///
-/// Cost: one pass over the files of all releases and another over those of the chain, and some milliseconds for each game
-/// of the chain. Folders are read on all threads of the current rayon pool, archives one after the other: memory for the
-/// manifests, one file of an archive at a time, and one archive of the chain.
+/// Cost: one pass over the files of all releases and another over those of the chain, and some milliseconds for each
+/// game of the chain. Folders are read on all threads of the current rayon pool, archives one after the other. Memory:
+/// the manifests, one file of an archive at a time, and one archive of the chain.
 ///
 /// # Errors
 /// One of the folders holds no release, or the file system refuses.
@@ -101,7 +103,7 @@ pub fn follow(start: Link, folders: &[PathBuf]) -> Result<Chain, SnapshotError> 
     Ok(chain)
 }
 
-/// The release at `place`; what is wrong if it is not sound.
+/// The release at `place`, or a message if it is not sound.
 fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     let wrong = |what: &dyn std::fmt::Display| Ok(Err(format!("{}: {what}", place.display())));
     match integrity_of(place) {
@@ -118,10 +120,10 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     }
 }
 
-/// Checks that each release of a chain, the newest first, knows what those before it hold, and holds none of that again.
+/// Checks that each release of a chain, the newest first, lists what its predecessors hold, and repeats none of it.
 ///
-/// `known` is compared as a whole where this arcade would state it in the same way; of a release of another
-/// generation only the names of those before.
+/// `known` is compared as a whole if this version of arcade would state it in the same way. Of a release of another
+/// generation, only the names of its predecessors are compared.
 fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
     let (mut forms, mut items) = (BTreeMap::new(), BTreeMap::new());
@@ -133,7 +135,7 @@ fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
         let holdings = match Holdings::read(&contents, &manifest) {
             Ok(holdings) => holdings,
             Err(AncestryError::Snapshot(error)) => return Err(error),
-            // Cards of other generations may be of another shape; then nothing can be said.
+            // Cards of other generations may have another shape; then nothing can be checked.
             Err(_) if !is_ours => {
                 before = None;
                 continue;
@@ -178,8 +180,7 @@ fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     Ok(problems)
 }
 
-/// The releases that are `folder` or lie in it, by name. What else lies there, other archives too, is left alone, and no
-/// link is followed.
+/// The releases that are `folder` or lie in it, by name. Everything else there is ignored, and no link is followed.
 fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
     let found = fs::metadata(folder).map_err(|source| match source.kind() {
@@ -213,9 +214,9 @@ fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     Ok(places)
 }
 
-/// The chain from `start` among sound `links`.
+/// The chain from `start` through sound `links`.
 fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
-    // The same release in two places is one: the root says what it is.
+    // The same release in two places counts as one: its root identifies it.
     let mut by_root: BTreeMap<Digest, Link> = BTreeMap::new();
     by_root.insert(start.root, start.clone());
     for link in links {
@@ -247,7 +248,7 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
     let mut names: BTreeMap<&str, &Link> = BTreeMap::new();
     let followers: BTreeMap<Digest, &Link> =
         releases.iter().filter_map(|link| Some((link.parent?, link))).collect();
-    // Those of the chain first: they are what the others are held against.
+    // Those of the chain first, because the others are compared with them.
     let others: Vec<&Link> = by_root.values().filter(|link| !passed.contains(&link.root)).collect();
     for link in releases.iter().chain(others.iter().copied()) {
         if let Some(other) = names.insert(&link.name, link) {
@@ -312,7 +313,7 @@ mod tests {
         let (one, two, three) = (link("1", "a", None), link("2", "b", Some("a")), link("3", "c", Some("b")));
         check(one.clone(), vec![], &["1"], true, &[]);
         check(three.clone(), vec![one.clone(), two.clone()], &["3", "2", "1"], true, &[]);
-        // The start is among those given, one of them twice, and a stranger.
+        // The start is among those given, one of them is given twice, and one is unrelated.
         let given = vec![two.clone(), one.clone(), two.clone(), three.clone(), link("tiny", "t", None)];
         check(three.clone(), given.clone(), &["3", "2", "1"], true, &[]);
         assert_eq!(join(three.clone(), given, Vec::new()).others, 1);
@@ -320,7 +321,7 @@ mod tests {
         check(three.clone(), vec![two.clone()], &["3", "2"], false, &[&missing]);
     }
 
-    /// One that follows an absent rival of `2` is not passed over.
+    /// A release that follows an absent rival of `2` is reported.
     #[test]
     fn what_follows_something_absent_is_told() {
         let (one, two) = (link("1", "a", None), link("2", "b", Some("a")));
@@ -357,7 +358,7 @@ mod tests {
         check(three, vec![homonym, two], &["3", "2", "3"], true, &["two releases are called `3`"]);
     }
 
-    /// Sound releases cannot form a ring, because a root covers the parent's; the walk ends all the same.
+    /// Sound releases cannot form a ring, because a root covers the parent's, but the walk must end anyway.
     #[test]
     fn rings_end() {
         let (one, two) = (link("1", "a", Some("b")), link("2", "b", Some("a")));

@@ -1,4 +1,4 @@
-//! A release wherever it lies: in a folder or in an archive.
+//! Access to a release, in a folder or in an archive.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use crate::error::SnapshotError;
 use crate::folder::{self, Limits};
 use crate::integrity::{Integrity, check_integrity};
 
-/// What the files of a release are read from.
+/// The source of a release's files.
 pub(crate) enum Contents {
     /// A folder.
     Folder(PathBuf),
@@ -16,10 +16,10 @@ pub(crate) enum Contents {
     Archive(Box<Archive>),
 }
 
-/// The integrity of the release at `place`, a folder or an archive, of which no file is kept.
+/// The integrity of the release at `place`, a folder or an archive. No file is kept.
 ///
 /// # Errors
-/// As for [`check_integrity`] and [`Archive::check`].
+/// See [`check_integrity`] and [`Archive::check`].
 pub(crate) fn integrity_of(place: &Path) -> Result<Integrity, SnapshotError> {
     match is_file(place) {
         true => Archive::check(place),
@@ -27,16 +27,16 @@ pub(crate) fn integrity_of(place: &Path) -> Result<Integrity, SnapshotError> {
     }
 }
 
-/// True if the release at `place` is one file.
+/// Tests whether the release at `place` is a single file.
 pub(crate) fn is_file(place: &Path) -> bool {
     fs::metadata(place).is_ok_and(|found| found.is_file())
 }
 
 impl Contents {
-    /// Checks the integrity of the release at `place`, a folder or an archive, and gives its files.
+    /// Checks the integrity of the release at `place`, a folder or an archive, and returns access to its files.
     ///
     /// # Errors
-    /// As for [`check_integrity`] and [`Archive::open`].
+    /// See [`check_integrity`] and [`Archive::open`].
     pub(crate) fn open(place: &Path) -> Result<(Integrity, Contents), SnapshotError> {
         if is_file(place) {
             let archive = Archive::open(place)?;
@@ -45,10 +45,10 @@ impl Contents {
         Ok((check_integrity(place)?, Contents::Folder(place.to_path_buf())))
     }
 
-    /// The content of a file that may not be there.
+    /// The content of a file; `None` if it does not exist.
     ///
     /// # Errors
-    /// As for [`folder::read`].
+    /// See [`folder::read`].
     pub(crate) fn find(&self, path: &str) -> Result<Option<Vec<u8>>, SnapshotError> {
         match self.read(path) {
             Ok(bytes) => Ok(Some(bytes)),
@@ -62,7 +62,7 @@ impl Contents {
     /// The content of a file that the manifest lists.
     ///
     /// # Errors
-    /// As for [`folder::read`]; for an archive, there is no such file.
+    /// See [`folder::read`]; for an archive, there is no such file.
     pub(crate) fn read(&self, path: &str) -> Result<Vec<u8>, SnapshotError> {
         match self {
             Contents::Folder(root) => folder::read(root, path, Limits::SNAPSHOT.file_bytes),

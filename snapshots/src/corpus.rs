@@ -1,39 +1,39 @@
-//! The corpus: hand-written games that releases take new levels for, and that verbs accept by name.
+//! The corpus: hand-written games that releases make new levels for, and that commands accept by name.
 
 use serde::{Deserialize, Serialize};
 
-/// `CARD.toml` of a corpus game.
+/// The `CARD.toml` of a corpus game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CorpusCard {
-    /// Title in the game's own fiction.
+    /// The title under the game's own theme.
     pub title: String,
-    /// What it is.
+    /// A description of the game.
     pub description: String,
-    /// How to win.
+    /// The goal in words.
     pub goal: String,
-    /// Which kind of game.
+    /// The kind of game.
     pub kind: String,
-    /// Whether anything moves unless the player acts.
+    /// `true` if something moves even if the player does not act.
     pub real_time: bool,
-    /// What skill it asks for.
+    /// The skill that the game asks for.
     pub skill: String,
-    /// What each level is for.
+    /// The purpose of each level.
     pub levels: Vec<Intent>,
 }
 
-/// What a level is for.
+/// The purpose of a level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Intent {
-    /// What it teaches or tests.
+    /// The thing that the level teaches or tests.
     pub intent: String,
 }
 
 /// A corpus game as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CorpusGame {
-    /// Its folder's name.
+    /// The name of its folder.
     pub name: String,
     /// `game.vgdl`.
     pub source: String,
@@ -46,7 +46,7 @@ pub struct CorpusGame {
 /// All corpus games, by name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Corpus {
-    /// Sorted by name.
+    /// The games, sorted by name.
     pub games: Vec<CorpusGame>,
 }
 

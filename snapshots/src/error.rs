@@ -1,4 +1,4 @@
-//! The one error type of the crate: about an operation, never about a VGDL file.
+//! The error type of the crate. Errors are about operations, never about a VGDL file.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,30 +7,30 @@ use crate::canonical::CanonicalError;
 use crate::merkle::DuplicatePath;
 use crate::path::PathProblem;
 
-/// Why a release folder could not be written or read.
+/// The reasons why a release folder cannot be written or read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotError {
     /// The file system refused.
     #[error("cannot {action} `{}`", .path.display())]
     Io {
-        /// What was tried: a verb, as in "cannot read".
+        /// The operation that failed: a verb, as in "cannot read".
         action: &'static str,
-        /// On what.
+        /// The path that it concerned.
         path: PathBuf,
-        /// The system's own answer.
+        /// The system's error.
         source: io::Error,
     },
-    /// The place to write to is taken.
+    /// The output path is occupied.
     #[error("`{}` exists and is not an empty folder: choose another --out", .path.display())]
     Occupied {
-        /// The place.
+        /// The output path.
         path: PathBuf,
     },
-    /// A file stands where a folder above the place to write to should be.
+    /// A file stands in the place of a parent folder of the output path.
     #[error("`{}` cannot be made: a folder above it is a file; choose another --out", .path.display())]
     BelowFile {
-        /// The place.
+        /// The output path.
         path: PathBuf,
     },
     /// A folder that ends with `.partial` was not left by a killed run.
@@ -39,22 +39,22 @@ pub enum SnapshotError {
         /// The folder.
         path: PathBuf,
     },
-    /// The work of an interrupted mint is there.
+    /// The output path holds the work of an interrupted mint.
     #[error("`{}` holds what an interrupted mint has made: go on with --resume, or remove it to begin anew", .path.display())]
     Interrupted {
         /// The folder.
         path: PathBuf,
     },
-    /// The finished lots are those of another mint.
+    /// The finished jobs are those of another mint.
     #[error(
         "`{}` holds what another recipe, or another arcade, has made: go on with that one, or choose another --out",
         .path.display()
     )]
     OtherPlan {
-        /// The folder with the lots.
+        /// The folder with the jobs.
         path: PathBuf,
     },
-    /// What would be packed is in part held back.
+    /// The release to be packed is sealed, so part of it is withheld.
     #[error("`{}` is sealed, and an archive is a whole release: pack it when it is revealed", .path.display())]
     HeldBack {
         /// The public part.
@@ -74,7 +74,7 @@ pub enum SnapshotError {
         /// The fault.
         source: serde_json::Error,
     },
-    /// A secret that somebody made up.
+    /// The secret was not drawn by arcade.
     #[error(
         "`{}` is not a secret that can be trusted: {what}; draw one with `arcade release RECIPE --commit`", .path.display()
     )]
@@ -90,21 +90,21 @@ pub enum SnapshotError {
         /// The folder with the lock.
         path: PathBuf,
     },
-    /// The place to write to ends in `..` or `.` or is the root of the file system.
+    /// The output path ends in `..` or `.` or is the root of the file system.
     #[error("`{}` has no name of its own: name the folder to create, as in --out releases/new", .path.display())]
     Nameless {
-        /// The place.
+        /// The output path.
         path: PathBuf,
     },
-    /// A relative path is not one that a release may contain.
+    /// A release may not contain this relative path.
     #[error("`{}` cannot be in a snapshot: {problem}; rename it", path.escape_debug())]
     Path {
         /// The path as stated.
         path: String,
-        /// The rule that it breaks.
+        /// The rule that it violates.
         problem: PathProblem,
     },
-    /// A symbolic link, where a release has only files and folders.
+    /// A symbolic link. A release has only files and folders.
     #[error("`{}` is a symbolic link, which is not followed: put the file itself there", .path.display())]
     Link {
         /// The link.
@@ -113,12 +113,12 @@ pub enum SnapshotError {
     /// A folder, pipe or device where a file should be, or a file where a folder should be.
     #[error("`{}` is not a {expected}: fetch the snapshot again", .path.display())]
     Kind {
-        /// What was found.
+        /// The path of the entry.
         path: PathBuf,
-        /// What a snapshot has there: "file" or "folder".
+        /// The expected kind of entry: "file" or "folder".
         expected: &'static str,
     },
-    /// A file above the limit.
+    /// A file exceeds the size limit.
     #[error("`{}` is larger than {limit} bytes, the most that a snapshot may hold: split it", .path.display())]
     TooLarge {
         /// The file.
@@ -132,24 +132,24 @@ pub enum SnapshotError {
         /// The folder.
         path: PathBuf,
     },
-    /// A file, where a folder is needed.
+    /// A file was given, but a folder is needed.
     #[error("`{}` is not a folder: name the snapshot's folder; an archive is unpacked first, as with tar -xf", .path.display())]
     NotAFolder {
         /// The file.
         path: PathBuf,
     },
-    /// The inside of a `.partial` folder.
+    /// The path is inside a `.partial` folder.
     #[error("`{}` is unfinished: its minting was interrupted, mint it again", .path.display())]
     Unfinished {
         /// The folder.
         path: PathBuf,
     },
-    /// The manifest is of a later format than this binary knows.
+    /// The manifest's format is newer than those that this binary knows.
     #[error("snapshot format {found} is newer than this arcade understands ({known}): use a newer arcade")]
     Format {
         /// The format that the manifest states.
         found: u64,
-        /// The newest format that is understood here.
+        /// The newest format that this binary reads.
         known: u32,
     },
     /// The manifest is not JSON, or not JSON of this shape.
@@ -157,7 +157,7 @@ pub enum SnapshotError {
     Syntax {
         /// The manifest.
         path: PathBuf,
-        /// The position and what was expected there.
+        /// The position, and what was expected there.
         source: serde_json::Error,
     },
     /// The manifest contradicts itself or its limits.
@@ -165,10 +165,10 @@ pub enum SnapshotError {
     Manifest {
         /// The manifest.
         path: PathBuf,
-        /// What is wrong, naming the item.
+        /// The fault, with the name of the item.
         message: String,
     },
-    /// A folder that is searched for releases holds too much.
+    /// A folder that is searched for releases holds too many entries.
     #[error("`{}` holds more than {limit} files and folders: name the releases one by one", .path.display())]
     Crowded {
         /// The folder.
@@ -187,7 +187,7 @@ pub enum SnapshotError {
     Archive {
         /// The archive.
         path: PathBuf,
-        /// What is wrong.
+        /// The fault.
         message: String,
     },
     /// A file to be written exists.
@@ -196,23 +196,23 @@ pub enum SnapshotError {
         /// The file.
         path: PathBuf,
     },
-    /// A release that does not hold what its manifest says, where only a sound one will do.
+    /// A release does not hold what its manifest says, but a sound one is required.
     #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.display())]
     Unsound {
         /// The release.
         path: PathBuf,
         /// Its first problem.
         first: String,
-        /// How many more there are.
+        /// The number of further problems.
         more: usize,
     },
-    /// A file changed between two looks at it.
+    /// A file changed between two accesses.
     #[error("`{}` changed while it was read: let nothing write there and try again", .path.display())]
     Changed {
         /// The file.
         path: PathBuf,
     },
-    /// A path that has no room in a tar header.
+    /// A path is too long for a tar header.
     #[error("`{path}` is too long a path for an archive: pass the folder on as it is")]
     Untarable {
         /// The path in the archive.
@@ -227,12 +227,12 @@ pub enum SnapshotError {
 }
 
 impl SnapshotError {
-    /// For `map_err`: the error of trying to `action` on `path`.
+    /// Returns a closure for `map_err` that makes the error of trying to `action` on `path`.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> SnapshotError {
         move |source| SnapshotError::Io { action, path: path.to_path_buf(), source }
     }
 
-    /// The same error about the manifest at `place`: it is parsed from bytes that have no place.
+    /// The same error about the manifest at `place`, because a manifest is parsed from bytes without a path.
     pub(crate) fn in_manifest(self, place: &Path) -> SnapshotError {
         let path = place.to_path_buf();
         match self {
@@ -271,7 +271,7 @@ mod tests {
         assert!(error.source().is_some());
     }
 
-    /// A path from a manifest may hold anything; a terminal must not see it raw.
+    /// A path from a manifest may contain anything, so terminals must not receive it unescaped.
     #[test]
     fn control_characters_are_escaped() {
         let path = "a\u{1b}[2Jb".to_string();

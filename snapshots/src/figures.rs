@@ -1,28 +1,28 @@
-//! Figures with their bands.
+//! Figures with confidence intervals.
 
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, quantile, wilson};
 
-/// So many of so many.
+/// A share: a count out of a total.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Share {
-    /// How many.
+    /// The count.
     pub count: u64,
-    /// Of how many.
+    /// The total.
     pub of: u64,
-    /// Wilson's interval of the share, 95 %.
+    /// The 95 % Wilson interval of the share.
     pub interval: [f64; 2],
 }
 
 impl Share {
-    /// So many of so many.
+    /// The share of `count` out of `of`.
     pub fn new(count: u64, of: u64) -> Share {
         let interval = wilson(count, of, Z95);
         Share { count, of, interval: [interval.low, interval.high] }
     }
 
-    /// How many of some answers are yes.
+    /// The share of answers that are `true`.
     pub(crate) fn yes(answers: impl IntoIterator<Item = bool>) -> Share {
         let (mut count, mut of) = (0, 0);
         for answer in answers {
@@ -32,7 +32,7 @@ impl Share {
         Share::new(count, of)
     }
 
-    /// The share, from 0 to 1; 0 of nothing.
+    /// The share, from 0 to 1; 0 if the total is 0.
     pub fn share(&self) -> f64 {
         self.count as f64 / self.of.max(1) as f64
     }
@@ -44,17 +44,17 @@ impl Share {
 pub struct Estimate {
     /// The mean.
     pub mean: f64,
-    /// Its bootstrap interval, 95 %, with the levels drawn anew.
+    /// The 95 % bootstrap interval of the mean, with levels resampled.
     pub interval: [f64; 2],
-    /// Over how many levels.
+    /// The number of levels.
     pub levels: u64,
 }
 
-/// Resamples of an interval.
+/// The number of resamples for an interval.
 const RESAMPLES: usize = 2000;
 
 impl Estimate {
-    /// The mean of some values; none of no values.
+    /// The mean of some values; `None` if there are none.
     pub(crate) fn of(values: &[f64]) -> Option<Estimate> {
         let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
         let interval = bootstrap(values, mean, RESAMPLES, 0.95, [0; 32])?;
@@ -63,26 +63,26 @@ impl Estimate {
     }
 }
 
-/// A sample in a few numbers.
+/// A summary of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantiles {
-    /// Of how many values.
+    /// The number of values.
     pub count: u64,
-    /// The smallest.
+    /// The minimum.
     pub min: f64,
-    /// A quarter is at most this.
+    /// The lower quartile.
     pub lower: f64,
-    /// The middle.
+    /// The median.
     pub median: f64,
-    /// Three quarters are at most this.
+    /// The upper quartile.
     pub upper: f64,
-    /// The greatest.
+    /// The maximum.
     pub max: f64,
 }
 
 impl Quantiles {
-    /// The quantiles of some values; none of no values.
+    /// The quantiles of some values; `None` if there are none.
     pub(crate) fn of(values: &[f64]) -> Option<Quantiles> {
         let at = |share| quantile(values, share);
         Some(Quantiles {

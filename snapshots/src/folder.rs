@@ -1,9 +1,8 @@
-//! Reading a release folder from someone else: no link is followed, nothing but regular files is opened, and
-//! everything is bounded before it is read.
+//! Reading an untrusted release folder: no link is followed, only regular files are opened, and every size is bounded
+//! before anything is read.
 //!
-//! The folder that the user names may itself be reached through a link; nothing below it may.
-//! A folder that changes *while* it is read is not defended against beyond noticing, on Unix, that the file
-//! opened is not the file examined.
+//! The folder that the user names may itself be reached through a link; nothing below it may. The only defence against
+//! a folder that changes *while* it is read is to detect, on Unix, that the file opened is not the file examined.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, Metadata};
@@ -15,14 +14,14 @@ use crate::path::{PathProblem, check_path};
 use crate::problem::{Flaw, Problem};
 use engine::Digest;
 
-/// How much a release folder may hold.
+/// The limits of a release folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Files, and also folders, each at most so many.
+    /// The maximum number of files, and of folders.
     pub files: u64,
-    /// Bytes in one file.
+    /// The maximum bytes of one file.
     pub file_bytes: u64,
-    /// Bytes in all files.
+    /// The maximum bytes of all files.
     pub total_bytes: u64,
 }
 
@@ -40,29 +39,29 @@ impl Default for Limits {
 /// A regular file in a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
-    /// Relative path, `/`-separated, as [`check_path`] allows.
+    /// The relative path, `/`-separated, as [`check_path`] allows.
     pub path: String,
-    /// Size in bytes.
+    /// The size in bytes.
     pub size: u64,
 }
 
-/// What a folder holds.
+/// The content of a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Listing {
-    /// The regular files that may be in a release, by the bytes of their paths.
+    /// The regular files that may be in a release, sorted by the bytes of their paths.
     pub entries: Vec<Entry>,
     /// Everything else, sorted.
     pub problems: Vec<Problem>,
-    /// Names at the top that were passed over, sorted.
+    /// The names at the top that were skipped, sorted.
     pub passed_over: Vec<String>,
-    /// Whether all of the folder was looked at: false after [`Flaw::TooMany`], and then there are no entries.
+    /// `true` if the whole folder was listed; `false` after [`Flaw::TooMany`], and then there are no entries.
     pub complete: bool,
 }
 
 /// Walks the folder `root`. The result does not depend on the order in which the system lists names.
 ///
 /// Links, special files, unsafe names, empty folders and exceeded limits are problems, not errors. Cost: one
-/// look at each name, at most twice `limits.files` of them; no file is opened.
+/// examination of each name, for at most twice `limits.files` names; no file is opened.
 ///
 /// # Errors
 /// A folder cannot be read.
@@ -70,7 +69,7 @@ pub fn list(root: &Path, limits: &Limits) -> Result<Listing, SnapshotError> {
     list_but(root, limits, &[])
 }
 
-/// As [`list`], but what has one of these names at the top of the folder is not looked at, whatever it is.
+/// Lists a folder like [`list`], but skips entries with one of these names at the top of the folder.
 pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<Listing, SnapshotError> {
     let (mut entries, mut problems, mut passed_over) = (Vec::new(), Vec::new(), Vec::new());
     let (mut files, mut folders, mut total) = (0, 0, 0_u64);
@@ -117,11 +116,11 @@ pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<L
     Ok(Listing { entries, problems, passed_over, complete: true })
 }
 
-/// The bytes of the file at `relative` below `root`, at most `limit` of them.
+/// Reads the file at `relative` below `root`, at most `limit` bytes.
 ///
 /// # Errors
-/// The path is unsafe, a component is a link, something other than a file is there, it has more than `limit`
-/// bytes, or it cannot be read.
+/// The path is unsafe, a component is a link, the entry is not a file, it has more than `limit` bytes, or it cannot be
+/// read.
 pub fn read(root: &Path, relative: &str, limit: u64) -> Result<Vec<u8>, SnapshotError> {
     let file = open(root, relative)?;
     let path = join(root, relative);
@@ -133,11 +132,11 @@ pub fn read(root: &Path, relative: &str, limit: u64) -> Result<Vec<u8>, Snapshot
     }
 }
 
-/// Size and digest of the file at `relative` below `root`, read in pieces; of its first `limit` + 1 bytes if it
-/// is longer than `limit`.
+/// The size and digest of the file at `relative` below `root`, read in pieces; of its first `limit` + 1 bytes if it is
+/// longer than `limit`.
 ///
 /// # Errors
-/// As for [`read`], except that a long file is none.
+/// See [`read`], except that a long file is no error.
 pub(crate) fn digest(root: &Path, relative: &str, limit: u64) -> Result<(u64, Digest), SnapshotError> {
     let file = open(root, relative)?;
     let mut hasher = blake3::Hasher::new();
@@ -146,7 +145,7 @@ pub(crate) fn digest(root: &Path, relative: &str, limit: u64) -> Result<(u64, Di
     Ok((hasher.count(), Digest::from_bytes(*hasher.finalize().as_bytes())))
 }
 
-/// Whether both describe the same file; where that cannot be told, yes.
+/// Tests whether both describe the same file; returns `true` if that cannot be determined.
 pub(crate) fn same_file(a: &Metadata, b: &Metadata) -> bool {
     #[cfg(unix)]
     {
@@ -193,7 +192,7 @@ fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
     }
 }
 
-/// The path of `name` in `folder`, and what is wrong with it. A name that is not Unicode is shown approximately.
+/// The path of `name` in `folder`, and the result of checking it. A name that is not Unicode is shown approximately.
 fn relative(folder: &str, name: &OsStr) -> (String, Result<(), PathProblem>) {
     let separator = if folder.is_empty() { "" } else { "/" };
     let path = format!("{folder}{separator}{}", name.to_string_lossy());
@@ -218,7 +217,7 @@ fn flaw_of(found: &Metadata, named: Result<(), PathProblem>, limits: &Limits) ->
     (size > limit).then_some(Flaw::TooLarge { size, limit })
 }
 
-/// `relative` below `root`, with the system's separators.
+/// Joins `relative` to `root`, with the system's separators.
 pub(crate) fn join(root: &Path, relative: &str) -> PathBuf {
     let mut path = root.to_path_buf();
     path.extend(relative.split('/'));
@@ -340,7 +339,7 @@ mod tests {
             for path in ["file", "folder/b", "dangling", "self/a", "self/self/a"] {
                 assert!(matches!(read(&root, path, 9), Err(SnapshotError::Link { .. })), "{path}");
             }
-            // The folder that the user names is another matter.
+            // The folder that the user names may be a link.
             symlink("in", home.path().join("alias")).expect("linked");
             assert_eq!(read(&home.path().join("alias"), "a", 9).expect("readable"), b"x");
         }

@@ -1,4 +1,4 @@
-//! Whether a release folder holds exactly what its manifest says.
+//! The integrity check: a release folder must hold exactly what its manifest says.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -12,29 +12,29 @@ use crate::papers::{self, Beside};
 use crate::problem::{Flaw, Problem};
 use crate::sealed::HELD;
 
-/// The answer of [`check_integrity`].
+/// The result of [`check_integrity`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Integrity {
     /// The manifest as the folder states it.
     pub manifest: Manifest,
-    /// All that is wrong, sorted; empty if the folder is what the manifest says.
+    /// All problems, sorted; empty if the folder is what the manifest says.
     pub problems: Vec<Problem>,
-    /// Files beside the tree, which the root does not cover; none in an archive.
+    /// Files beside the tree, which the root does not cover; empty for an archive.
     pub beside: Beside,
 }
 
 impl Integrity {
-    /// Whether nothing is wrong: the files, and the header, are those under `manifest.root`. Whether that is the
-    /// root that was published is for the caller to compare.
+    /// Returns `true` if there are no problems: the files and the header are those under `manifest.root`. The caller
+    /// must compare that root with the published one.
     pub fn is_sound(&self) -> bool {
         self.problems.is_empty()
     }
 }
 
-/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. Trusts nothing in it: no
-/// link is followed, nothing above the [limits](Limits::SNAPSHOT) or of another size than stated is read.
+/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. Trusts nothing in it: no link is
+/// followed, and no file above the [limits](Limits::SNAPSHOT) or of another size than stated is read.
 ///
-/// Cost: one pass over the files, in pieces; memory in proportion to the manifest.
+/// Cost: one pass over the files, in pieces; memory proportional to the manifest.
 ///
 /// # Errors
 /// There is no manifest, it is not sound in itself (see [`Manifest::parse`]), or the file system refuses.
@@ -48,7 +48,7 @@ pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     Ok(Integrity { manifest, problems, beside })
 }
 
-/// What it means that there is no manifest to read.
+/// The error for a manifest that cannot be read.
 fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     let path = root.to_path_buf();
     match error {
@@ -65,7 +65,7 @@ fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     }
 }
 
-/// What is wrong with a manifest that can be read: its text, its root, its checksum.
+/// The problems of a readable manifest: its text, its root, its checksum.
 pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec<Problem>, SnapshotError> {
     let problem = |flaw| Problem { path: MANIFEST_FILE.into(), flaw };
     let mut problems = Vec::new();
@@ -86,7 +86,7 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
     if !listing.complete {
         return Ok(problems);
     }
-    // What is there but no plain file is named already, and not missing.
+    // Entries that exist but are not plain files are reported already, and are not missing.
     let named: BTreeSet<String> = problems.iter().map(|problem| problem.path.clone()).collect();
     let mut awaited: BTreeMap<&str, _> =
         manifest.items.iter().map(|item| (item.path.as_str(), item)).collect();
@@ -104,7 +104,7 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
         };
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
-    // A sealed release keeps back some of its files until it is revealed: all of them or none.
+    // A sealed release withholds some of its files until it is revealed: all of them or none.
     let is_held = |path: &str| manifest.kind == Kind::Sealed && path.starts_with(HELD);
     let all_held = manifest
         .items
@@ -193,8 +193,8 @@ mod tests {
         assert!(check_integrity(&release.root).expect("readable").is_sound());
     }
 
-    /// A changed bit of the manifest is damage, wherever it is: never a sound release, one of another format, or a file's
-    /// fault only.
+    /// A flipped bit anywhere in the manifest is reported as damage: never as a sound release, a release of another
+    /// format, or only a fault of a file.
     #[test]
     fn every_byte_of_the_manifest_counts() {
         let release = release();
@@ -255,7 +255,7 @@ mod tests {
         check(write("games/x/a b", b""), &[("games/x/a b", spaced)]);
     }
 
-    /// Papers, and what other programs leave beside the tree, are told and no tampering.
+    /// Papers, and what other programs leave beside the tree, are listed, and do not count as tampering.
     #[test]
     fn what_is_beside_the_tree() {
         let release = release();
@@ -271,7 +271,7 @@ mod tests {
             ["papers/LICENSE"]
         );
         assert_eq!(beside.ignored, [".DS_Store", ".git"]);
-        // A manifest that lists papers does not put them under the root's protection.
+        // The root does not protect papers, even if a manifest lists them.
         let mut files = FILES.to_vec();
         files.push(("papers/LICENSE", b"MIT"));
         let text = example(&files).to_bytes().expect("sound");
@@ -316,7 +316,7 @@ mod tests {
         assert!(matches!(check_integrity(&release.root), Err(SnapshotError::Link { .. })));
     }
 
-    /// Repairing the manifest after altering a file needs a new root, and an old root is found wrong.
+    /// A manifest repaired after altering a file needs a new root; with the old root, the root is reported as wrong.
     #[test]
     fn a_forged_manifest_has_another_root() {
         let release = release();

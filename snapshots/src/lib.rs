@@ -1,9 +1,9 @@
-//! Releases: minted from a recipe, frozen into a folder, read back without trust, minted again from their seed.
+//! Releases: minted from a recipe, frozen into a folder, read without trust, and minted again from their seed.
 //!
 //! A release folder holds files and one `MANIFEST.json`. The [`Manifest`] lists every file with its size and
-//! [`Digest`], and states the root of a [`merkle`] tree over them, so that one file can be proved without the
-//! rest and each release can name the root of the one before. A [`Draft`] writes a folder that is complete or
-//! absent; [`check_integrity`] reads one and reports every [`Problem`] at once. [`archive`] makes it one file, [`proof`]
+//! [`Digest`], and states the root of a [`merkle`] tree over them. So one file can be proved without the rest, and
+//! each release can name the root of its predecessor. A [`Draft`] writes a folder that is complete or absent;
+//! [`check_integrity`] reads one and reports every [`Problem`] at once. [`archive`] packs it into one file, [`proof`]
 //! proves a file or a game of it, [`chain`] follows the roots from release to release.
 //!
 //! ```

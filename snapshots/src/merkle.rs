@@ -1,7 +1,7 @@
-//! A Merkle tree over the files of a release, so that one file can be proved without the rest.
+//! A Merkle tree over the files of a release, which allows proving one file without the rest.
 //!
-//! The shape is that of RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n), the hash
-//! is BLAKE3, and leaves and nodes are domain-separated so that neither can pass for the other:
+//! The shape is that of RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n), the hash is
+//! BLAKE3, and leaves and nodes are domain-separated so that neither can pass for the other:
 //!
 //! ```text
 //! leaf  = BLAKE3(0x00 ‖ length of path: u64, little-endian ‖ path ‖ digest)
@@ -11,32 +11,32 @@
 //!
 //! Leaves are ordered by the bytes of their paths. This layout is fixed for format 1.
 //!
-//! A proof shows that a leaf, path included, is in the tree. As in RFC 6962 it does not bind the *number* of
+//! A proof shows that a leaf, including its path, is in the tree. As in RFC 6962 it does not bind the *number* of
 //! leaves: `size` only says which shape to follow, and another size can describe the same path to the root.
 
 use serde::{Deserialize, Serialize};
 
 use engine::Digest;
 
-/// A file as the tree sees it.
+/// A file in the tree.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Leaf {
-    /// Relative path, `/`-separated. The tree hashes its bytes and does not judge it: see
+    /// The relative path, `/`-separated. The tree hashes its bytes without checking them: see
     /// [`check_path`](crate::check_path).
     pub path: String,
-    /// Digest of the file's content.
+    /// The digest of the file's content.
     pub digest: Digest,
 }
 
-/// Two leaves have the same path, so the tree would say two things about one file.
+/// Two leaves have the same path, so the tree would be ambiguous about the file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{}` is listed twice: list each file once", path.escape_debug())]
 pub struct DuplicatePath {
-    /// The path, the first such in byte order.
+    /// The first such path in byte order.
     pub path: String,
 }
 
-/// The root over `leaves`, given in any order: it is a function of the set. Cost: O(n log n).
+/// The root over `leaves`, which may be in any order. Cost: O(n log n).
 ///
 /// # Errors
 /// Two leaves have the same path.
@@ -45,7 +45,7 @@ pub fn root(leaves: &[Leaf]) -> Result<Digest, DuplicatePath> {
     Ok(subtree_root(&hashes))
 }
 
-/// The proof for the leaf at `path` in the tree over `leaves`, given in any order. Cost: O(n log n).
+/// The proof for the leaf at `path` in the tree over `leaves`, which may be in any order. Cost: O(n log n).
 ///
 /// `None` if no leaf has that path, or if any two leaves share a path and so no tree exists.
 pub fn prove(leaves: &[Leaf], path: &str) -> Option<Proof> {
@@ -57,27 +57,27 @@ pub fn prove(leaves: &[Leaf], path: &str) -> Option<Proof> {
     Some(Proof { index: index as u64, size: hashes.len() as u64, siblings })
 }
 
-/// What must be added to a leaf to reach the root: the audit path of RFC 6962 §2.1.1.
+/// The hashes that lead from a leaf to the root: the audit path of RFC 6962 §2.1.1.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Proof {
-    /// Position of the leaf among the sorted leaves, from 0.
+    /// The position of the leaf among the sorted leaves, from 0.
     pub index: u64,
-    /// Number of leaves in the tree.
+    /// The number of leaves in the tree.
     pub size: u64,
-    /// Roots of the subtrees beside the way up, from the leaf's sibling to the root's child.
+    /// The roots of the sibling subtrees on the way up, from the leaf's sibling to the root's child.
     pub siblings: Vec<Digest>,
 }
 
 impl Proof {
-    /// Whether `leaf` is in the tree whose root is `root`. Accepts any proof, however malformed, as an answer of
-    /// no. Cost: at most 64 hashes.
+    /// Tests whether `leaf` is in the tree whose root is `root`. Malformed proofs give `false`. Cost: at most 64
+    /// hashes.
     pub fn verify(&self, leaf: &Leaf, root: &Digest) -> bool {
         if self.index >= self.size {
             return false;
         }
-        // RFC 9162 §2.1.3.2: the bits of `position` say on which side of each sibling we are; `last` is the
-        // position of the rightmost node of the same level, which has no sibling where the tree is ragged.
+        // RFC 9162 §2.1.3.2: the bits of `position` say on which side of each sibling we are; `last` is the position
+        // of the rightmost node of the same level, which has no sibling if the tree is ragged.
         let (mut position, mut last) = (self.index, self.size - 1);
         let mut hash = leaf_hash(leaf);
         for sibling in &self.siblings {
@@ -126,7 +126,7 @@ fn node_hash(left: &Digest, right: &Digest) -> Digest {
     Digest::from_bytes(*hasher.finalize().as_bytes())
 }
 
-/// Recursion as deep as the tree: the logarithm of the number of leaves.
+/// The root of a subtree. The recursion depth is the logarithm of the number of leaves.
 fn subtree_root(hashes: &[Digest]) -> Digest {
     match hashes {
         [] => Digest::of(b""),
@@ -209,7 +209,7 @@ mod tests {
         assert_eq!(prove(&[], "f0"), None);
     }
 
-    /// Moving a byte between path and neighbour, or offering a node as a leaf, must not give the same hash.
+    /// Moving a byte between a path and its neighbour, or passing a node as a leaf, must not give the same hash.
     #[test]
     fn leaves_are_unambiguous() {
         let digest = Digest::of(b"x");
@@ -259,7 +259,7 @@ mod tests {
         }
     }
 
-    /// The rightmost leaf is right of everything at any size: a stated size must still use up the siblings.
+    /// The rightmost leaf is on the right of everything at any size: a stated size must still use up the siblings.
     #[test]
     fn a_size_that_ends_too_early_fails() {
         let leaves = leaves(8);

@@ -1,16 +1,16 @@
-//! Which relative paths a release may contain: those that mean the same file on every system and lead nowhere
-//! else.
+//! The relative paths that a release may contain: they mean the same file on every system, and cannot lead outside the
+//! folder.
 
 /// The longest path, in bytes.
 pub const MAX_PATH: usize = 255;
-/// The most components that a path may have: the folders that it passes through, and its file. Releases have four.
+/// The maximum number of components of a path: its folders and its file. Releases have four.
 pub const MAX_COMPONENTS: usize = 16;
 
-/// Why a path may not be in a release.
+/// The reasons why a path may not be in a release.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathProblem {
-    /// The path has no characters.
+    /// The path is empty.
     #[error("it is empty")]
     Empty,
     /// The path has more than [`MAX_PATH`] bytes.
@@ -22,7 +22,7 @@ pub enum PathProblem {
     /// The path starts with `/`.
     #[error("it is absolute")]
     Absolute,
-    /// Two `/` in a row, or one at the end.
+    /// The path has two `/` in a row, or one at the end.
     #[error("it has an empty component")]
     EmptyComponent,
     /// A component is `.` or `..`.
@@ -31,7 +31,8 @@ pub enum PathProblem {
     /// A component ends with a dot, which Windows drops.
     #[error("a component ends with a dot")]
     TrailingDot,
-    /// A character outside `A-Z a-z 0-9 . _ - /`; so also `\`, `:`, control characters and anything not ASCII.
+    /// The path has a character outside `A-Z a-z 0-9 . _ - /`, such as `\`, `:`, a control character or any non-ASCII
+    /// character.
     #[error("it has the character {0:?}: only A-Z, a-z, 0-9, `.`, `_`, `-` and `/` may be used")]
     Character(char),
     /// The name is not Unicode.
@@ -39,11 +40,12 @@ pub enum PathProblem {
     NotUnicode,
 }
 
-/// Returns whether `path` may be in a release: relative, `/`-separated, at most [`MAX_PATH`] bytes and [`MAX_COMPONENTS`]
-/// components, of the characters `A-Z a-z 0-9 . _ -`, without components that are empty, `.`, `..` or end with a dot.
+/// Checks that a release may contain `path`: relative, `/`-separated, at most [`MAX_PATH`] bytes and
+/// [`MAX_COMPONENTS`] components, of the characters `A-Z a-z 0-9 . _ -`, without components that are empty, `.`, `..`
+/// or end with a dot.
 ///
 /// # Errors
-/// The first reason why not.
+/// The first rule that the path violates.
 pub fn check_path(path: &str) -> Result<(), PathProblem> {
     if path.is_empty() {
         return Err(PathProblem::Empty);
@@ -121,7 +123,7 @@ mod tests {
         }
     }
 
-    /// Every byte that is not listed is refused wherever it stands.
+    /// Every unlisted byte is refused at any position.
     #[test]
     fn the_alphabet_is_closed() {
         for byte in 0..128_u8 {

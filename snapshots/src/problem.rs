@@ -1,32 +1,32 @@
-//! What a suspicious reading of a release folder can find: data, so that all of it is reported at once.
+//! The problems that reading an untrusted release folder can find. They are data, so that all are reported at once.
 
 use std::fmt;
 
 use crate::path::PathProblem;
 use engine::Digest;
 
-/// One thing that is wrong with a release folder. Ordered by the bytes of the path, then by flaw.
+/// A problem of a release folder. Ordered by the bytes of the path, then by flaw.
 ///
-/// `Display` names the path and what is wrong, safe to print: `games/x/lvl0.txt: altered (digest 12ab34cd…, the
+/// `Display` gives the path and the flaw, escaped for printing: `games/x/lvl0.txt: altered (digest 12ab34cd…, the
 /// manifest says 56ef7890…)`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Problem {
-    /// Where, relative to the release folder and `/`-separated; `.` for the folder itself. A name that is not
-    /// Unicode is given as nearly as Unicode can.
+    /// The path, relative to the release folder and `/`-separated; `.` for the folder itself. A name that is not
+    /// Unicode is shown approximately.
     pub path: String,
-    /// What is wrong there.
+    /// The flaw.
     pub flaw: Flaw,
 }
 
-/// What is wrong with a path of a release folder.
+/// The flaws that a path of a release folder can have.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Flaw {
-    /// The manifest lists it; no regular file is there.
+    /// The manifest lists the path, but no regular file is there.
     Missing,
     /// A file that the manifest does not list.
     Extra,
-    /// A folder with nothing in it, which no manifest can list.
+    /// An empty folder, which no manifest can list.
     EmptyFolder,
     /// The size is not the stated one, so the content was not read.
     Size {
@@ -48,36 +48,36 @@ pub enum Flaw {
     Special,
     /// A name that no release may contain; a folder with such a name was not entered.
     Name(PathProblem),
-    /// A file above the limit of one file.
+    /// A file larger than the limit for one file.
     TooLarge {
         /// Bytes in the folder.
         size: u64,
         /// The limit, in bytes.
         limit: u64,
     },
-    /// More files, or more folders, than the limit. The rest was not looked at, and nothing else about the
-    /// folder's content is reported.
+    /// More files, or more folders, than the limit. The rest was not examined, and nothing else about the folder's
+    /// content is reported.
     TooMany {
-        /// The limit, for each of the two.
+        /// The limit for either of them.
         limit: u64,
     },
-    /// The files together are above the limit.
+    /// The total size of the files exceeds the limit.
     TotalTooLarge {
-        /// Bytes in all regular files.
+        /// The bytes of all regular files.
         size: u64,
         /// The limit, in bytes.
         limit: u64,
     },
-    /// The manifest's text is not what this format writes for what it says (spaces, order, line ends, a field
-    /// left out or a key twice): its meaning is intact, its bytes are not as minted.
+    /// The manifest's text differs from the text that this format writes for its content (spaces, order, line ends, a
+    /// missing or duplicate field): its meaning is intact, but its bytes are not as minted.
     NotCanonical,
-    /// An entry of an archive, or the archive itself, is not as it is packed.
+    /// An entry of an archive, or the archive itself, is not as packed.
     NotAsPacked(String),
     /// The stated checksum is not that of the stated root, lock file and sizes.
     WrongChecksum,
     /// The stated root is not the root over the manifest's own header and items.
     WrongRoot {
-        /// The root that they give.
+        /// The root computed from them.
         found: Digest,
         /// The root that the manifest states.
         stated: Digest,
@@ -124,7 +124,7 @@ impl fmt::Display for Flaw {
     }
 }
 
-/// Enough of a digest to recognise it; [`Problem`] holds all of it.
+/// A prefix of a digest to recognise it by; [`Problem`] holds all of it.
 fn short(digest: &Digest) -> String {
     let text = digest.to_string();
     format!("{}…", &text[..8])

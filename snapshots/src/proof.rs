@@ -1,7 +1,7 @@
-//! Inclusion proofs: that one file of a release, or one game, is under a root, shown without the rest.
+//! Inclusion proofs: they show that a file or a game of a release is under a root, without the rest of the release.
 //!
-//! A proof is a small file of canonical JSON. It holds no secret and needs no trust: what is trusted is the root that
-//! the one who checks it has from elsewhere.
+//! A proof is a small file of canonical JSON. It holds no secret and need not be trusted: the verifier trusts a root
+//! that comes from elsewhere.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -14,70 +14,70 @@ use crate::merkle::{self, Leaf, Proof};
 use crate::path::check_path;
 use engine::Digest;
 
-/// The largest proof, in bytes: 4 MiB, which is a game of some three thousand files.
+/// The maximum size of a proof, in bytes: 4 MiB, enough for a game of some three thousand files.
 pub const MAX_PROOF: u64 = 4 << 20;
 /// The version of the proof's layout.
 const PROOF_FORMAT: u32 = 1;
-/// No tree of at most 2⁶⁴ leaves is higher.
+/// The maximum height of a tree with at most 2⁶⁴ leaves.
 const MAX_HEIGHT: usize = 64;
 
-/// Why a proof cannot be made or read: about the question, not about the item.
+/// The reasons why a proof cannot be made or read. They concern the request, not the item.
 #[derive(Debug, thiserror::Error)]
 pub enum ProofError {
     /// The release has no such item.
     #[error("`{}` is no file and no game of `{release}`{}", id.escape_debug(), near.as_ref().map_or_else(String::new, |near| format!(": did you mean `{near}`?")))]
     NoSuchItem {
-        /// What was asked for.
+        /// The requested item.
         id: String,
-        /// The release's name.
+        /// The name of the release.
         release: String,
-        /// The nearest that there is.
+        /// The nearest existing ID.
         near: Option<String>,
     },
-    /// The proof is too large to be one.
+    /// The proof exceeds the maximum size.
     #[error("the proof is larger than {MAX_PROOF} bytes: fetch it again")]
     TooLarge,
     /// The proof is not JSON of this shape.
     #[error("it is no inclusion proof ({0}): fetch it again")]
     Syntax(serde_json::Error),
-    /// The proof is well-formed and says what no proof can.
+    /// The proof is well-formed, but no valid proof has these values.
     #[error("it is no sound inclusion proof ({0}): fetch it again")]
     Unsound(String),
-    /// The manifest has no tree.
+    /// The tree of the manifest cannot be computed.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
 }
 
-/// That an item, which is one file or all files of a game, is in a release.
+/// A proof that an item, one file or all files of a game, is in a release.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ItemProof {
-    /// Version of this layout: 1.
+    /// The version of this layout: 1.
     pub format: u32,
-    /// Name of the release; a label, which proves nothing.
+    /// The name of the release; a label, which proves nothing.
     pub release: String,
-    /// The root that the proof leads to; what it is compared with has to come from elsewhere.
+    /// The root that the proof leads to. It must be compared with a root from elsewhere.
     pub root: Digest,
     /// The item: a path of the release such as `games/x/lvl0.txt`, or the name of a folder in `games/`.
     pub item: String,
-    /// Its files, by the bytes of their paths: one for a path; those listed for a game.
+    /// The files, sorted by the bytes of their paths: one for a path; those listed for a game.
     pub files: Vec<FileProof>,
 }
 
-/// That a file is in a release.
+/// A proof that a file is in a release.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FileProof {
-    /// Path in the release.
+    /// The path in the release.
     pub path: String,
-    /// Digest of the content.
+    /// The digest of the content.
     pub digest: Digest,
-    /// The way from the file's leaf to the root.
+    /// The path from the file's leaf to the root.
     pub proof: Proof,
 }
 
 impl ItemProof {
-    /// The proof for `id`: a path in the manifest, or a game's id for all of its files. Cost: O(n log n) in the
+    /// The proof for `id`: a path in the manifest, or the ID of a game for all of its files. Cost: O(n log n) in the
     /// release's files for each file of the item.
     ///
     /// # Errors
@@ -112,12 +112,12 @@ impl ItemProof {
         if bytes.len() as u64 > MAX_PROOF { Err(ProofError::TooLarge) } else { Ok(bytes) }
     }
 
-    /// Reads a proof from someone else, and checks all of it that can be checked without root and files.
+    /// Reads an untrusted proof, and checks everything that can be checked without root and files.
     ///
     /// # Errors
-    /// It is too large, not canonical JSON of this shape, of another format, empty, has a label that names no release, or
-    /// files that are unsorted, with unsafe or reserved paths, not of its item, with a way to the root that no tree has,
-    /// or with places that they cannot have in one tree.
+    /// The proof is too large, not canonical JSON of this shape, of another format, or empty; its label names no
+    /// release; its files are unsorted, have unsafe or reserved paths, or do not belong to its item; or a file has a
+    /// path to the root that no tree has, or positions that are impossible in one tree.
     pub fn parse(bytes: &[u8]) -> Result<ItemProof, ProofError> {
         if bytes.len() as u64 > MAX_PROOF {
             return Err(ProofError::TooLarge);
@@ -138,7 +138,8 @@ impl ItemProof {
             if [HEADER_LEAF, MANIFEST_FILE].iter().any(|reserved| file.path.eq_ignore_ascii_case(reserved)) {
                 return unsound(format!("`{path}` is no file of a release, but stands for its manifest"));
             }
-            // The manifest's header is a leaf as well, so there are as many as a release can have files with it.
+            // The manifest's header is a leaf too, so there are as many leaves as a release can have files including
+            // the manifest.
             let (index, size) = (file.proof.index, file.proof.size);
             if index >= size || size > Limits::SNAPSHOT.files {
                 return unsound(format!("`{path}` is leaf {index} of {size}, which no release has"));
@@ -172,11 +173,12 @@ impl ItemProof {
         Ok(proof)
     }
 
-    /// All that speaks against the item `id` being under `root` with these files, each naming the file and the
-    /// digests; empty if it is. `content` gives the digest of the file at a path, none if there is no such file.
+    /// Returns all reasons why the item `id` is not under `root` with these files, each naming the file and the
+    /// digests; empty if it is. `content` returns the digest of the file at a path, or `None` if there is no such
+    /// file.
     ///
     /// # Errors
-    /// What `content` says.
+    /// The errors of `content`.
     pub fn check<E>(
         &self,
         id: &str,
@@ -194,7 +196,7 @@ impl ItemProof {
         if self.root != *root {
             problems.push(format!("the proof leads to the root {}, not to {root}", self.root));
         }
-        // What follows would only say the same for every file.
+        // The remaining checks would only repeat this for every file.
         if !problems.is_empty() {
             return Ok(problems);
         }

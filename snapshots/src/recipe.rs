@@ -1,4 +1,4 @@
-//! A recipe: what a release is minted from, in a TOML file of `seeds/`.
+//! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
 
 use crate::sealed::{self, Secret};
 use engine::{Digest, Game, Seed};
@@ -8,24 +8,24 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GoalKind};
 use validators::{Criteria, CriteriaError, Difficulty, GameForm};
 
-/// Bytes of a recipe that are read.
+/// The maximum size of a recipe, in bytes.
 pub const MAX_RECIPE: usize = 1 << 16;
 
-/// Everything that decides the bytes of a release.
+/// The parameters that determine the bytes of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Recipe {
-    /// Name of the release: lower-case letters, digits, `-`.
+    /// The name of the release: lower-case letters, digits, `-`.
     pub name: String,
-    /// What the release is, for its README.
+    /// A description of the release, for its README.
     pub description: String,
-    /// The text that the seed comes from: public, so the release is open.
+    /// The text that the seed is derived from. It is public, so the release is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<String>,
-    /// The commitment of a secret, in its place: the release is sealed.
+    /// The commitment to a secret, in place of `seed`: the release is sealed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commitment: Option<Digest>,
-    /// Root digest of the release before.
+    /// The root digest of the previous release.
     #[serde(default)]
     pub parent: Option<Digest>,
     /// New levels for corpus games.
@@ -34,38 +34,39 @@ pub struct Recipe {
     /// New games with levels.
     #[serde(default)]
     pub generated: GeneratedPart,
-    /// How large the boards are.
+    /// The sizes of the boards.
     #[serde(default)]
     pub board: Board,
-    /// The share of all levels that has each difficulty; empty: as they come.
+    /// The share of all levels that has each difficulty; if empty, any difficulty is accepted.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub difficulty: BTreeMap<Difficulty, f64>,
-    /// Which games there are.
+    /// The quotas for kinds of games.
     #[serde(default)]
     pub taxonomy: Taxonomy,
-    /// What a level must show.
+    /// The criteria for levels.
     #[serde(default)]
     pub criteria: Criteria,
-    /// What the releases before hold, which is not to be minted again: filled in from the parent.
+    /// The content of previous releases, which must not be repeated: filled in from the parent.
     #[serde(default, skip_serializing_if = "Known::is_empty")]
     pub known: Known,
 }
 
-/// New levels for corpus games, in a fresh fiction.
+/// New levels for corpus games, under a new theme.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CorpusPart {
-    /// Games.
+    /// The number of games.
     pub games: u32,
-    /// Levels of each game, from the easiest to the hardest.
+    /// The number of levels of each game, from the easiest to the hardest.
     pub levels: u32,
-    /// Sets of levels that are tried for one game, at most.
+    /// The maximum number of level sets that are tried for one game.
     pub game_tries: u32,
-    /// Levels that are tried for one place, at most.
+    /// The maximum number of levels that are tried for one place.
     pub level_tries: u32,
-    /// How many games are made for each that is taken.
+    /// The number of candidate games per selected game.
     pub candidates: f64,
-    /// What their levels must show, if that is something else: hand-made games are fewer than those that can be generated.
+    /// The criteria for their levels, if they differ: there are fewer hand-made games than games that can be
+    /// generated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub criteria: Option<Criteria>,
 }
@@ -80,21 +81,21 @@ impl Default for CorpusPart {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GeneratedPart {
-    /// Games.
+    /// The number of games.
     pub games: u32,
-    /// Levels of each game, from the easiest to the hardest.
+    /// The number of levels of each game, from the easiest to the hardest.
     pub levels: u32,
-    /// Games that are tried for one candidate, at most.
+    /// The maximum number of games that are tried for one candidate.
     pub game_tries: u32,
-    /// Levels that are tried for one place, at most.
+    /// The maximum number of levels that are tried for one place.
     pub level_tries: u32,
-    /// How many games are made for each that is taken.
+    /// The number of candidate games per selected game.
     pub candidates: f64,
-    /// What share of the candidates comes from which generator.
+    /// The shares of the generators in the candidates.
     pub mix: Mix,
-    /// Interactions that a game has at least.
+    /// The minimum number of interactions of a game.
     pub least_interactions: usize,
-    /// Different interactions that the wins of its levels execute together, at least.
+    /// The minimum number of different interactions that the wins of a game's levels execute together.
     pub least_mechanics: usize,
 }
 
@@ -113,17 +114,17 @@ impl Default for GeneratedPart {
     }
 }
 
-/// Weights of the generators of games.
+/// The weights of the generators of games.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mix {
-    /// Of games that are drawn.
+    /// The weight of games that are drawn at random.
     #[serde(default)]
     pub constructive: f64,
-    /// Of games that are searched for.
+    /// The weight of games that are found by search.
     #[serde(default)]
     pub search: f64,
-    /// Of games that are bred in archives.
+    /// The weight of games that evolve in archives.
     #[serde(default)]
     pub evolutionary: f64,
 }
@@ -134,7 +135,7 @@ impl Default for Mix {
     }
 }
 
-/// Quotas: which games a release holds.
+/// Quotas for the kinds of games in a release.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Taxonomy {
@@ -149,15 +150,16 @@ pub struct Taxonomy {
     pub crowd: Option<f64>,
 }
 
-/// What is not to be minted again.
+/// The content of previous releases, which must not be repeated.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Known {
-    /// Names of the releases, the oldest first.
+    /// The names of the releases, the oldest first.
     pub releases: Vec<String>,
-    /// The rules of their generated games, without names: whole, so that any later arcade can tell how alike a game is.
+    /// The rules of their generated games, without names: in full, so that any later version can compute the distance
+    /// to a game.
     pub games: Vec<String>,
-    /// Canonical items, rules and level, of their corpus games.
+    /// The canonical items (rules and level) of their corpus games.
     pub items: BTreeSet<Digest>,
 }
 
@@ -165,7 +167,7 @@ impl Known {
     /// The forms of the games. Cost: about a millisecond a game.
     ///
     /// # Errors
-    /// A text that is no game.
+    /// A text is no game.
     pub(crate) fn forms(&self) -> Result<Vec<GameForm>, RecipeError> {
         let form = |(at, text): (usize, &String)| {
             let wrong = |_| RecipeError::Value {
@@ -184,7 +186,7 @@ impl Known {
     }
 }
 
-/// The sizes that boards are drawn from, in cells, both ends included.
+/// The ranges that board sizes are drawn from, in cells, both ends inclusive.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Board {
@@ -195,7 +197,7 @@ pub struct Board {
 }
 
 impl Board {
-    /// Levels of these sizes.
+    /// The configuration for levels of these sizes.
     pub fn levels(&self) -> LevelConfig {
         LevelConfig { columns: self.columns, rows: self.rows, ..LevelConfig::default() }
     }
@@ -207,49 +209,49 @@ impl Default for Board {
     }
 }
 
-/// What is wrong with a recipe.
+/// The problems that a recipe can have.
 #[derive(Debug, thiserror::Error)]
 pub enum RecipeError {
-    /// Not TOML, or not of this shape. The message names line, column and key.
+    /// The recipe is not TOML, or not of this shape. The message names line, column and key.
     #[error("{0}")]
     Syntax(Box<toml::de::Error>),
-    /// A value out of its range.
+    /// A value is out of its range.
     #[error("`{key}` {message}")]
     Value {
         /// The key, dotted.
         key: &'static str,
-        /// What it must be.
+        /// The requirement.
         message: String,
     },
-    /// A criterion out of its range.
+    /// A criterion is out of its range.
     #[error("`{table}.{}` {}", .problem.key, .problem.message)]
     Criteria {
-        /// Where the criterion stands.
+        /// The table of the criterion.
         table: &'static str,
-        /// What is wrong with it.
+        /// The problem with the criterion.
         problem: CriteriaError,
     },
-    /// A sealed release whose secret was not given.
+    /// The release is sealed, and its secret was not given.
     #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
     Sealed,
-    /// A secret that is not the one committed to.
+    /// The secret is not the one committed to.
     #[error(
         "the secret is not the one that the recipe's `commitment` was made from: give the file that `--commit` wrote with it"
     )]
     OtherSecret,
-    /// The right secret, and another recipe.
+    /// The secret is right, but the recipe has changed.
     #[error(
         "the recipe is not the one that was committed to: something else than its `commitment` was changed after `--commit`; \
          {0}, or commit again with `arcade release RECIPE --commit`"
     )]
     OtherRecipe(&'static str),
-    /// A secret for an open release.
+    /// A secret was given for an open release.
     #[error(
         "the release is open: its recipe has a `seed`, so --secret is not for it; to seal it, put the secret's `commitment` in \
              the place of `seed`"
     )]
     Open,
-    /// Longer than [`MAX_RECIPE`].
+    /// The recipe is longer than [`MAX_RECIPE`].
     #[error("the recipe is larger than {MAX_RECIPE} bytes")]
     TooLarge,
 }
@@ -258,7 +260,7 @@ impl Recipe {
     /// Reads and checks a recipe.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its place or key.
+    /// The first problem, with its position or key.
     pub fn from_toml(text: &str) -> Result<Recipe, RecipeError> {
         if text.len() > MAX_RECIPE {
             return Err(RecipeError::TooLarge);
@@ -268,10 +270,10 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// Reads and checks a recipe that is to be committed to: whatever stands for `seed` or `commitment` in it is left out.
+    /// Reads and checks a recipe that is to be committed to: its `seed` and `commitment` are dropped.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its place or key.
+    /// The first problem, with its position or key.
     pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
         if text.len() > MAX_RECIPE {
             return Err(RecipeError::TooLarge);
@@ -283,8 +285,8 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// Digest of what a commitment covers: all of the recipe but `seed`, `commitment` and `known`, which follows from
-    /// `parent`.
+    /// The digest that a commitment covers: that of the recipe without `seed`, `commitment` and `known`, which follows
+    /// from `parent`.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
         sealed::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
@@ -368,7 +370,7 @@ impl Recipe {
             let Some(criteria) = criteria else { continue };
             let named = |problem| RecipeError::Criteria { table, problem };
             criteria.check().map_err(named)?;
-            // What the cards show.
+            // The criteria that the cards show.
             let shown = ["not-idle", "not-random", "winnable"];
             if let Some(missing) = shown.into_iter().find(|name| !criteria.asks(name)) {
                 let message = format!("lacks `{missing}`, which every card shows");
@@ -378,7 +380,7 @@ impl Recipe {
         Ok(())
     }
 
-    /// What games are chosen by.
+    /// Checks the values that govern the selection of games.
     fn check_selection(&self) -> Result<(), RecipeError> {
         let wrong = |key, message: String| Err(RecipeError::Value { key, message });
         if !self.difficulty.is_empty() {
@@ -424,10 +426,11 @@ impl Recipe {
         }
     }
 
-    /// The seed that everything in the release comes from; `secret` is that of a sealed one.
+    /// The seed that everything in the release is derived from; `secret` is that of a sealed release.
     ///
     /// # Errors
-    /// A sealed release without its secret, with another one, or changed since it was committed to; an open one with a secret.
+    /// The release is sealed and the secret is missing, another one, or of a recipe changed since the commitment; or
+    /// it is open and a secret was given.
     pub fn root_seed(&self, secret: Option<&Secret>) -> Result<Seed, RecipeError> {
         let Some(secret) = secret else {
             return self.seed.as_deref().map(Seed::from_text).ok_or(RecipeError::Sealed);
@@ -442,7 +445,7 @@ impl Recipe {
         }
     }
 
-    /// The next move for a recipe that `secret` was not drawn for, most likely because of its parent.
+    /// Advice for a recipe that `secret` was not drawn for, most likely because of its parent.
     fn way_back(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
@@ -454,24 +457,24 @@ impl Recipe {
         }
     }
 
-    /// How many games are asked for with each goal, at least and at most.
+    /// The minimum and maximum number of games with each goal.
     pub fn goal_quotas(&self) -> Vec<(GoalKind, (i64, i64))> {
         self.taxonomy.goals.iter().map(|(&goal, &share)| (goal, self.quota(share))).collect()
     }
 
-    /// How many games are asked for with each avatar, at least and at most.
+    /// The minimum and maximum number of games with each avatar.
     pub fn avatar_quotas(&self) -> Vec<(AvatarKind, (i64, i64))> {
         self.taxonomy.avatars.iter().map(|(&avatar, &share)| (avatar, self.quota(share))).collect()
     }
 
-    /// The numbers that shares of all games come to.
+    /// The numbers of games that a range of shares amounts to.
     pub(crate) fn quota(&self, (least, most): (f64, f64)) -> (i64, i64) {
         let games = f64::from(self.corpus.games + self.generated.games);
         // A little slack, so that 0.2 of 10 games is 2.
         ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
     }
 
-    /// Levels of all games.
+    /// The number of levels of all games.
     pub fn levels(&self) -> u32 {
         self.corpus.games * self.corpus.levels + self.generated.games * self.generated.levels
     }
@@ -488,7 +491,7 @@ mod tests {
         assert!(error.contains(expect), "{error}");
     }
 
-    /// The page's example is a recipe, and shows the defaults.
+    /// The page's example is a valid recipe, and shows the defaults.
     #[test]
     fn the_example_in_the_docs() {
         let page = include_str!("../../docs/recipes.md");
@@ -509,7 +512,7 @@ mod tests {
         let minting = Recipe { commitment: Some(secret.commitment()), ..recipe.clone() };
         minting.check().unwrap();
         assert_eq!(minting.root_seed(Some(&secret)).unwrap(), secret.root_seed());
-        // What is in the place of the commitment, and what the parent tells, is not committed to.
+        // The field that the commitment replaces, and data from the parent, are not committed to.
         assert_eq!(Recipe::to_commit(GOOD).unwrap().committed(), recipe.committed());
         let known = Known { games: vec!["x".to_owned()], ..Known::default() };
         assert_eq!(Recipe { known, ..minting.clone() }.committed(), recipe.committed());

@@ -13,16 +13,16 @@ use crate::{Digest, SnapshotError};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Why a release cannot be minted again here.
+/// The reasons why a release cannot be minted again here.
 #[derive(Debug, thiserror::Error)]
 pub enum RegenerateError {
-    /// Other generators made it.
+    /// Another version of the generators made it.
     #[error("this release was minted by {minted_by}; this is arcade {CURRENT}: {}", next_move(minted_by))]
     OtherVersion {
-        /// According to the manifest.
+        /// The version according to the manifest.
         minted_by: MintedBy,
     },
-    /// Its manifest cannot have been written by any version.
+    /// No version can have written its manifest.
     #[error(
         "{MANIFEST_FILE} is damaged or was changed: {0}; fetch the release again, and run `arcade verify` on it"
     )]
@@ -37,7 +37,7 @@ pub enum RegenerateError {
         "this is a file: name the folder of a release; an archive is unpacked first (`tar --zstd -xf FILE`)"
     )]
     NotAFolder,
-    /// The recipe in the manifest is not one.
+    /// The recipe in the manifest is malformed.
     #[error("the manifest's recipe is not a recipe: {0}")]
     NotARecipe(serde_json::Error),
     /// The recipe in the manifest has a value out of range.
@@ -48,7 +48,7 @@ pub enum RegenerateError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// The version to regenerate with, and how it is installed.
+/// The command that installs the version to regenerate with.
 fn next_move(minted_by: &MintedBy) -> String {
     match minted_by.install_command() {
         Some(command) => {
@@ -58,18 +58,18 @@ fn next_move(minted_by: &MintedBy) -> String {
     }
 }
 
-/// The release minted again, and where it differs.
+/// A release that was minted again, and the differences.
 #[derive(Clone, Debug)]
 pub struct Regenerated {
-    /// The new one.
+    /// The new release.
     pub minted: Minted,
-    /// What differs, each naming the file; empty if every byte is the same.
+    /// The differences, each naming the file; empty if every byte is the same.
     pub differences: Vec<String>,
-    /// Whether another set of dependencies (Cargo.lock) minted it; not a difference by itself.
+    /// `true` if it was minted with another set of dependencies (Cargo.lock), which is not a difference by itself.
     pub other_lockfile: bool,
 }
 
-/// A release that is to be minted again. Its lots are made as those of any other ([`make_lots`](crate::mint::make_lots)).
+/// A release to be minted again. Its jobs run like those of any other release ([`make_lots`](crate::mint::make_lots)).
 #[derive(Debug)]
 pub struct Regeneration {
     root: PathBuf,
@@ -80,10 +80,10 @@ pub struct Regeneration {
 }
 
 impl Regeneration {
-    /// Reads what the release in the folder `root` was minted from.
+    /// Reads the recipe of the release in the folder `root`, and its secret if it was revealed.
     ///
     /// # Errors
-    /// The folder is no release, or one that this binary cannot mint.
+    /// The folder is no release, or this binary cannot mint it.
     pub fn of(root: &Path) -> Result<Regeneration, RegenerateError> {
         if root.is_file() {
             return Err(RegenerateError::NotAFolder);
@@ -115,12 +115,12 @@ impl Regeneration {
         let recipe: Recipe =
             serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
         recipe.check()?;
-        // Before minutes of minting: is there a folder to compare with?
+        // Fails before minutes of minting if there is no folder to compare with.
         Comparison::of(root)?;
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 
-    /// What its recipe comes to.
+    /// The plan of its recipe.
     ///
     /// # Errors
     /// The recipe cannot be minted with this corpus.
@@ -128,11 +128,11 @@ impl Regeneration {
         Plan::new(&self.recipe, self.secret.as_ref(), corpus)
     }
 
-    /// Lays the release out from lots that are all on the shelf, and compares every file. The digest of Cargo.lock in the
-    /// manifest is provenance and may differ. Every file also goes to `also`, the manifest apart.
+    /// Lays the release out from a job store that holds all results, and compares every file. The digest of Cargo.lock
+    /// in the manifest is provenance and may differ. Every file except the manifest is also passed to `also`.
     ///
     /// # Errors
-    /// A lot is missing or unsound, or the file system refuses.
+    /// A job's result is missing or unsound, or the file system refuses.
     pub fn compare(
         &self,
         plan: &Plan<'_>,
@@ -150,12 +150,12 @@ impl Regeneration {
     }
 }
 
-/// What is in a folder, compared with what is minted.
+/// A comparison of the files in a folder with the minted ones.
 struct Comparison<'a> {
     root: &'a Path,
-    /// Files that nothing minted was compared with so far.
+    /// Files that were not compared with a minted one yet.
     there: BTreeSet<String>,
-    /// Paths with a problem of their own.
+    /// Paths that already have a problem of their own.
     named: BTreeSet<String>,
     differences: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! The games of a release that verifies, read: what exports and comparisons start from.
+//! The games of a verified release, parsed: the input of exports and comparisons.
 
 use crate::card::Card;
 use crate::contents::Contents;
@@ -15,37 +15,37 @@ use std::path::Path;
 /// A release that verifies.
 #[derive(Clone, Debug)]
 pub struct Released {
-    /// What it is and holds.
+    /// The manifest.
     pub manifest: Manifest,
-    /// Its games, by the bytes of their folders' names.
+    /// The games, sorted by the bytes of their folders' names.
     pub games: Vec<ReleasedGame>,
 }
 
 /// A game of a release.
 #[derive(Clone, Debug)]
 pub struct ReleasedGame {
-    /// What it is, and what its judges found.
+    /// The card: its description and the results of its judges.
     pub card: Card,
-    /// Its text, as in the release.
+    /// The text, as in the release.
     pub source: String,
-    /// It.
+    /// The compiled game.
     pub game: Game,
-    /// Its levels, in the order of the card.
+    /// The levels, in the order of the card.
     pub levels: Vec<ReleasedLevel>,
 }
 
 /// A level of a release.
 #[derive(Clone, Debug)]
 pub struct ReleasedLevel {
-    /// Its text, as in the release.
+    /// The text, as in the release.
     pub text: String,
-    /// It.
+    /// The parsed level.
     pub level: Level,
     /// The episode that wins it, if the release holds one.
     pub witness: Option<Episode>,
 }
 
-/// Why a release is not read.
+/// The reasons why a release cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReleasedError {
     /// It is no release, or cannot be read.
@@ -54,7 +54,7 @@ pub enum ReleasedError {
     /// It does not verify.
     #[error("{} does not verify: {}", .0.name, .0.problems.first().map_or("", String::as_str))]
     Unsound(Box<Verification>),
-    /// It changed between being verified and being read.
+    /// A file changed between verification and reading.
     #[error("`{path}` changed while it was read: try again")]
     Changed {
         /// The file.
@@ -63,8 +63,8 @@ pub enum ReleasedError {
 }
 
 impl Released {
-    /// Verifies the release at `root`, a folder or an archive, and reads it. Cost: that of [`verify()`], and a second pass over the
-    /// files.
+    /// Verifies the release at `root`, a folder or an archive, and reads it. Cost: that of [`verify()`], and a second
+    /// pass over the files.
     ///
     /// # Errors
     /// It does not verify, or cannot be read.
@@ -84,18 +84,18 @@ impl Released {
         Ok(Released { manifest, games })
     }
 
-    /// How many levels all games have.
+    /// The number of levels of all games.
     pub fn levels(&self) -> usize {
         self.games.iter().map(|game| game.levels.len()).sum()
     }
 }
 
 fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<ReleasedGame, ReleasedError> {
-    // All was well-formed when the release was verified; the digest tells whether it is still the same.
+    // Everything was well-formed during verification; the digest detects later changes.
     let read = |path: String| -> Result<Option<String>, ReleasedError> {
         let found = manifest.items.binary_search_by(|item| item.path.as_str().cmp(&path));
         let Ok(at) = found else { return Ok(None) };
-        // Listed and not there is only what is held back.
+        // A listed file is absent only if it is withheld.
         let Some(bytes) = contents.find(&path)? else { return Ok(None) };
         if Digest::of(&bytes) != manifest.items[at].digest {
             return Err(ReleasedError::Changed { path });

@@ -1,11 +1,11 @@
-//! How the players of the ladder fare over a whole release, and whether they fare otherwise in another one.
+//! The win rates of the ladder's players over a whole release, and their differences between two releases.
 //!
-//! A level counts by the share of its plays that were won, and all levels count alike. Levels of one game are alike, so an
-//! interval speaks of games like these: whole games are drawn again ([`statistics::clustered_mean`]). Where all games have the
-//! same rate, drawing tells nothing; Wilson's interval stands in, with one trial a game. The interval of a difference is put
-//! together from those of its two sides (G. Y. Zou and A. Donner, "Construction of confidence limits about effect measures: a
-//! general approach", 2008), as if the games of the two were drawn apart from each other. With fewer than about ten games
-//! intervals are too narrow. The same bits on every machine.
+//! A level counts with the share of its plays that were won, and all levels have the same weight. Levels of one game
+//! are alike, so the intervals are clustered: whole games are resampled ([`statistics::clustered_mean`]). If all games
+//! have the same rate, resampling is uninformative, and Wilson's interval with one trial per game is used instead. The
+//! interval of a difference is combined from those of its two sides (G. Y. Zou and A. Donner, "Construction of
+//! confidence limits about effect measures: a general approach", 2008), as if the games of the two were independent
+//! samples. With fewer than about ten games, intervals are too narrow. The results are bit-identical on every machine.
 
 use crate::card::Card;
 use engine::Seed;
@@ -13,42 +13,44 @@ use serde::{Deserialize, Serialize};
 use statistics::{Interval, Z95, clustered_mean, wilson};
 use validators::Fared;
 
-/// Resamples of an interval.
+/// The number of resamples for an interval.
 const RESAMPLES: usize = 4000;
-/// Standard errors of a difference that a two-sided test at 5 % sees in 80 of 100 cases: the normal quantiles of 0.975 and 0.8.
+/// The difference, in standard errors, that a two-sided test at the 5 % level detects with 80 % power: the sum of the
+/// normal quantiles of 0.975 and 0.8.
 const SEEN: f64 = Z95 + 0.8416212335729143;
 
-/// How a player fares over the games of a release.
+/// The win rate of a player over the games of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RungRate {
-    /// Who: `mcts:100`.
+    /// The player, such as `mcts:100`.
     pub player: String,
-    /// Whether it looks ahead.
+    /// `true` if it looks ahead.
     pub looks_ahead: bool,
-    /// Whether only acceptance asks it, and no search.
+    /// `true` if only acceptance uses it, and no search.
     pub held_out: bool,
-    /// Games with a level that it played.
+    /// The number of games with a level that it played.
     pub games: u64,
-    /// Levels that it played.
+    /// The number of levels that it played.
     pub levels: u64,
-    /// Plays of all levels.
+    /// The number of plays of all levels.
     pub plays: u64,
-    /// Plays won.
+    /// The number of plays won.
     pub wins: u64,
     /// The mean over levels of the share of plays won, from 0 to 1.
     pub mean: f64,
-    /// Its interval, 95 %, clustered by game.
+    /// The 95 % interval of the mean, clustered by game.
     pub interval: [f64; 2],
-    /// Its standard error, clustered by game; none where all games have the same rate, as one game has.
+    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as with a single
+    /// game.
     pub error: Option<f64>,
 }
 
 impl RungRate {
-    /// The smallest difference of win rates that two releases of so many games like these would show, by a two-sided test at
-    /// 5 % that sees it in 80 of 100 cases. None where nothing is known of how games differ, or of no games.
+    /// The smallest difference of win rates between two releases of `games` games like these that a two-sided test at
+    /// the 5 % level detects with 80 % power. `None` if there are no games, or if their variance is unknown.
     ///
-    /// It takes for granted that those games have as many levels each, and differ as much as these do.
+    /// Assumes that those games have the same number of levels each and the same variance as these.
     pub fn detectable(&self, games: u64) -> Option<f64> {
         let error = self.error.filter(|_| games > 0)?;
         let one = error * error * self.games as f64 / games as f64;
@@ -85,8 +87,8 @@ impl RungRate {
     }
 }
 
-/// The standard error of a mean over levels, games being what is drawn: that of a ratio of sums over games (W. G. Cochran,
-/// *Sampling Techniques*, 1977, §6.4).
+/// The standard error of a mean over levels, with games as the sampling unit: that of a ratio of sums over games (W.
+/// G. Cochran, *Sampling Techniques*, 1977, §6.4).
 fn error(games: &[Vec<f64>], mean: f64) -> Option<f64> {
     let own = |levels: &Vec<f64>| levels.iter().sum::<f64>() / levels.len() as f64;
     let first = own(games.first()?);
@@ -99,15 +101,16 @@ fn error(games: &[Vec<f64>], mean: f64) -> Option<f64> {
     Some((count / (count - 1.0) * squares).sqrt() / levels)
 }
 
-/// What is known where so many games have the same rate: at least what so many trials tell.
+/// The interval for games that all have the same rate: Wilson's, with one trial per game, rounded outwards.
 fn alike(rate: f64, games: u64) -> Interval {
     let won = rate * games as f64;
     let (few, many) = (wilson(won.floor() as u64, games, Z95), wilson(won.ceil() as u64, games, Z95));
     Interval { low: few.low, high: many.high }
 }
 
-/// How each player of the ladders fares over some games: rungs from the weakest to the strongest, as the first ladder names
-/// them, then those held out. Levels without a ladder are left out. Cost: some thousand resamples of the games for each player.
+/// The win rates of each player of the ladders over some games: rungs from the weakest to the strongest, as the first
+/// ladder names them, then held-out players. Levels without a ladder are left out. Cost: some thousand resamples of
+/// the games for each player.
 pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     let ladders = || cards.iter().flat_map(|card| &card.levels).filter_map(|level| level.ladder.as_ref());
     let mut players: Vec<(&Fared, bool)> = Vec::new();
@@ -128,7 +131,7 @@ pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     players.into_iter().filter_map(rate).collect()
 }
 
-/// How a player fared on those levels of a game that it played.
+/// The results of a player on those levels of a game that it played.
 fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a Fared> {
     let ladders = card.levels.iter().filter_map(|level| level.ladder.as_ref());
     let find = ladders.filter_map(|ladder| {
@@ -138,25 +141,25 @@ fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a Fared> {
     find.collect()
 }
 
-/// How much better a player fares in one release than in another.
+/// The difference between the win rates of a player in two releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RungDifference {
-    /// How it fares in the one.
+    /// The win rate in the one release.
     pub ours: RungRate,
-    /// How it fares in the other.
+    /// The win rate in the other release.
     pub theirs: RungRate,
-    /// The mean of ours less that of theirs, from −1 to 1.
+    /// The mean of `ours` minus the mean of `theirs`, from −1 to 1.
     pub difference: f64,
-    /// Its interval, 95 %, clustered by game.
+    /// The 95 % interval of the difference, clustered by game.
     pub interval: [f64; 2],
-    /// The smallest difference that two releases of these sizes would show, by a two-sided test at 5 % that sees it in 80 of
-    /// 100 cases; none where, in either, all games have the same rate.
+    /// The smallest difference between two releases of these sizes that a two-sided test at the 5 % level detects with
+    /// 80 % power; `None` if all games of either have the same rate.
     pub detectable: Option<f64>,
 }
 
 impl RungDifference {
-    /// Whether the player may fare alike in both: the interval holds 0.
+    /// Returns `true` if the interval contains 0: the player may be equally good in both.
     pub fn includes_zero(&self) -> bool {
         self.interval[0] <= 0.0 && self.interval[1] >= 0.0
     }
@@ -177,7 +180,7 @@ impl RungDifference {
     }
 }
 
-/// How much better each player fares over the one games than over the other, for the players that both have, in the order of
+/// The differences between the win rates over the two sets of games, for the players that both have, in the order of
 /// [`rates`]. Cost: that of `rates` for both.
 pub fn differences(ours: &[Card], theirs: &[Card]) -> Vec<RungDifference> {
     let mut others = rates(theirs);
@@ -202,7 +205,7 @@ pub(crate) mod tests {
         Fared { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
     }
 
-    /// A game on whose levels `random`, and held out `olets:9`, win so many of ten plays.
+    /// A game on whose levels `random` and the held-out `olets:9` win the given numbers of ten plays.
     pub(crate) fn card(id: &str, wins: &[[u64; 2]]) -> Card {
         let level = |[random, olets]: &[u64; 2]| LevelCard {
             file: "lvl0.txt".to_owned(),
@@ -242,7 +245,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Forty games of three levels, of which every fourth is always won.
+    /// Forty games of three levels; every fourth game is always won.
     fn quarter() -> Vec<Card> {
         let wins = |game: u64| [if game.is_multiple_of(4) { 10 } else { 0 }, 10];
         (0..40).map(|game| card(&format!("g{game}"), &[wins(game); 3])).collect()
@@ -255,13 +258,13 @@ pub(crate) mod tests {
         assert_eq!((random.player.as_str(), random.held_out, random.looks_ahead), ("random", false, false));
         assert_eq!((random.games, random.levels, random.plays, random.wins), (40, 120, 1200, 300));
         assert_eq!(random.mean, 0.25);
-        // As 40 trials at 0.25 would tell, not as 120: ±13 points.
+        // The width of 40 trials at 0.25, not of 120: ±13 points.
         let error = random.error.unwrap();
         assert!((error - (0.25 * 0.75 / 39.0_f64).sqrt()).abs() < 1e-12, "{error}");
         let [low, high] = random.interval;
         assert!((low - 0.116).abs() < 0.03 && (high - 0.384).abs() < 0.03, "{low} to {high}");
         assert_eq!((olets.player.as_str(), olets.held_out, olets.looks_ahead), ("olets:9", true, true));
-        // Always won is not known to be always won.
+        // A rate of 1 in the sample does not prove a rate of 1.
         let trials = wilson(40, 40, Z95);
         assert_eq!((olets.mean, olets.interval, olets.error), (1.0, [trials.low, 1.0], None));
         assert_eq!(olets.detectable(1000), None);
@@ -295,7 +298,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// What the normal approximation says: ±1.96 √2 standard errors; a hundred games fewer show it less.
+    /// The width according to the normal approximation: ±1.96 √2 standard errors; with a hundred games fewer it is
+    /// larger.
     #[test]
     fn differences_are_as_wide_as_theory_says() {
         let half: Vec<Card> =
@@ -308,7 +312,7 @@ pub(crate) mod tests {
             assert!((found - expect).abs() < 0.03, "{random:?}, not {expect}");
         }
         assert!((random.detectable.unwrap() - 2.8015 * error).abs() < 1e-4, "{random:?}");
-        // The one always wins, the other never: 40 games a side are sure of it.
+        // One always wins, the other never: 40 games a side suffice for certainty.
         let olets = &found[1];
         assert_eq!((olets.difference, olets.detectable), (-1.0, None));
         assert!(olets.interval[0] == -1.0 && olets.interval[1] < -0.8 && !olets.includes_zero());

@@ -1,4 +1,4 @@
-//! Sealed releases: the seed is committed to before, and revealed later.
+//! Sealed releases: the seed is committed to beforehand and revealed later.
 
 use crate::canonical::{CanonicalError, canonical_digest};
 use crate::folder::{self, Limits};
@@ -15,49 +15,49 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// The file of a sealed release that holds its secret, among those held back.
+/// The file of a sealed release that holds its secret, among the withheld ones.
 pub const SECRET_FILE: &str = "held/secret.json";
-/// Where the files of a sealed release lie that are held back until it is revealed.
+/// The folder of the files of a sealed release that are withheld until the reveal.
 pub const HELD: &str = "held/";
 
-/// Where a sealed release has the witness of a level, by the game's folder below `games`.
+/// The path of a level's witness in a sealed release; `game` is the game's folder in `games`.
 pub(crate) fn held_witness(game: &str, level: usize) -> String {
     format!("{HELD}{game}/lvl{level}.json")
 }
 
-/// What a sealed release is minted from, and what its recipe commits to.
+/// The secret of a sealed release: the source of its seed, which the recipe commits to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Secret {
-    /// Name of the release that it is meant for.
+    /// The name of the release that it is meant for.
     pub name: String,
-    /// The text that the seed comes from: 64 hexadecimal digits.
+    /// The text that the seed is derived from: 64 hexadecimal digits.
     pub seed: String,
-    /// Keeps the seed from being guessed: 64 hexadecimal digits.
+    /// The nonce, which keeps the seed from being guessed: 64 hexadecimal digits.
     pub nonce: Digest,
-    /// Digest of the recipe that it was drawn for ([`Recipe::committed`](crate::Recipe::committed)); none in secrets of
-    /// generations before [`COVERING`], whose commitments cover seed and nonce alone.
+    /// The digest of the recipe that it was drawn for ([`Recipe::committed`](crate::Recipe::committed)); `None` in
+    /// secrets of generations before [`COVERING`], whose commitments cover seed and nonce alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recipe: Option<Digest>,
 }
 
-/// The first generation whose commitments cover the recipe, and whose seeds come from the nonce too.
+/// The first generation whose commitments cover the recipe, and whose seeds depend on the nonce too.
 pub const COVERING: u32 = 12;
 
-/// Changing one of these texts changes every secret, or every commitment.
+/// Key derivation contexts. Changing one of them changes every secret or every commitment.
 const SEED_CONTEXT: &str = "infinite-arcade 2 seed of a secret";
 const NONCE_CONTEXT: &str = "infinite-arcade 2 nonce of a secret";
 const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
 
-/// Different bytes, and different steps from byte to byte, that 32 random bytes have at least. All but one in a billion
-/// drawn secrets have more; whatever repeats within 16 bytes has fewer.
+/// The minimum number of different bytes, and of different byte-to-byte steps, in 32 random bytes. All but one in a
+/// billion drawn secrets have more; a sequence with a period of at most 16 bytes has fewer.
 const DISTINCT: usize = 17;
 
 impl Secret {
-    /// A secret for a recipe from 64 bytes of chance: half of them for the seed, half for the nonce.
+    /// Makes a secret for a recipe from 64 random bytes: one half for the seed, one for the nonce.
     pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
         let (seed, nonce) = chance.split_at(32);
-        // Hashed, so that even chance of little worth has the full length.
+        // Hashed, so that even poor randomness gives the full length.
         let hashed = |context, half| Digest::from_bytes(blake3::derive_key(context, half));
         Secret {
             name: name.to_owned(),
@@ -67,8 +67,8 @@ impl Secret {
         }
     }
 
-    /// Digest over seed, nonce and recipe, in a domain of its own; of a secret without recipe BLAKE3(seed ‖ nonce), as
-    /// releases before [`COVERING`] have it.
+    /// The digest over seed, nonce and recipe, in a domain of its own; for a secret without recipe BLAKE3(seed ‖
+    /// nonce), as in releases before [`COVERING`].
     pub fn commitment(&self) -> Digest {
         let Some(recipe) = self.recipe else {
             return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
@@ -81,16 +81,16 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// The seed that everything in the release comes from: a child of the seed's text by way of the nonce, so that whoever
-    /// guesses one of the two knows nothing.
+    /// The seed that everything in the release is derived from: a child of the seed's text that depends on the nonce,
+    /// so that guessing one of the two is useless.
     pub fn root_seed(&self) -> Seed {
         Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
     }
 
-    /// Checks that seed and nonce look drawn, not made up.
+    /// Checks that seed and nonce look random, not made up.
     ///
     /// # Errors
-    /// The first thing that does not, in words.
+    /// The first fault, in words.
     pub fn check(&self) -> Result<(), String> {
         let Ok(seed) = self.seed.parse::<Digest>() else {
             return Err("its `seed` is not 64 lower-case hexadecimal digits".to_owned());
@@ -112,7 +112,7 @@ impl Secret {
         Ok(())
     }
 
-    /// What is wrong with the secret of a release that has this manifest, in words; none if it is the one committed to.
+    /// The fault of the secret of a release with this manifest, in words; `None` if it is the one committed to.
     ///
     /// # Errors
     /// The manifest's recipe has no canonical JSON.
@@ -130,19 +130,19 @@ impl Secret {
         Ok(self.check().err())
     }
 
-    /// Returns whether the chance of a witness comes from this secret, by the path that the witness names. A secret of an earlier
-    /// generation cannot tell.
+    /// Tests whether the witness's seed is derived from this secret along the path that the witness states. A secret
+    /// of an earlier generation always passes.
     pub(crate) fn leads_to(&self, witness: &Witness) -> bool {
         let step = |seed: Seed, (purpose, index): &Step| seed.child(purpose, *index);
         self.recipe.is_none() || witness.path.iter().fold(self.root_seed(), step) == witness.episode.seed
     }
 }
 
-/// Digest of what a commitment covers of a recipe: all but what it replaces (`seed`), itself, and what follows from the parent
-/// (`known`).
+/// The digest of the part of a recipe that a commitment covers: everything except the field that it replaces (`seed`),
+/// itself, and what follows from the parent (`known`).
 ///
 /// # Errors
-/// It has no canonical JSON.
+/// The recipe has no canonical JSON.
 pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
     let mut recipe = recipe.clone();
     if let Some(keys) = recipe.as_object_mut() {
@@ -151,13 +151,13 @@ pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
     canonical_digest(&recipe)
 }
 
-/// The largest file of a secret, in bytes.
+/// The maximum size of a secret's file, in bytes.
 const SECRET_LIMIT: u64 = 4096;
 
-/// Reads a secret, as `--commit` writes it.
+/// Reads a secret that `--commit` wrote.
 ///
 /// # Errors
-/// It cannot be read, is no secret, or one that was made up instead of drawn.
+/// The file cannot be read, holds no secret, or holds one that was made up instead of drawn.
 pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
     let io = |source| SnapshotError::io("read", file)(source);
     let mut bytes = Vec::new();
@@ -169,7 +169,7 @@ pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
     }
 }
 
-/// Reads the secret among the files of a release that was revealed, below the folder `root`.
+/// Reads the secret among the files of a revealed release, below the folder `root`.
 ///
 /// # Errors
 /// It cannot be read, or is no secret.
@@ -186,7 +186,7 @@ fn parse(bytes: &[u8], file: &Path) -> Result<Secret, SnapshotError> {
     serde_json::from_slice(bytes).map_err(|source| SnapshotError::NotASecret { path, source })
 }
 
-/// Why a release is not revealed.
+/// The reasons why a release cannot be revealed.
 #[derive(Debug, thiserror::Error)]
 pub enum RevealError {
     /// It is open, or has no commitment.
@@ -200,14 +200,14 @@ pub enum RevealError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// Joins the two parts of a sealed release, `public` and `held`, in a draft: the files of both, if they are exactly those under
-/// the root of the public manifest, the secret is the one committed to, and the witnesses were played under it; and the papers.
-/// Returns that manifest.
+/// Merges the two parts of a sealed release, `public` and `held`, into a draft: the files of both, and the papers. The
+/// files must be exactly those under the root of the public manifest, the secret the one committed to, and the
+/// witnesses played under it. Returns that manifest.
 ///
-/// Cost: one pass over the files, in pieces; memory in proportion to the manifest.
+/// Cost: one pass over the files, in pieces; memory proportional to the manifest.
 ///
 /// # Errors
-/// A file is missing, changed or none of the manifest's, the seed or the nonce is not the one committed to, or the file system
+/// A file is missing, changed or unlisted, the seed or the nonce is not the one committed to, or the file system
 /// refuses.
 pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, RevealError> {
     let integrity = check_integrity(public)?;
@@ -262,7 +262,7 @@ pub fn reveal(public: &Path, held: &Path, draft: &Draft) -> Result<Manifest, Rev
     Ok(manifest)
 }
 
-/// The witnesses among the held files whose chance does not come from the secret.
+/// The withheld witnesses whose seeds are not derived from the secret.
 fn strangers(secret: &Secret, held: &Path, files: &BTreeSet<&str>) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
     for path in files.iter().filter(|path| **path != SECRET_FILE) {
@@ -314,7 +314,7 @@ mod tests {
         check(&|secret| secret.recipe = None, "no `recipe`");
     }
 
-    /// All that is drawn is taken.
+    /// Every drawn secret is accepted.
     #[test]
     fn secrets_that_are_drawn_pass() {
         for number in 0..20_000_u32 {
@@ -341,7 +341,7 @@ mod tests {
         assert_eq!(Secret { name: "x".to_owned(), ..secret.clone() }.commitment(), secret.commitment());
     }
 
-    /// Whoever guesses the seed has to guess the nonce too.
+    /// Guessing the seed is useless without the nonce.
     #[test]
     fn games_come_from_the_nonce_too() {
         let secret = drawn();
@@ -367,7 +367,7 @@ mod tests {
         assert_ne!(digest(&|recipe| recipe["corpus"]["known"] = json!(2)), same);
     }
 
-    /// The chance of a witness is found by its path, under one secret only.
+    /// The seed of a witness follows from its path, under one secret only.
     #[test]
     fn a_witness_belongs_to_one_secret() {
         let secret = drawn();

@@ -1,13 +1,13 @@
-//! What searches for levels and searches for games have in common: candidates are looked at on all threads, the best are
-//! kept, and what is picked from an archive lies far apart in it.
+//! The common parts of the searches for levels and for games: evaluating candidates on all threads, keeping the best,
+//! and picking candidates that lie far apart in an archive.
 
 use engine::Digest;
 use generators::{Archive, Evaluation, Judged, Search};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Lets a search ask for so many candidates, `batch` at a time, looks at them on all threads, and tells it what `told` makes
-/// of each look. Whether it asked for all: false as soon as it knows nothing to propose.
+/// Runs a search for a number of candidates, `batch` at a time, evaluates them on all threads, and reports to it the
+/// evaluation that `told` makes of each result. Returns `false` if the search runs out of proposals early.
 pub(crate) fn strive<S: Search<Candidate: Sync>, L: Send>(
     search: &mut S,
     (looks, batch): (usize, usize),
@@ -31,10 +31,10 @@ pub(crate) fn strive<S: Search<Candidate: Sync>, L: Send>(
     true
 }
 
-/// Candidates that come before the last judges after a search, at most.
+/// The maximum number of candidates that are passed to the last judges after a search.
 const FINALISTS: usize = 3;
 
-/// The best feasible candidates of a search, the very best first.
+/// The best feasible candidates of a search, in descending order.
 pub(crate) struct Finalists<C> {
     best: Vec<(C, Digest, f64)>,
 }
@@ -44,7 +44,7 @@ impl<C: Clone> Finalists<C> {
         Finalists { best: Vec::new() }
     }
 
-    /// Takes a candidate in, if it is feasible, new by its key and good enough.
+    /// Adds a candidate if it is feasible, new by its key, and good enough.
     pub(crate) fn note(&mut self, candidate: &C, key: Digest, evaluation: &Evaluation) {
         if !evaluation.is_feasible() || self.best.iter().any(|(_, known, _)| *known == key) {
             return;
@@ -61,12 +61,12 @@ impl<C: Clone> Finalists<C> {
     }
 }
 
-/// An elite of an archive, with its cell and the bins of that.
+/// An elite of an archive, with its cell and the cell's bins.
 type Elite<'a, C> = (usize, Vec<usize>, &'a Judged<C>);
 
-/// Candidates of an archive that have not been shown, with their cells, as far apart in it as can be: the best one first, if
-/// no cell is taken, then always the one that is farthest from all cells that are taken or have been picked, the better
-/// one of equals. What is near one of those, as candidates go, is left for another time.
+/// Candidates of an archive that were not shown before, with their cells, spread as far apart as possible: first the
+/// best one if no cell is taken, then always the one farthest from all cells taken or picked, with ties going to the
+/// better one. A candidate that is near one of those is left for another time.
 pub(crate) fn spread<C: Clone>(
     archive: &Archive<C>,
     wanted: usize,

@@ -1,25 +1,25 @@
-//! Versions of the suite, and the generation that each of them mints.
+//! The versions of the suite, and the generation that each of them mints.
 //!
-//! Version `0.G.p` mints `GENERATION` G. A bump of `GENERATION` or `SEMANTICS` is a new row of [`VERSIONS`], a new version of
-//! the workspace and a new section of the changelog: tests compare the four. A fix that moves no minted byte raises `p` of the
-//! workspace and adds no row.
+//! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row of [`VERSIONS`], a new
+//! version of the workspace and a new section of the changelog: tests compare the four. A fix that changes no minted
+//! byte raises `p` of the workspace and adds no row.
 
 use std::fmt;
 
-/// A version of the suite, by what it mints and replays.
+/// A version of the suite, with the generation it mints and the semantics it replays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Version {
     /// The first version that mints these bytes, such as `0.11.0`; its tag is `v0.11.0`.
     pub number: &'static str,
-    /// Its `GENERATION`: the bytes that a recipe gives.
+    /// Its `GENERATION`, which determines the bytes that a recipe gives.
     pub generation: u32,
-    /// Its `SEMANTICS`: the hashes that witnesses record.
+    /// Its `SEMANTICS`, which determines the hashes that witnesses record.
     pub semantics: u32,
-    /// The last commit that mints these bytes; none for the version that this is.
+    /// The last commit that mints these bytes; `None` for the current version.
     pub commit: Option<&'static str>,
 }
 
-/// Every version that minted other bytes, the oldest first; the last is this one.
+/// Every version that minted different bytes, the oldest first; the last is the current one.
 pub const VERSIONS: &[Version] = &[
     superseded("0.1.0", 1, 1, "73214b9b5e56768a2dc20881f6d9dab5ceeba5fe"),
     superseded("0.2.0", 2, 2, "2bd65cebcea99b65f4bc1dea74290f2a24b95701"),
@@ -36,7 +36,7 @@ pub const VERSIONS: &[Version] = &[
     CURRENT,
 ];
 
-/// The version that this is.
+/// The current version.
 pub const CURRENT: Version = Version {
     number: "0.12.0",
     generation: generators::GENERATION,
@@ -49,7 +49,7 @@ const fn superseded(number: &'static str, generation: u32, semantics: u32, commi
 }
 
 impl Version {
-    /// The version that mints this generation under these semantics, if one that is known here did.
+    /// The known version that mints this generation under these semantics, if any.
     pub fn that_mints(generation: u32, semantics: u32) -> Option<&'static Version> {
         VERSIONS.iter().find(|version| (version.generation, version.semantics) == (generation, semantics))
     }
@@ -59,7 +59,7 @@ impl Version {
         VERSIONS.iter().rev().find(|version| version.semantics == semantics)
     }
 
-    /// The commands that install it, run in a clone of the repository.
+    /// The commands that install it, to run in a clone of the repository.
     pub fn install_command(&self) -> String {
         install_command(&match self.commit {
             Some(commit) => commit[..12].to_owned(),
@@ -68,19 +68,19 @@ impl Version {
     }
 }
 
-/// Name, generation and semantics: `0.11.0 (GENERATION 11, SEMANTICS 3)`.
+/// Writes number, generation and semantics: `0.11.0 (GENERATION 11, SEMANTICS 3)`.
 impl fmt::Display for Version {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} (GENERATION {}, SEMANTICS {})", self.number, self.generation, self.semantics)
     }
 }
 
-/// The commands that install what `revision` names, run in a clone of the repository.
+/// The commands that install `revision`, to run in a clone of the repository.
 fn install_command(revision: &str) -> String {
     format!("git fetch --tags && git checkout {revision} && cargo install --locked --path cli")
 }
 
-/// The version that minted a release, for a message: the one that its manifest names, or else the one known here.
+/// The version that minted a release, for messages: the one that its manifest names, or else the one known here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MintedBy {
     /// The manifest's `version`, if its format has one.
@@ -92,7 +92,7 @@ pub struct MintedBy {
 }
 
 impl MintedBy {
-    /// The commands that install it; none if neither the manifest nor this binary knows it.
+    /// The commands that install it; `None` if neither the manifest nor this binary knows it.
     pub fn install_command(&self) -> Option<String> {
         match (Version::that_mints(self.generation, self.semantics), &self.version) {
             (Some(known), _) => Some(known.install_command()),
@@ -113,7 +113,8 @@ impl fmt::Display for MintedBy {
     }
 }
 
-/// Returns whether a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and so safe inside a suggested command.
+/// Tests whether a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and so safe in a suggested
+/// command.
 pub(crate) fn is_version_number(text: &str) -> bool {
     let is_number = |part: &str| {
         (1..=9).contains(&part.len())
@@ -127,7 +128,7 @@ pub(crate) fn is_version_number(text: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// A bump of GENERATION or SEMANTICS needs a row, a version of the workspace and a section of the changelog.
+    /// Raising GENERATION or SEMANTICS needs a row, a version of the workspace and a section of the changelog.
     #[test]
     fn each_bump_has_a_version_and_a_section_of_the_changelog() {
         let changelog = include_str!("../../CHANGELOG.md");
@@ -179,7 +180,7 @@ mod tests {
             command(None, 10, 3),
             Some(format!("git fetch --tags && git checkout 5182d4800aab {install}"))
         );
-        // A later version is known by its manifest alone.
+        // A later version is known only from its manifest.
         assert_eq!(
             command(Some("0.99.0"), 99, 7),
             Some(format!("git fetch --tags && git checkout v0.99.0 {install}"))

@@ -1,18 +1,18 @@
-//! `witness/lvl<n>.json`: the episode that shows a level winnable.
+//! `witness/lvl<n>.json`: an episode that proves that a level can be won.
 
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// A witness file.
+/// The content of a witness file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Witness {
-    /// The release's mark.
+    /// The release's canary.
     pub canary: String,
     /// The episode; it replays to a win.
     pub episode: Episode,
-    /// How the episode's seed comes from the release's root seed, one [`Seed::child`](engine::Seed::child) after another: in
-    /// sealed releases, so that a revealed secret can be checked without minting. Empty in open ones.
+    /// The steps from the release's root seed to the episode's seed, one [`Seed::child`](engine::Seed::child) each.
+    /// Sealed releases have them, to allow checking a revealed secret without minting; in open ones the list is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Step>,
 }

@@ -1,5 +1,5 @@
-//! Intervals for what no formula covers: resampling (B. Efron, "Bootstrap methods: another look at the jackknife", 1979;
-//! the percentile interval).
+//! Bootstrap intervals, for statistics without a formula (B. Efron, "Bootstrap methods: another look at the
+//! jackknife", 1979; the percentile interval).
 //!
 //! The draws are ChaCha8 with bounds by Lemire's method, both pinned: the same seed gives the same interval everywhere.
 
@@ -7,12 +7,13 @@ use crate::wilson::Interval;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// The percentile interval of a statistic of `values`, such as their mean or a difference of means between the groups that
-/// they are tagged with.
+/// Returns the percentile interval of a statistic of `values`, such as their mean or a difference of means between
+/// the groups that they are tagged with.
 ///
-/// Draws `resamples` samples of the same size with replacement, and returns what `level` (0.95 for 95 %) of their
-/// statistics lie between; with `m` resamples the ends are the values of rank ⌊(1 − level) / 2 · (m − 1)⌋ from below and
-/// from above. `None` without values or resamples, or if a statistic is not a number. Cost: O(resamples · values).
+/// Draws `resamples` samples of the same size with replacement, and returns the range of the central `level` (0.95
+/// for 95 %) of their statistics; with `m` resamples the ends are the values of rank ⌊(1 − level) / 2 · (m − 1)⌋ from
+/// below and from above. `None` without values or resamples, or if a statistic is not a number. Cost: O(resamples ·
+/// values).
 ///
 /// # Panics
 /// If `level` is not within 0..1.
@@ -43,8 +44,8 @@ pub fn bootstrap<T: Copy>(
     percentiles(found.collect(), level)
 }
 
-/// The percentile interval of the mean of `ours` minus the mean of `theirs`: as [`bootstrap`], with a sample drawn from each,
-/// ours first.
+/// Returns the percentile interval of the mean of `ours` minus the mean of `theirs`: like [`bootstrap`], with a
+/// sample drawn from each, ours first.
 ///
 /// # Panics
 /// If `level` is not within 0..1.
@@ -74,7 +75,7 @@ pub fn bootstrap_difference(
     percentiles(found.collect(), level)
 }
 
-/// As many values as there are, with replacement.
+/// Draws a sample of the same size with replacement.
 fn redraw<T: Copy>(draws: &mut ChaCha8Rng, values: &[T], sample: &mut Vec<T>) {
     sample.clear();
     sample.extend((0..values.len()).map(|_| values[below(draws, values.len())]));
@@ -89,7 +90,7 @@ fn percentiles(mut found: Vec<f64>, level: f64) -> Option<Interval> {
     Some(Interval { low: found[rank], high: found[found.len() - 1 - rank] })
 }
 
-/// Uniform in `0..bound`, without bias (D. Lemire, "Fast random integer generation in an interval", 2019).
+/// Draws uniformly from `0..bound`, without bias (D. Lemire, "Fast random integer generation in an interval", 2019).
 fn below(draws: &mut ChaCha8Rng, bound: usize) -> usize {
     let bound = bound as u64;
     loop {
@@ -108,7 +109,7 @@ mod tests {
         sample.iter().sum::<f64>() / sample.len() as f64
     }
 
-    /// These bits are in reports: moving them is a change to be seen.
+    /// Reports contain these bits: a change must be deliberate.
     #[test]
     fn golden() {
         let values: Vec<f64> = (0..25).map(f64::from).collect();
@@ -118,7 +119,7 @@ mod tests {
 
     const GOLDEN: (f64, f64) = (9.16, 14.96);
 
-    /// Of 0 and 1 in equal shares, the mean of n has a standard error of 1 / (2 √n).
+    /// With equal shares of 0 and 1, the mean of n has a standard error of 1 / (2 √n).
     #[test]
     fn it_is_as_wide_as_theory_says() {
         let values: Vec<f64> = (0..400).map(|i| f64::from(i % 2)).collect();
@@ -135,7 +136,7 @@ mod tests {
         assert_eq!(found, Some(Interval { low: 2.0, high: 10.0 }));
     }
 
-    /// Of two means, the standard errors add up as squares.
+    /// For a difference of two means, the squares of the standard errors add up.
     #[test]
     fn differences_are_as_wide_as_theory_says() {
         let [ours, theirs] = [(400, 3), (100, 2)].map(|(count, every): (u32, u32)| {

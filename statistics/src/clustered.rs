@@ -1,13 +1,13 @@
 //! Intervals for means over episodes of several games. Episodes of one game are alike, so twenty-five of them are not
-//! twenty-five independent looks at a player: whole games are drawn again, with all their episodes (A. C. Davison and D. V.
-//! Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). What comes out speaks of games like these, not of these games
-//! alone; with few games it is wide, and with fewer than about ten still too narrow.
+//! twenty-five independent observations of a player: whole games are resampled, with all their episodes (A. C.
+//! Davison and D. V. Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). The result holds for games like
+//! these, not only for these games; with few games it is wide, and with fewer than about ten still too narrow.
 
 use crate::bootstrap::bootstrap;
 use crate::wilson::Interval;
 
-/// The percentile interval of the mean of all values, games drawn with replacement. `None` without values, or if one is not a
-/// number; clusters without values are left out. Cost: O(values + resamples · clusters).
+/// Returns the percentile interval of the mean of all values, with games drawn with replacement. `None` without
+/// values, or if one is not a number; clusters without values are left out. Cost: O(values + resamples · clusters).
 ///
 /// # Panics
 /// If `level` is not within 0..1.
@@ -34,9 +34,9 @@ pub fn clustered_mean<C: AsRef<[f64]>>(
     bootstrap(&sums, mean, resamples, level, seed)
 }
 
-/// The percentile interval of the mean of ours minus the mean of theirs: a pair of clusters holds what both sides did on one game,
-/// and is drawn as a whole, so that what makes a game easy for both cancels. `None` as for [`clustered_mean`], or if no cluster
-/// has values on both sides; the others are left out.
+/// Returns the percentile interval of the mean of ours minus the mean of theirs: a pair of clusters holds the values
+/// of both sides on one game, and is drawn as a whole, so that the difficulty of a game cancels. `None` as for
+/// [`clustered_mean`], or if no cluster has values on both sides; the others are left out.
 ///
 /// # Panics
 /// If `level` is not within 0..1.
@@ -68,7 +68,7 @@ pub fn clustered_difference<C: AsRef<[f64]>>(
     bootstrap(&pairs, difference, resamples, level, seed)
 }
 
-/// The sum and the number of values.
+/// Returns the sum and the number of values.
 fn sum(values: &[f64]) -> (f64, f64) {
     (values.iter().sum(), values.len() as f64)
 }
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use crate::bootstrap_difference;
 
-    /// If the episodes of a game are all the same, only the number of games counts.
+    /// With identical episodes in each game, only the number of games counts.
     #[test]
     fn copies_add_nothing() {
         let games: Vec<f64> = (0..40).map(|game| f64::from(u8::from(game % 4 == 0))).collect();
@@ -96,7 +96,7 @@ mod tests {
         assert_eq!((found.low, found.high), (0.0, 1.0));
     }
 
-    /// Both players do better on easy games; paired, the difference is sure, unpaired it is not.
+    /// Both players do better on easy games; paired, the difference is significant, unpaired it is not.
     #[test]
     fn pairs_cancel_what_both_share() {
         let rates: Vec<f64> = (0..10).map(|game| f64::from(game) / 10.0).collect();

@@ -1,13 +1,13 @@
-//! How far apart two proportions are, whatever the number of trials (J. Cohen, *Statistical Power Analysis for the
+//! Effect size of two proportions, independent of the number of trials (J. Cohen, *Statistical Power Analysis for the
 //! Behavioral Sciences*, 1988, chapter 6).
 
-/// Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]: 0.2 is called small, 0.5 medium, 0.8 large.
+/// Returns Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]: 0.2 is called small, 0.5 medium, 0.8 large.
 ///
-/// The arcsine makes the variance of a proportion of `n` trials about `1 / n` wherever it lies, so that equal h are equally hard
-/// to detect.
+/// The arcsine makes the variance of a proportion of `n` trials about `1 / n` for any proportion, so that equal h are
+/// equally hard to detect.
 ///
 /// # Panics
-/// If a value is no proportion.
+/// If a value is not a proportion.
 ///
 /// ```
 /// assert!((statistics::cohens_h(0.64, 0.16) - 1.0315567).abs() < 1e-7);
@@ -16,7 +16,7 @@ pub fn cohens_h(p: f64, q: f64) -> f64 {
     angle(p) - angle(q)
 }
 
-/// `2 asin √p`.
+/// Returns `2 asin √p`.
 pub(crate) fn angle(p: f64) -> f64 {
     assert!((0.0..=1.0).contains(&p), "{p} is no proportion");
     2.0 * libm::asin(p.sqrt())
@@ -26,7 +26,7 @@ pub(crate) fn angle(p: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The vectors of `spec/06` §3.1, and with the digits that decimal arithmetic gives.
+    /// The vectors of `spec/06` §3.1, also with the digits of decimal arithmetic.
     #[test]
     #[expect(clippy::approx_constant, reason = "printed like the others")]
     fn published_vectors() {

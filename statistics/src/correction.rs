@@ -1,11 +1,11 @@
-//! Many tests at once: which of them to believe? (Y. Benjamini and Y. Hochberg, "Controlling the false discovery rate",
-//! 1995; C. E. Bonferroni, "Teoria statistica delle classi e calcolo delle probabilità", 1936.)
+//! Corrections for multiple tests (Y. Benjamini and Y. Hochberg, "Controlling the false discovery rate", 1995; C. E.
+//! Bonferroni, "Teoria statistica delle classi e calcolo delle probabilità", 1936).
 
-/// The Benjamini–Hochberg adjusted values (q-values) of `p`, in the order given: rejecting all tests with q at most 5 %
-/// keeps the expected share of false ones among the rejected at most 5 %. Never above 1. Cost: O(n log n).
+/// Returns the Benjamini–Hochberg adjusted values (q-values) of `p`, in the order given: rejecting all tests with q
+/// at most 5 % keeps the expected share of false rejections at most 5 %. Never above 1. Cost: O(n log n).
 ///
 /// # Panics
-/// If a value is no probability.
+/// If a value is not a probability.
 ///
 /// ```
 /// assert_eq!(statistics::benjamini_hochberg(&[0.01, 0.5, 0.02]), [0.03, 0.5, 0.03]);
@@ -24,11 +24,11 @@ pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-/// The Bonferroni adjusted values of `p`, in the order given: rejecting all tests with one at most 5 % keeps the probability of
-/// even one false rejection at most 5 %. Never above 1. Cost: O(n).
+/// Returns the Bonferroni adjusted values of `p`, in the order given: rejecting all tests with one at most 5 % keeps
+/// the probability of even one false rejection at most 5 %. Never above 1. Cost: O(n).
 ///
 /// # Panics
-/// If a value is no probability.
+/// If a value is not a probability.
 ///
 /// ```
 /// assert_eq!(statistics::bonferroni(&[0.125, 0.5, 0.25]), [0.375, 1.0, 0.75]);

@@ -1,13 +1,14 @@
-//! An interval for the difference of two win rates: the hybrid score interval, which stays sensible at few trials and near
-//! 0 and 1 (R. G. Newcombe, "Interval estimation for the difference between independent proportions", 1998, method 10).
+//! An interval for the difference of two win rates: the hybrid score interval, which remains reliable at few trials
+//! and near 0 and 1 (R. G. Newcombe, "Interval estimation for the difference between independent proportions", 1998,
+//! method 10).
 
 use crate::wilson::{Interval, wilson};
 
-/// The interval of the first proportion minus the second, at `z` standard deviations ([`Z95`](crate::Z95) for 95 %),
-/// within [−1, 1]. Without trials on a side, that side may be anything.
+/// Returns the interval of the first proportion minus the second, at `z` standard deviations ([`Z95`](crate::Z95) for
+/// 95 %), within [−1, 1]. A side without trials may have any rate.
 ///
 /// # Panics
-/// As [`wilson`].
+/// Those of [`wilson`].
 ///
 /// ```
 /// let interval = statistics::difference([16, 4], [25, 25], statistics::Z95);

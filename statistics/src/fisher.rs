@@ -1,17 +1,18 @@
-//! Fisher's exact test: do two groups succeed equally often? (R. A. Fisher, "On the interpretation of χ² from contingency
-//! tables, and the calculation of P", 1922.)
+//! Fisher's exact test for equal success rates of two groups (R. A. Fisher, "On the interpretation of χ² from
+//! contingency tables, and the calculation of P", 1922).
 //!
-//! The probabilities are those of the hypergeometric distribution. They come from the ratios of neighbours, so only
-//! `* /` and sums in a stated order are used: no logarithm of a factorial, whose last bits differ between platforms.
+//! The probabilities are those of the hypergeometric distribution. They are computed from the ratios of neighbours,
+//! so only `* /` and sums in a fixed order are used: no logarithm of a factorial, whose last bits differ between
+//! platforms.
 
-/// How much more likely than the observed table another one may seem and still count as equally likely: beyond rounding,
-/// below any true difference between tables of counts that fit in memory.
+/// The factor by which another table may appear more likely than the observed one and still count as equally likely:
+/// above rounding errors, below any true difference between tables of counts that fit in memory.
 pub(crate) const SAME: f64 = 1.0 + 1e-7;
 
-/// The two-sided p-value of `successes` among `trials` in each of two groups: the probability, the totals being what they
-/// are, of a table no more likely than this one.
+/// Returns the two-sided p-value of `successes` among `trials` in each of two groups: the probability, with the
+/// totals fixed, of a table no more likely than this one.
 ///
-/// 1 where there is nothing to compare: no trials, or nothing but successes, or none. Cost: O(number of tables with these
+/// Returns 1 if there is nothing to compare: no trials, only successes, or none. Cost: O(number of tables with these
 /// totals), that is at most the smaller group.
 ///
 /// # Panics
@@ -29,11 +30,12 @@ pub fn fisher(successes: [u64; 2], trials: [u64; 2]) -> f64 {
     (extreme / total).min(1.0)
 }
 
-/// All tables with the same totals. A table is told by the successes of the first group; the others follow.
+/// All tables with the same totals. A table is identified by the successes of the first group.
 pub(crate) struct Tables {
     /// The fewest successes that the first group can have.
     pub(crate) first: u64,
-    /// How likely each further one is, relative to the likeliest: none overflows, and what underflows adds nothing.
+    /// The relative probability of each table from `first` on, compared with the most likely one: none overflows, and
+    /// underflow adds nothing.
     pub(crate) weights: Vec<f64>,
 }
 
@@ -64,7 +66,7 @@ impl Tables {
     }
 }
 
-/// The sum from the smallest value up, which loses least to rounding.
+/// Sums from the smallest value up, to lose least to rounding.
 pub(crate) fn ascending(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);
@@ -123,8 +125,8 @@ mod tests {
         }
     }
 
-    /// Worked by hand: the totals allow 0, 1 or 2 in the first group, with 10, 20 and 6 of 36 chances, of which 10 are not
-    /// likelier than 10 and 6 are not likelier than 6.
+    /// Calculated by hand: the totals allow 0, 1 or 2 in the first group, with 10, 20 and 6 of 36 chances, of which
+    /// 10 are not likelier than 10 and 6 are not likelier than 6.
     #[test]
     fn groups_of_different_size() {
         for (k, expect) in [(0, 16.0 / 36.0), (1, 1.0), (2, 6.0 / 36.0)] {

@@ -1,8 +1,10 @@
-//! Statistics for win rates and scores: intervals, tests, corrections and summaries, the same bits on every machine but for what is named below.
+//! Statistics for win rates and scores: intervals, tests, corrections and summaries, with the same bits on every
+//! machine except as noted below.
 //!
-//! Depends on nothing of ours. Only `+ - * /` and square roots are used, in a stated order; what is drawn is drawn from
-//! ChaCha8 with the caller's seed. The exceptions are for reports only: the p-values of [`student_p`], [`correlation_p`] and
-//! [`welch()`] and the sizes of [`Power`] come from a library's distributions, whose last digits may differ between machines.
+//! This crate depends on no other crate of the workspace. It uses only `+ - * /` and square roots, in a fixed order;
+//! random draws come from ChaCha8 with the caller's seed. The exceptions are for reports only: the p-values of
+//! [`student_p`], [`correlation_p`] and [`welch()`] and the sizes of [`Power`] come from a library's distributions,
+//! whose last digits may differ between machines.
 //!
 //! ```
 //! use statistics::{Summary, Z95, wilson};

@@ -1,9 +1,10 @@
-//! Do two measures lie on a line? (K. Pearson, "Note on regression and inheritance in the case of two parents", 1895.)
+//! Linear correlation of two measures (K. Pearson, "Note on regression and inheritance in the case of two parents",
+//! 1895).
 
 use crate::student::student_p;
 
-/// Pearson's correlation of pairs, from −1 to 1. `None` for fewer than two pairs, if all values of a side are equal, or if one is
-/// not finite. Cost: O(n).
+/// Returns Pearson's correlation of pairs, from −1 to 1. `None` for fewer than two pairs, if all values of a side are
+/// equal, or if one is not finite. Cost: O(n).
 ///
 /// ```
 /// assert_eq!(statistics::pearson(&[(1.0, 5.0), (2.0, 7.0), (3.0, 9.0)]), Some(1.0));
@@ -25,9 +26,9 @@ pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
     (spread > 0.0).then(|| (product(|x, y| x * y) / spread).clamp(-1.0, 1.0))
 }
 
-/// The two-sided p-value of a correlation `r` of `pairs` pairs: how often pairs without any relation correlate at least as much.
-/// For [`pearson`] exact if one side is normal; for [`spearman`](crate::spearman) an approximation, good from about ten pairs
-/// on. `None` for fewer than three pairs.
+/// Returns the two-sided p-value of a correlation `r` of `pairs` pairs: the probability that unrelated pairs
+/// correlate at least as much. Exact for [`pearson`] if one side is normal; an approximation for
+/// [`spearman`](crate::spearman), good from about ten pairs on. `None` for fewer than three pairs.
 ///
 /// # Panics
 /// If `r` is not within −1..=1.
@@ -55,8 +56,8 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect.abs(), "{found}, not {expect}");
     }
 
-    /// The vectors of `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355), with the digits that decimal arithmetic
-    /// gives.
+    /// The vectors of `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355), with the digits of decimal
+    /// arithmetic.
     #[test]
     fn published_vectors() {
         let pairs: Vec<(f64, f64)> = X.into_iter().zip(Y).collect();
@@ -93,7 +94,7 @@ mod tests {
         assert_eq!(correlation_p(-1.0, 3), Some(0.0));
         assert_eq!(correlation_p(0.0, 3), Some(1.0));
         assert_eq!(correlation_p(1.0, 2), None);
-        // The mean of three 0.1 is not 0.1, yet nothing differs.
+        // The mean of three 0.1 is not 0.1, but the values do not differ.
         assert_eq!(pearson(&[(0.1, 1.0), (0.1, 2.0), (0.1, 4.0)]), None);
         assert_eq!(pearson(&[(0.0, 1.0)]), None);
         assert_eq!(pearson(&[(0.0, 1.0), (f64::NAN, 2.0)]), None);

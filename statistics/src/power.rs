@@ -1,20 +1,20 @@
-//! How many episodes does it take to see a difference of win rates? To be asked before the run: with five episodes a side
-//! nothing but five against none can be told apart.
+//! Power analysis for win rates: the number of episodes needed to see a difference. It is for planning a run: with
+//! five episodes a side, only five wins against one or none, and four against none, can be told apart.
 //!
-//! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral Sciences*, 1988, §6.4);
-//! [`fisher_power`] adds up all tables, for the test that is then made. Fisher's test is the more cautious, above all at few
-//! trials.
+//! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral Sciences*,
+//! 1988, §6.4); [`fisher_power`] sums over all tables, for the test made afterwards. Fisher's test is more
+//! conservative, above all at few trials.
 
 use crate::cohen::{angle, cohens_h};
 use crate::fisher::fisher;
 use statrs::function::erf::erfc_inv;
 
-/// What is asked of a comparison of two win rates with as many trials on each side.
+/// The error rates of a comparison of two win rates with equal trials on each side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power {
-    /// How often a difference may be seen where there is none, by a two-sided test: usually 0.05.
+    /// The probability of seeing a difference where there is none, by a two-sided test: usually 0.05.
     pub alpha: f64,
-    /// How often a difference that is there has to be seen: usually 0.8.
+    /// The probability of seeing a difference that exists: usually 0.8.
     pub power: f64,
 }
 
@@ -25,7 +25,8 @@ impl Default for Power {
 }
 
 impl Power {
-    /// The smallest Cohen's h that `trials` a side show; above π, nothing does. Infinite without trials.
+    /// Returns the smallest Cohen's h that `trials` a side can show; above π, none can be shown. Infinite without
+    /// trials.
     ///
     /// ```
     /// // 25 episodes a side show differences of h = 0.79, about 0.1 against 0.44.
@@ -36,10 +37,11 @@ impl Power {
         self.deviations() * (2.0 / trials as f64).sqrt()
     }
 
-    /// The rates nearest to `base`, below and above, that `trials` a side tell from it; `None` where there is none.
+    /// Returns the rates nearest to `base`, below and above, that `trials` a side tell from it; `None` if there is
+    /// none.
     ///
     /// # Panics
-    /// If `base` is no proportion.
+    /// If `base` is not a proportion.
     ///
     /// ```
     /// let [worse, better] = statistics::Power::default().detectable(25, 0.1);
@@ -54,10 +56,10 @@ impl Power {
         })
     }
 
-    /// The trials a side that tell `p` from `q`; `None` if they are equal.
+    /// Returns the trials a side needed to tell `p` from `q`; `None` if they are equal.
     ///
     /// # Panics
-    /// If one is no proportion.
+    /// If one is not a proportion.
     ///
     /// ```
     /// assert_eq!(statistics::Power::default().needed(0.5, 0.7), Some(93));
@@ -68,17 +70,17 @@ impl Power {
         (h != 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
     }
 
-    /// The standard deviations between no difference and one that is seen as often as asked.
+    /// Returns the standard deviations between no difference and one detected with the required power.
     fn deviations(&self) -> f64 {
         quantile(1.0 - self.alpha / 2.0) + quantile(self.power)
     }
 }
 
-/// How often [`fisher`] gives at most `alpha`, if two players with win rates `rates` play `trials` episodes each. Cost: cubic in
-/// the trials; a few hundred are fine.
+/// Returns the probability that [`fisher`] gives at most `alpha`, if two players with win rates `rates` play `trials`
+/// episodes each. Cost: cubic in the trials; a few hundred are fine.
 ///
 /// # Panics
-/// If a rate is no proportion.
+/// If a rate is not a proportion.
 ///
 /// ```
 /// // Five episodes a side: even a player who always wins is told from one of 0.2 only in 74 of 100 evaluations.
@@ -98,7 +100,7 @@ pub fn fisher_power(rates: [f64; 2], trials: [u64; 2], alpha: f64) -> f64 {
     seen.min(1.0)
 }
 
-/// The probabilities of 0 to `trials` successes.
+/// Returns the probabilities of 0 to `trials` successes.
 fn binomial(rate: f64, trials: u64) -> Vec<f64> {
     assert!((0.0..=1.0).contains(&rate), "{rate} is no proportion");
     let mut chances = vec![1.0];
@@ -112,7 +114,7 @@ fn binomial(rate: f64, trials: u64) -> Vec<f64> {
     chances
 }
 
-/// The quantile of the normal distribution.
+/// Returns the quantile of the normal distribution.
 fn quantile(share: f64) -> f64 {
     -std::f64::consts::SQRT_2 * erfc_inv(2.0 * share)
 }
@@ -153,21 +155,21 @@ mod tests {
         assert_eq!(ask.detectable_h(0), f64::INFINITY);
     }
 
-    /// All against nothing is the only thing that five a side show, besides four against none and five against one.
+    /// Five a side can show only five against none, four against none and five against one.
     #[test]
     fn five_a_side() {
         assert_eq!(fisher_power([1.0, 0.0], [5, 5], 0.05), 1.0);
         let (p, q): (f64, f64) = (0.9, 0.1);
         let (five, four) = (p * p * p * p * p, 5.0 * p * p * p * p * q);
         let expect = five * (five + four) + four * five;
-        // And the mirror image, where the worse one is lucky.
+        // The mirror image, where the worse player is lucky.
         let (none, one) = (q * q * q * q * q, 5.0 * q * q * q * q * p);
         let expect = expect + none * (none + one) + one * none;
         let found = fisher_power([p, q], [5, 5], 0.05);
         assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
     }
 
-    /// What the arcsine says is what Fisher's test needs, but for its caution.
+    /// The arcsine agrees with the needs of Fisher's test, except that the test is conservative.
     #[test]
     fn the_approximation_is_near() {
         for (p, q) in [(0.1, 0.4), (0.5, 0.7), (0.05, 0.2)] {

@@ -1,7 +1,8 @@
 //! Quantiles of a sample (R. J. Hyndman and Y. Fan, "Sample quantiles in statistical packages", 1996, definition 7).
 
-/// The quantile of `values` at `share` (0.5: the median): the value of rank `share · (n − 1)` from below, counted from 0, on a
-/// straight line between neighbours. `None` without values, or if one is not finite. Cost: O(n log n) and one copy.
+/// Returns the quantile of `values` at `share` (0.5: the median): the value of rank `share · (n − 1)` from below,
+/// counted from 0, with linear interpolation between neighbours. `None` without values, or if one is not finite.
+/// Cost: O(n log n) and one copy.
 ///
 /// # Panics
 /// If `share` is not within 0..=1.
@@ -20,7 +21,7 @@ pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let below = (rank as usize).min(sorted.len() - 1);
     let above = (below + 1).min(sorted.len() - 1);
     let (low, high) = (sorted[below], sorted[above]);
-    // Beyond the neighbours is a rounding error.
+    // A value beyond the neighbours is a rounding error.
     Some((low + (rank - below as f64) * (high - low)).clamp(low, high))
 }
 

@@ -1,8 +1,9 @@
-//! Do two measures put things in the same order? (C. Spearman, "The proof and measurement of association between two things",
-//! 1904.)
+//! Rank correlation of two measures (C. Spearman, "The proof and measurement of association between two things",
+//! 1904).
 
-/// Spearman's rank correlation of pairs, from −1 to 1: the correlation of their ranks, of which equal values share the mean.
-/// `None` for fewer than two pairs, if all values of a side are equal, or if one is not a number. Cost: O(n log n).
+/// Returns Spearman's rank correlation of pairs, from −1 to 1: the correlation of their ranks, where equal values
+/// share their mean rank. `None` for fewer than two pairs, if all values of a side are equal, or if one is not a
+/// number. Cost: O(n log n).
 ///
 /// ```
 /// assert_eq!(statistics::spearman(&[(1.0, 5.0), (2.0, 6.0), (3.0, 9.0)]), Some(1.0));
@@ -13,14 +14,14 @@ pub fn spearman(pairs: &[(f64, f64)]) -> Option<f64> {
     }
     let x = ranks(&pairs.iter().map(|pair| pair.0).collect::<Vec<f64>>());
     let y = ranks(&pairs.iter().map(|pair| pair.1).collect::<Vec<f64>>());
-    // Ranks are halves, and their mean is known: these sums are exact.
+    // Ranks are multiples of one half, and their mean is known: these sums are exact.
     let mean = (pairs.len() - 1) as f64 / 2.0;
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>();
     let spread = product(&x, &x) * product(&y, &y);
     (spread > 0.0).then(|| (product(&x, &y) / spread.sqrt()).clamp(-1.0, 1.0))
 }
 
-/// The rank of each value, from 0; equal ones share the mean.
+/// Returns the rank of each value, from 0; equal values share their mean rank.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));

@@ -1,10 +1,10 @@
-//! Do two players win equally often, level by level? Pooling levels of different difficulty can hide or invent a difference;
-//! here only episodes of the same level are compared, and the evidence is added up (N. Mantel and W. Haenszel, "Statistical
-//! aspects of the analysis of data from retrospective studies of disease", 1959).
+//! A stratified test of two players, level by level. Pooling levels of different difficulty can hide or invent a
+//! difference; here only episodes of the same level are compared, and the evidence is summed (N. Mantel and W.
+//! Haenszel, "Statistical aspects of the analysis of data from retrospective studies of disease", 1959).
 //!
-//! The test is the exact one: given the totals of every level, all ways to deal its wins to its episodes are equally likely, so
-//! the wins of a side are a sum of independent hypergeometric numbers, whose distribution is worked out in full. It is what a
-//! permutation test within strata estimates by drawing.
+//! The test is the exact one: given the totals of every level, all ways to assign its wins to its episodes are
+//! equally likely, so the wins of a side are a sum of independent hypergeometric numbers, whose distribution is
+//! computed exactly. A permutation test within strata estimates the same by sampling.
 
 use crate::fisher::{SAME, Tables, ascending};
 
@@ -22,11 +22,11 @@ pub struct Stratum {
 pub struct Stratified {
     /// The two-sided exact p-value: with one stratum that of [`fisher`](crate::fisher).
     pub p: f64,
-    /// The first group's rate minus the second's: the mean over the levels, weighted by what they tell (Mantel and Haenszel's
-    /// weights, the harmonic mean of the trials). `None` if on no level both groups have trials.
+    /// The first group's rate minus the second's: the mean over the levels, weighted by their information (Mantel and
+    /// Haenszel's weights, the harmonic mean of the trials). `None` if on no level both groups have trials.
     pub difference: Option<f64>,
-    /// Mantel and Haenszel's estimate of the common odds ratio, the first group's odds over the second's; infinite if only the
-    /// first has anything in its favour. `None` if nothing speaks for either.
+    /// Mantel and Haenszel's estimate of the common odds ratio, the first group's odds over the second's; infinite if
+    /// all evidence favours the first. `None` if there is no evidence for either.
     pub odds_ratio: Option<f64>,
 }
 
@@ -70,7 +70,7 @@ pub fn stratified(strata: &[Stratum]) -> Stratified {
     }
 }
 
-/// The weights of the sums of two independent numbers, relative to the likeliest.
+/// Returns the weights of the sums of two independent numbers, relative to the most likely one.
 fn convolved(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; a.len() + b.len() - 1];
     for (i, a) in a.iter().enumerate() {
@@ -101,7 +101,8 @@ mod tests {
         }
     }
 
-    /// Two levels with one win of 1 against 1 each: the first side's wins are 0, 1 or 2 with chances of 1, 2 and 1 in 4.
+    /// Two levels with one win of 1 against 1 each: the first side's wins are 0, 1 or 2 with chances of 1, 2 and 1 in
+    /// 4.
     #[test]
     fn worked_by_hand() {
         let found = stratified(&[stratum(1, 1, 0, 1), stratum(1, 1, 0, 1)]);
@@ -109,7 +110,7 @@ mod tests {
         assert_eq!(stratified(&[stratum(1, 1, 0, 1), stratum(0, 1, 1, 1)]).p, 1.0);
     }
 
-    /// All ways to deal the wins of each level, counted one by one.
+    /// All ways to assign the wins of each level, counted one by one.
     #[test]
     fn every_deal_counted() {
         let strata = [stratum(3, 4, 1, 3), stratum(2, 2, 2, 4), stratum(1, 3, 0, 2)];

@@ -5,8 +5,8 @@
 
 use statrs::function::beta::beta_reg;
 
-/// The probability that a t with `df` degrees of freedom is at least as far from 0 as `t`: the two-sided p-value. Keeps its
-/// relative precision where it is tiny. Cost: O(1).
+/// Returns the probability that a t with `df` degrees of freedom is at least as far from 0 as `t`: the two-sided
+/// p-value. Tiny values keep their relative precision. Cost: O(1).
 ///
 /// # Panics
 /// If `t` is not a number or `df` is not positive and finite.
@@ -20,7 +20,7 @@ pub fn student_p(t: f64, df: f64) -> f64 {
     if t.is_infinite() {
         return 0.0;
     }
-    // The tail itself, not 1 minus the rest: that would have no digits left.
+    // The tail itself, not 1 minus the rest, which would have no digits left.
     beta_reg(df / 2.0, 0.5, df / (df + t * t)).clamp(0.0, 1.0)
 }
 
@@ -34,7 +34,7 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect, "t {t}, df {df}: {found}, not {expect}");
     }
 
-    /// The vectors of `spec/06` §3.1 (0.00488943 and 0.234674), with the digits that decimal arithmetic gives.
+    /// The vectors of `spec/06` §3.1 (0.00488943 and 0.234674), with the digits of decimal arithmetic.
     #[test]
     fn published_vectors() {
         check(2.83, 400.0, 0.00488943350331646);

@@ -1,8 +1,8 @@
-//! What a sample of scores looks like in five numbers.
+//! Summaries of a sample of scores in five numbers.
 
 /// Count, mean, extremes and median of a sample.
 ///
-/// A function of the values, not of their order: shards and threads may deliver them in any.
+/// It depends on the values, not on their order: shards and threads may deliver them in any order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
     /// Number of values, at least 1.
@@ -18,8 +18,8 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// The summary of `values`, or `None` if there are none or one is not finite: then no number would be right,
-    /// and "missing" is not 0.
+    /// Returns the summary of `values`, or `None` if there are none or one is not finite: then no number would be
+    /// right, and "missing" is not 0.
     ///
     /// The mean is the sum divided by the count; the sum runs from the smallest value to the largest
     /// (`f64::total_cmp`), one addition each, starting from the smallest. Values are expected to stay far enough
@@ -68,7 +68,7 @@ mod tests {
         }
     }
 
-    /// Summed as given, these would have a mean for each order.
+    /// Summed in the given order, the mean would depend on the order.
     #[test]
     fn order_does_not_matter() {
         let values = [1e16, 1.0, -1e16, 1.0, 0.1, 0.7];

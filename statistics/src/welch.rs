@@ -1,5 +1,5 @@
-//! Do two groups have the same mean, when their spreads may differ? (B. L. Welch, "The generalization of 'Student's' problem
-//! when several different population variances are involved", 1947.)
+//! Welch's test for equal means of two groups with possibly different variances (B. L. Welch, "The generalization of
+//! 'Student's' problem when several different population variances are involved", 1947).
 
 use crate::student::student_p;
 
@@ -28,7 +28,7 @@ pub fn welch(ours: &[f64], theirs: &[f64]) -> Option<Welch> {
         return None;
     }
     let t = (a.mean - b.mean) / square.sqrt();
-    // As shares, so that small squares do not vanish when squared again.
+    // Shares, so that small squares do not underflow when squared again.
     let (share, rest) = (a.square / square, b.square / square);
     let df = 1.0 / (share * share / a.df + rest * rest / b.df);
     Some(Welch { t, df, p: student_p(t, df) })
@@ -47,7 +47,7 @@ impl Side {
             return None;
         }
         let count = values.len() as f64;
-        // Of equal values, the mean may differ from them in the last bit: no spread all the same.
+        // The mean of equal values may differ from them in the last bit: their variance is still 0.
         if values.iter().all(|value| *value == values[0]) {
             return Some(Side { mean: values[0], square: 0.0, df: count - 1.0 });
         }
@@ -71,8 +71,8 @@ mod tests {
         assert!((swapped.t + found.t).abs() < 1e-12 && (swapped.p - found.p).abs() < 1e-12);
     }
 
-    /// The vectors of `spec/06` §3.1 (t 1.396501, df 8.353065, p .198555; t −5.418683, df 5.102377, p .00272304), with the
-    /// digits that decimal arithmetic gives.
+    /// The vectors of `spec/06` §3.1 (t 1.396501, df 8.353065, p .198555; t −5.418683, df 5.102377, p .00272304),
+    /// with the digits of decimal arithmetic.
     #[test]
     fn published_vectors() {
         check(
@@ -91,7 +91,7 @@ mod tests {
         );
     }
 
-    /// If one side does not vary, it is a t test of the other's mean.
+    /// With no variance on one side, it is a t test of the other's mean.
     #[test]
     fn one_side_is_sure() {
         let found = welch(&[1.0, 2.0, 3.0], &[0.1, 0.1, 0.1]).unwrap();

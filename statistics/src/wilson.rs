@@ -1,11 +1,11 @@
-//! The Wilson score interval for a proportion, which holds its level at few trials and near 0 and 1, where the
-//! textbook interval does not (E. B. Wilson, "Probable inference, the law of succession, and statistical
-//! inference", 1927).
+//! The Wilson score interval for a proportion, which keeps its coverage at few trials and near 0 and 1, where the
+//! textbook interval does not (E. B. Wilson, "Probable inference, the law of succession, and statistical inference",
+//! 1927).
 
 /// The quantile of the normal distribution for a two-sided interval of 95 %.
 pub const Z95: f64 = 1.959963984540054;
 
-/// A closed interval, `low ≤ high`; of proportions within [0, 1], of their differences within [−1, 1].
+/// A closed interval, `low ≤ high`; within [0, 1] for proportions, within [−1, 1] for their differences.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// The smallest plausible value.
@@ -14,7 +14,7 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// The Wilson score interval of `successes` among `trials` at `z` standard deviations ([`Z95`] for 95 %).
+/// Returns the Wilson score interval of `successes` among `trials` at `z` standard deviations ([`Z95`] for 95 %).
 ///
 /// Without trials nothing is known: the interval is [0, 1]. With no success `low` is exactly 0, and with nothing
 /// but successes `high` is exactly 1. Counts above 2^53 are rounded to the nearest `f64`.
@@ -33,7 +33,7 @@ pub fn wilson(successes: u64, trials: u64, z: f64) -> Interval {
     let scale = 1.0 + z2 / n;
     let centre = (p + z2 / (2.0 * n)) / scale;
     let half = z * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt() / scale;
-    // Rounding can leave the ends a hair beyond where algebra puts them.
+    // Rounding can move the ends slightly beyond their exact values.
     Interval {
         low: if successes == 0 { 0.0 } else { (centre - half).clamp(0.0, p) },
         high: if successes == trials { 1.0 } else { (centre + half).clamp(p, 1.0) },
@@ -95,7 +95,7 @@ mod tests {
         check(347, 2246, 1.96, 0.140140, 0.170033, 5.1e-7);
     }
 
-    /// Against decimal arithmetic of 60 digits: within the last bit or two.
+    /// Compared with decimal arithmetic of 60 digits: within the last bit or two.
     #[test]
     fn exact_vectors() {
         check(1, 5, Z95, 0.03622410863243017, 0.6244653702374747, 2.3e-16);
@@ -106,7 +106,7 @@ mod tests {
         check(1, 1000000, Z95, 1.765245767453715e-07, 5.664911804311442e-06, 2.3e-16);
     }
 
-    /// These bits are in reports: moving them is a change to be seen.
+    /// Reports contain these bits: a change must be deliberate.
     #[test]
     fn golden_bits() {
         let Interval { low, high } = wilson(19, 25, Z95);

@@ -13,7 +13,7 @@ struct Formed {
     form: GameForm,
 }
 
-/// The games below a folder that load strictly.
+/// Returns the games below a folder that load strictly.
 fn formed(folder: &Path) -> Vec<Formed> {
     let strictly = games(folder).into_iter().filter_map(|(name, game, _)| {
         let game = Game::compile(game.description()).ok()?;
@@ -39,7 +39,7 @@ fn main() {
     distributions(lists);
 }
 
-/// Each game of ours with its nearest neighbours.
+/// Prints each game of ours with its nearest neighbours.
 fn neighbours(own: &[Formed], public: &[Formed]) {
     told("| game | nearest in the corpus | distance | nearest public game | distance |");
     told("|---|---|---|---|---|");
@@ -53,7 +53,7 @@ fn neighbours(own: &[Formed], public: &[Formed]) {
     }
 }
 
-/// All pairs with their distances, the nearest first.
+/// Returns all pairs with their distances, the nearest first.
 fn pairs(games: &[Formed]) -> Vec<(f64, &str, &str)> {
     let mut pairs = Vec::new();
     for (at, one) in games.iter().enumerate() {
@@ -64,7 +64,7 @@ fn pairs(games: &[Formed]) -> Vec<(f64, &str, &str)> {
     pairs
 }
 
-/// Pairs of relatives among the public games, and those that are as near.
+/// Prints the pairs of related games among the public games, and the pairs that are as near.
 fn nearest_pairs(public: &[Formed]) {
     let relatives = [
         ("sokoban", "wrapsokoban"),
@@ -81,7 +81,7 @@ fn nearest_pairs(public: &[Formed]) {
     }
 }
 
-/// How far games are from copies with other numbers, and from themselves with rules altered.
+/// Returns the distances of games from copies with other numbers, and from themselves with changed rules.
 fn copies(all: &[&Formed]) -> Vec<(&'static str, Vec<f64>)> {
     let mut renumbered = Vec::new();
     let mut altered = [Vec::new(), Vec::new(), Vec::new()];

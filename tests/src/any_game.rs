@@ -9,7 +9,7 @@ use engine::syntax::{
 };
 use engine::{EFFECTS, ParameterKind, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS, effect_parameters};
 
-/// A game and a level for it, as texts. Most load strictly; what does not still loads as the reference does.
+/// A game and a level for it, as texts. Most load strictly; the others load as the reference does.
 #[derive(Clone, Debug)]
 pub struct AnyGame {
     /// The game.
@@ -18,7 +18,7 @@ pub struct AnyGame {
     pub level: String,
 }
 
-/// The game that these decisions describe.
+/// Makes the game that these decisions describe.
 pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     let leaves = vec![("wall".to_owned(), SpriteClass::Immovable)];
     let has_ground = choices.once_in(6);
@@ -43,25 +43,25 @@ pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     AnyGame { source: syntax::print(&description), level: author.level(&symbols) }
 }
 
-/// Sprite types below one another at most.
+/// The greatest depth of the tree of sprite types.
 const DEPTH: usize = 3;
-/// Sprite types without children, at most so many below one parent.
+/// The most childless sprite types below one parent.
 const SIBLINGS: usize = 5;
 
 struct Author<'c, 'b> {
     choices: &'c mut Choices<'b>,
-    /// Types that sprites are of, with their effective class.
+    /// Types that have sprites, with their effective class.
     leaves: Vec<(String, SpriteClass)>,
     /// Parents.
     groups: Vec<String>,
-    /// The lowest row is ground, on which avatars and walkers stand.
+    /// `true` if the lowest row is ground, on which avatars and walkers stand.
     has_ground: bool,
-    /// How many counters the game has.
+    /// The number of counters of the game.
     counters: usize,
 }
 
 impl Author<'_, '_> {
-    /// Names and classes. An inherited class is not written again.
+    /// Makes names and classes. An inherited class is not written again.
     fn forest(&mut self, inherited: Option<SpriteClass>, depth: usize) -> Vec<SpriteLine> {
         let count = 1 + self.choices.below(SIBLINGS);
         let mut lines = Vec::new();
@@ -83,7 +83,7 @@ impl Author<'_, '_> {
         lines
     }
 
-    /// A class, seldom an avatar's.
+    /// Chooses a class, seldom an avatar's.
     fn class(&mut self) -> SpriteClass {
         let avatars = self.choices.once_in(8);
         self.class_where(|class| class.is_avatar() == avatars)
@@ -114,7 +114,7 @@ impl Author<'_, '_> {
             }
             for _ in 0..self.choices.below(4) {
                 let own = class.map_or(Vec::new(), SpriteClass::parameters);
-                // Those of the class are few and matter more.
+                // Parameters of the class are few and matter more.
                 let key = if own.is_empty() || self.choices.once_in(2) {
                     self.choices.pick(SPRITE_PARAMETERS)
                 } else {
@@ -137,7 +137,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Where there is ground, what can stand on it falls.
+    /// Gives sprites that can stand gravity, if there is ground.
     fn weight(&mut self, lines: &mut [SpriteLine]) {
         if !self.has_ground {
             return;
@@ -154,7 +154,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// The sprites that a class must name, or may.
+    /// Returns the sprites that a class must name, or may.
     fn references(&mut self, class: SpriteClass, own: &str) -> Vec<Param> {
         use SpriteClass as C;
         let mut params = Vec::new();
@@ -181,7 +181,7 @@ impl Author<'_, '_> {
         params
     }
 
-    /// A type that sprites are of.
+    /// Chooses a type that has sprites.
     fn leaf(&mut self) -> String {
         self.leaves[self.choices.below(self.leaves.len())].0.clone()
     }
@@ -192,7 +192,7 @@ impl Author<'_, '_> {
         (self.choices.pick(&others)).clone()
     }
 
-    /// Any type, a parent or not.
+    /// Chooses any type, a parent or not.
     fn family(&mut self) -> String {
         let at = self.choices.below(self.leaves.len() + self.groups.len());
         match self.leaves.get(at) {
@@ -201,7 +201,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// A resource, if there is one.
+    /// Chooses a resource, if there is one.
     fn resource(&mut self) -> String {
         let is_resource = |leaf: &&(String, SpriteClass)| leaf.1 == SpriteClass::Resource;
         let found: Vec<&String> = self.leaves.iter().filter(is_resource).map(|(name, _)| name).collect();
@@ -225,7 +225,7 @@ impl Author<'_, '_> {
         Header { class: "BasicGame".into(), params, ..Header::default() }
     }
 
-    /// Seldom, numbers of the rules are a parameter of a GameSpace.
+    /// Sometimes replaces numbers in the rules by a parameter of a GameSpace.
     fn space(&mut self, description: &mut Description) {
         if !self.choices.once_in(10) {
             return;
@@ -244,13 +244,13 @@ impl Author<'_, '_> {
         }
     }
 
-    /// An amount for each counter: a list, even of one.
+    /// Returns an amount for each counter: a list, even of one.
     fn amounts(&mut self) -> String {
         let entries: Vec<String> = (0..2).map(|_| vocabulary::int(self.choices).to_string()).collect();
         entries.join(",")
     }
 
-    /// A character for each type that sprites are of, and those that place no avatar.
+    /// Returns a character for each type that has sprites, and the characters that place no avatar.
     fn mapping(&mut self) -> (Vec<MappingLine>, Vec<u8>) {
         let mut lines = Vec::new();
         let mut symbols = vec![b'w'];
@@ -335,7 +335,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// All that must be given, and some of the rest.
+    /// Returns all required parameters, and some optional ones.
     fn effect_parameters(&mut self, effect: &str) -> Vec<Param> {
         let mut params: Vec<Param> = Vec::new();
         for (key, kind) in effect_parameters(effect) {
@@ -360,7 +360,7 @@ impl Author<'_, '_> {
                         EFFECTS.iter().copied().filter(|name| *name != "addTimer").collect();
                     let planned = self.choices.pick(&others);
                     params.extend(self.effect_parameters(planned));
-                    // A planned shield names the effect that it keeps off by the same word.
+                    // A planned shield uses the same keyword for the effect that it blocks.
                     params.retain(|param| param.key.text != "ftype");
                     planned.to_owned()
                 }
@@ -415,7 +415,7 @@ impl Author<'_, '_> {
         TerminationLine { class: name.into(), params, ..TerminationLine::default() }
     }
 
-    /// A board of few cells, so that sprites meet; one in eight is larger.
+    /// Makes a board of few cells, so that sprites meet; one in eight is larger.
     fn level(&mut self, symbols: &[u8]) -> String {
         let large = self.choices.once_in(8);
         let (most_columns, most_rows) = if large { (24, 12) } else { (7, 5) };
@@ -442,7 +442,7 @@ impl Author<'_, '_> {
     }
 }
 
-/// Whether sprites of the class notice what they stand on.
+/// Returns `true` if sprites of the class react to the ground below them.
 fn stands(class: SpriteClass) -> bool {
     class.is_a(SpriteClass::PlatformerAvatar) || class.is_a(SpriteClass::Walker)
 }

@@ -1,4 +1,4 @@
-//! Bytes as decisions: how a fuzzer's input becomes a game.
+//! Bytes as decisions: the conversion of a fuzzer's input into a game.
 
 use engine::Sampler;
 
@@ -11,53 +11,53 @@ pub struct Choices<'a> {
 }
 
 impl<'a> Choices<'a> {
-    /// All decisions that `bytes` hold.
+    /// Creates the decisions of `bytes`.
     pub fn new(bytes: &'a [u8]) -> Choices<'a> {
         Choices { bytes }
     }
 
-    /// Whether all bytes have been used.
+    /// Returns `true` once all bytes have been used.
     pub fn is_empty(&self) -> bool {
         self.bytes.is_empty()
     }
 
-    /// The bytes that are left.
+    /// Returns the bytes that are left.
     pub fn rest(&self) -> &'a [u8] {
         self.bytes
     }
 
-    /// The next byte, or 0.
+    /// Returns the next byte, or 0.
     pub fn byte(&mut self) -> u8 {
         let Some((&first, rest)) = self.bytes.split_first() else { return 0 };
         self.bytes = rest;
         first
     }
 
-    /// The last byte, or 0.
+    /// Returns the last byte, or 0.
     pub fn from_end(&mut self) -> u8 {
         let Some((&last, rest)) = self.bytes.split_last() else { return 0 };
         self.bytes = rest;
         last
     }
 
-    /// A number below `bound`, which is at least 1 and at most 65536.
+    /// Returns a number below `bound`, which is at least 1 and at most 65536.
     pub fn below(&mut self, bound: usize) -> usize {
         let high = if bound > 256 { usize::from(self.byte()) << 8 } else { 0 };
         (high | usize::from(self.byte())) % bound
     }
 
-    /// True once in `times`.
+    /// Returns `true` once in `times`.
     pub fn once_in(&mut self, times: usize) -> bool {
         self.below(times) == times - 1
     }
 
-    /// One of the options.
+    /// Returns one of the options.
     pub fn pick<T: Copy>(&mut self, options: &[T]) -> T {
         options[self.below(options.len())]
     }
 }
 
-/// Random bytes, for tests without a fuzzer.
+/// Returns random bytes, for tests without a fuzzer.
 pub fn random_bytes(sampler: &mut Sampler, length: usize) -> Vec<u8> {
     (0..length).map(|_| sampler.below(256) as u8).collect()
 }

@@ -1,10 +1,11 @@
-//! The same game in another dress, and games that are nearly the same.
+//! Isomorphic games under another theme, and games that are nearly the same.
 
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use engine::{Description, Sampler};
 use std::collections::BTreeMap;
 
-/// Other names, characters, colours and order; parameters that are inherited, or as they would be anyhow, spelled out.
+/// Returns an isomorphic game: other names, characters, colours and order; parameters that are inherited or have
+/// their default value are written out.
 pub fn dressed(description: &Description, sampler: &mut Sampler) -> Description {
     let mut tree = description.clone();
     rename(&mut tree, sampler);
@@ -19,7 +20,7 @@ pub fn dressed(description: &Description, sampler: &mut Sampler) -> Description 
     tree
 }
 
-/// Numbers that size things, changed all over, signs and zeros kept; none if there are no such numbers.
+/// Changes all numbers that are sizes, keeping signs and zeros; none if there are no such numbers.
 pub fn renumbered(description: &Description) -> Option<Description> {
     let mut tree = description.clone();
     let mut changed = false;
@@ -42,7 +43,7 @@ pub fn renumbered(description: &Description) -> Option<Description> {
     changed.then_some(tree)
 }
 
-/// One effect, class or ending changed; none if the lot falls on something that cannot be changed so.
+/// Changes one effect, class or ending; none if the random choice cannot be changed in that way.
 pub fn altered(description: &Description, sampler: &mut Sampler) -> Option<Description> {
     let mut tree = description.clone();
     let own = ["scoreChange", "repeat", "applyScore"];
@@ -96,7 +97,7 @@ fn walk(lines: &mut [SpriteLine], visit: &mut impl FnMut(&mut SpriteLine)) {
 }
 
 fn rename(tree: &mut Description, sampler: &mut Sampler) {
-    // What `w` and `A` place where nothing else is said keeps its name.
+    // The types that `w` and `A` place by default keep their names.
     let mapped = |symbol: char| tree.mapping.iter().any(|line| line.symbol == symbol);
     let kept = |name: &str| (name == "wall" && !mapped('w')) || (name == "avatar" && !mapped('A'));
     let mut numbers: Vec<usize> = (0..tree.sprite_lines().len()).collect();
@@ -167,11 +168,11 @@ fn reorder_sprites(lines: &mut [SpriteLine], sampler: &mut Sampler) {
     lines.iter_mut().for_each(|line| reorder_sprites(&mut line.children, sampler));
 }
 
-/// Partners in another order, perhaps on lines of their own.
+/// Puts partners in another order, perhaps on lines of their own.
 fn split(lines: Vec<InteractionLine>, sampler: &mut Sampler) -> Vec<InteractionLine> {
     let mut all = Vec::new();
     for mut line in lines {
-        // The clock takes the first partner only.
+        // The clock takes only the first partner.
         let by_clock = line.second.iter().chain([&line.first]).any(|word| word.text == "TIME");
         if !by_clock {
             sampler.shuffle(&mut line.second);

@@ -9,8 +9,8 @@
 //! reference: refused too-large
 //! ```
 //!
-//! The last two say how it ends under each of the two ways to load a game: the distinct codes of the diagnostics, or the
-//! outcome and the number of ticks played.
+//! The last two give the result under each of the two ways to load a game: the distinct codes of the diagnostics, or
+//! the outcome and the number of ticks played.
 
 use crate::{workspace_files, workspace_root};
 use engine::{Action, Diagnostics, Game, MAX_TICKS, Seed};
@@ -34,7 +34,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// All cases, by name.
+    /// Returns all cases, by name.
     ///
     /// # Panics
     ///
@@ -57,7 +57,7 @@ impl Case {
         Case { name, source: must("vgdl"), level: read("txt").ok(), expect: must("expect") }
     }
 
-    /// Writes how the case ends into its expectation.
+    /// Writes the result of the case into its expectation.
     ///
     /// # Panics
     ///
@@ -67,7 +67,7 @@ impl Case {
         fs::write(&file, self.got()).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     }
 
-    /// The expectation as it would have to be.
+    /// Returns the expectation with the actual results.
     pub fn got(&self) -> String {
         let lines = self.expect.lines().map(|line| match line.split_once(':') {
             Some(("strict", _)) => format!("strict: {}\n", self.end(false)),
@@ -77,7 +77,7 @@ impl Case {
         lines.collect()
     }
 
-    /// How the case ends.
+    /// Returns the result of the case.
     pub fn end(&self, as_reference: bool) -> String {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
         let game = match load(&self.source) {
@@ -91,7 +91,7 @@ impl Case {
         };
         let mut state = game.start(&level, Seed::from_text("hostile"));
         for action in self.actions().into_iter().cycle() {
-            // One more than the reference's limit, so that a game without an end would show.
+            // One tick more than the reference's limit, so that an endless game would show.
             if state.is_over() || state.tick() > MAX_TICKS {
                 break;
             }
@@ -103,7 +103,7 @@ impl Case {
         format!("{outcome} after {} ticks", state.tick() + 1)
     }
 
-    /// What the player does, again and again.
+    /// Returns the actions of the player, to be repeated.
     fn actions(&self) -> Vec<Action> {
         let given = self.expect.lines().find_map(|line| line.strip_prefix("actions: "));
         let letters = given.unwrap_or("N").chars();
@@ -120,7 +120,7 @@ impl Case {
     }
 }
 
-/// The distinct codes, in order of place.
+/// Returns the distinct codes, in order of position.
 fn codes(problems: &Diagnostics) -> String {
     assert!(Diagnostics::has_errors(&problems.0), "refused without an error");
     let mut codes: Vec<&str> = Vec::new();

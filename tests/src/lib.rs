@@ -1,7 +1,7 @@
-//! What the tests that span crates share: where the workspace is and what files it holds, and what must hold of any
-//! input whatever ([`robustness`]).
+//! Helpers of the tests that span crates: the root and files of the workspace, and checks that must hold for any
+//! input ([`robustness`]).
 //!
-//! The tests themselves are in `tests/tests/`; `tidy.rs` there holds the rules that a machine can check.
+//! The tests themselves are in `tests/tests/`; `tidy.rs` there holds the rules that can be checked automatically.
 
 pub mod any_game;
 pub mod choices;
@@ -16,7 +16,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The root folder of the workspace: the one that holds the virtual manifest.
+/// Returns the root folder of the workspace: the one that holds the virtual manifest.
 ///
 /// # Panics
 ///
@@ -26,10 +26,10 @@ pub fn workspace_root() -> PathBuf {
     here.parent().expect("this crate lies one folder below the workspace root").to_path_buf()
 }
 
-/// Every file that belongs to the repository, relative to [`workspace_root`], sorted.
+/// Returns every file that belongs to the repository, relative to [`workspace_root`], sorted.
 ///
-/// Left out: build output (`target`, and any folder with cargo's `CACHEDIR.TAG`), unfinished releases
-/// (`*.partial`), links, and what is hidden, except `.cargo` and `.ci`.
+/// Left out: build output (`target`, and any folder with cargo's `CACHEDIR.TAG`), unfinished releases (`*.partial`),
+/// links, and hidden files, except `.cargo` and `.ci`.
 ///
 /// # Panics
 ///
@@ -42,7 +42,7 @@ pub fn workspace_files() -> Vec<PathBuf> {
     files
 }
 
-/// Every `.rs` file of the workspace's crates with its text, relative to [`workspace_root`], sorted by path.
+/// Returns every `.rs` file of the workspace's crates with its text, relative to [`workspace_root`], sorted by path.
 ///
 /// A crate is a folder at the root that holds a `Cargo.toml`; build output is left out.
 ///
@@ -64,8 +64,8 @@ pub fn rust_files() -> Vec<(PathBuf, String)> {
         .collect()
 }
 
-/// The folder of the reference's public games: test data beside the repository, not part of it. None, with a line that says
-/// so, where it is missing.
+/// Returns the folder of the reference's public games: test data beside the repository, not part of it. None, with a
+/// message, if it is missing.
 pub fn public_games() -> Option<PathBuf> {
     let games = workspace_root().join("../shared/gvgai/games");
     let found = games.is_dir();
@@ -75,7 +75,8 @@ pub fn public_games() -> Option<PathBuf> {
     found.then_some(games)
 }
 
-/// The games in the folders of a folder, by name, loaded as the reference loads them, with their levels; those that load.
+/// Loads the games in the subfolders of a folder, by name, as the reference does, with their levels; games that do
+/// not load are left out.
 pub fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
     let mut folders: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     folders.sort();
@@ -89,7 +90,7 @@ pub fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
     folders.iter().filter_map(load).filter(|(.., levels)| !levels.is_empty()).collect()
 }
 
-/// The text of a file of the repository, named relative to [`workspace_root`].
+/// Returns the text of a file of the repository, named relative to [`workspace_root`].
 ///
 /// # Panics
 ///

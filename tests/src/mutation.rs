@@ -1,8 +1,8 @@
-//! Small damages to a file, such as careless hands, broken disks and fuzzers do.
+//! Small damages to a file, as careless editing, broken disks and fuzzers cause them.
 
 use engine::{EFFECTS, SPRITE_PARAMETERS, Sampler, SpriteClass, TERMINATIONS};
 
-/// `bytes` with a few damages.
+/// Returns `bytes` with a few damages.
 pub fn mutated(bytes: &[u8], sampler: &mut Sampler) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..sampler.between(1, 4) {
@@ -11,7 +11,7 @@ pub fn mutated(bytes: &[u8], sampler: &mut Sampler) -> Vec<u8> {
     bytes
 }
 
-/// Bytes and words that mean something somewhere.
+/// Bytes and words with a special meaning somewhere.
 const TOKENS: [&str; 24] = [
     "\n",
     "\r\n",
@@ -43,7 +43,7 @@ fn damage(bytes: &mut Vec<u8>, sampler: &mut Sampler) {
     let start = sampler.below(bytes.len() + 1);
     let end = (start + sampler.between(1, 24)).min(bytes.len());
     match sampler.below(7) {
-        // Cut out, doubled, elsewhere too, cut off.
+        // Removed, doubled, copied elsewhere, truncated.
         0 => drop(bytes.drain(start..end)),
         1 => {
             let piece = bytes[start..end].to_vec();
@@ -67,7 +67,7 @@ fn damage(bytes: &mut Vec<u8>, sampler: &mut Sampler) {
     }
 }
 
-/// A word of VGDL.
+/// Returns a word of VGDL.
 fn word(sampler: &mut Sampler) -> &'static str {
     let words = match sampler.below(4) {
         0 => return sampler.choose(SpriteClass::ALL).name(),

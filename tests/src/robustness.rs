@@ -1,8 +1,8 @@
-//! What must hold of any input whatever. Each check takes bytes, whoever chose them: the fuzz targets in `fuzz/` and the
-//! short runs in `tests/tests/it/robustness.rs` are one call each.
+//! Properties that must hold for any input. Each check takes bytes from any source: the fuzz targets in `fuzz/` and
+//! the short runs in `tests/tests/it/robustness.rs` are one call each.
 //!
-//! - [`text`]: any text parses, compiles or says why not, and prints canonically.
-//! - [`level`]: any text is a level of a valid game or says why not.
+//! - [`text`]: any text parses, compiles or gets diagnostics, and prints canonically.
+//! - [`level`]: any text is a level of a valid game or gets diagnostics.
 //! - [`play`]: any actions on any valid game and level leave a sound state behind, tick after tick.
 
 use crate::any_game::any_game;
@@ -17,21 +17,21 @@ use engine::{
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// What a check came across: how far it reached.
+/// The coverage of a check.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seen {
     /// Ticks played.
     pub ticks: usize,
-    /// Different states with one search key, whose futures were compared.
+    /// Distinct states with one search key, whose futures were compared.
     pub merged: usize,
     /// Effects executed, a bit each, in the order of [`EFFECTS`].
     pub effects: u64,
-    /// Classes of sprites that were there, a bit each, in the order of [`SpriteClass::ALL`].
+    /// Classes of sprites that were present, a bit each, in the order of [`SpriteClass::ALL`].
     pub classes: u64,
 }
 
 impl Seen {
-    /// Both together.
+    /// Adds the coverage of another check.
     pub fn and(self, other: Seen) -> Seen {
         Seen {
             ticks: self.ticks + other.ticks,
@@ -55,8 +55,8 @@ static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     folders.iter().map(load).collect()
 });
 
-/// Any text parses and compiles, strictly and as the reference does; what is wrong is said in diagnostics that point into
-/// the text; what is not wrong prints canonically.
+/// Any text parses and compiles, strictly and as the reference does; problems are reported in diagnostics that point
+/// into the text; a text without problems prints canonically.
 pub fn text(bytes: &[u8]) {
     let source = String::from_utf8_lossy(bytes);
     let (description, problems) = syntax::parse(&source);
@@ -73,7 +73,7 @@ pub fn text(bytes: &[u8]) {
             }
             Ok(game) => {
                 check_diagnostics(&source, game.warnings());
-                // All that a level can place, in one row.
+                // All types that a level can place, in one row.
                 let everything: String =
                     (33..127u8).filter(|&c| !game.places(c).is_empty()).map(char::from).collect();
                 for level in [everything.as_str(), "A"] {
@@ -86,7 +86,7 @@ pub fn text(bytes: &[u8]) {
     }
 }
 
-/// Spans lie in the text and split no character; problems are sorted by place, and say something.
+/// Spans lie in the text and split no character; problems are sorted by position, and have a message.
 fn check_diagnostics(source: &str, problems: &[Diagnostic]) {
     for Diagnostic { code, message, span, severity, .. } in problems {
         let Span { start, end } = *span;
@@ -97,7 +97,7 @@ fn check_diagnostics(source: &str, problems: &[Diagnostic]) {
     assert!(problems.is_sorted_by_key(|problem| problem.span), "sorted by place: {problems:?}");
 }
 
-/// Print and parse are inverse, printing again changes nothing, and no comment is lost.
+/// Printing and parsing are inverse, printing again changes nothing, and no comment is lost.
 fn check_print(source: &str, description: &Description) {
     let printed = syntax::print(description);
     if printed.len() > engine::MAX_SOURCE {
@@ -110,7 +110,7 @@ fn check_print(source: &str, description: &Description) {
     assert_eq!(comments(&printed), comments(source));
 }
 
-/// The comments of a text, sorted: sections may change places.
+/// Returns the comments of a text, sorted: sections may change places.
 fn comments(text: &str) -> Vec<&str> {
     let lines = text.split(['\n', '\r']).filter_map(|line| line.split_once('#'));
     let mut comments: Vec<&str> = lines.map(|(_, comment)| comment.trim()).collect();
@@ -118,7 +118,7 @@ fn comments(text: &str) -> Vec<&str> {
     comments
 }
 
-/// A description without its places, and with its sections in canonical order.
+/// Returns a description without its positions, and with its sections in canonical order.
 fn bare(mut description: Description) -> Description {
     fn word(word: &mut Word) {
         word.span = Span::default();
@@ -164,7 +164,7 @@ fn bare(mut description: Description) -> Description {
     description
 }
 
-/// Any bytes are a level of a valid game, or are refused with reasons; what is a level prints as itself and plays.
+/// Any bytes are a level of a valid game, or are refused with reasons; a level prints as itself and plays.
 pub fn level(bytes: &[u8]) -> Seen {
     let mut choices = Choices::new(bytes);
     let which = choices.below(2 * CORPUS.len());
@@ -197,8 +197,8 @@ pub fn level(bytes: &[u8]) -> Seen {
     seen
 }
 
-/// Any actions on a valid game: after every tick the state is sound; episodes replay; the end is the end; states with one
-/// search key have one future.
+/// For any actions on a valid game: after every tick the state is sound; episodes replay; nothing follows the end;
+/// states with one search key have one future.
 pub fn play(bytes: &[u8]) -> Seen {
     let mut choices = Choices::new(bytes);
     let seed = Seed::from_text("play").child("chance", u64::from(choices.from_end()));
@@ -223,15 +223,15 @@ pub fn play(bytes: &[u8]) -> Seen {
 
 /// Ticks of the episode that is recorded and replayed.
 const EPISODE: usize = 24;
-/// Ways tried from states already seen, and ticks of each at most.
+/// Walks tried from states already seen, and the most ticks of each.
 const WAYS: usize = 24;
 const WAY: usize = 4;
-/// Pairs of states with one search key that are played on, and for how long.
+/// Pairs of states with one search key that are played on, and the ticks to play.
 const TWINS: usize = 4;
 const FUTURE: usize = 50;
-/// Work of all ticks together, what it takes to check a sprite included: what a check may cost.
+/// The work limit of a check: of all ticks together, including the work of checking sprites.
 const COST: usize = 300_000;
-/// What it costs to check a sprite.
+/// The work of checking a sprite.
 const CHECK: usize = 8;
 
 /// A walk through the states of one level, each step of which is checked.
@@ -239,13 +239,13 @@ struct Walk<'g> {
     game: &'g Game,
     level: &'g Level,
     seed: Seed,
-    /// Decides where the input does not.
+    /// Decides once the input is exhausted.
     sampler: Sampler,
     cost: usize,
     seen: Seen,
 }
 
-/// Notes which effects are executed, and how much work a step was.
+/// Records the executed effects, and the work of a step.
 struct Executed<'g> {
     description: &'g Description,
     effects: u64,
@@ -269,7 +269,7 @@ impl<'g> Walk<'g> {
         Walk { game, level, seed, sampler, cost: 0, seen: Seen::default() }
     }
 
-    /// Some random ticks.
+    /// Plays some random ticks.
     fn stroll(&mut self, ticks: usize) {
         let mut state = self.start();
         for _ in 0..ticks {
@@ -292,7 +292,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// One tick, checked: a copy taken before stays as it was, and another one goes the same way.
+    /// Plays one tick, checked: a copy taken before stays unchanged, and another one evolves equally.
     fn step(&mut self, state: &mut State, action: Action) {
         let before = state.clone();
         let (hash, over) = (state.state_hash(), state.is_over());
@@ -310,14 +310,14 @@ impl<'g> Walk<'g> {
         let mut copy = before;
         self.game.step_plainly(&mut copy, action, &mut ());
         if copy.outcome() == Outcome::Stopped(Limit::Work) {
-            // What foresight leaves out is no work, so it comes farther before the limit is met.
+            // Foresight saves work, so it gets farther before the limit is reached.
             return;
         }
         assert_eq!(copy.state_hash(), state.state_hash(), "a copy that foresees nothing goes the same way");
         assert_eq!((copy.outcome(), copy.score()), (state.outcome(), state.score()));
     }
 
-    /// A state comes back from its packed form as it was, and goes on as it would have.
+    /// A state restored from its packed form is unchanged, and evolves equally.
     fn check_packing(&mut self, state: &State, base: &State) {
         let mut unpacked = base.clone();
         unpacked.unpack_from(&state.pack(base), base);
@@ -334,7 +334,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// What is kept incrementally is what there is.
+    /// Incrementally maintained values equal recomputed ones.
     fn check(&mut self, state: &State) {
         assert_eq!(state.state_hash(), state.state_hash_from_scratch(self.game), "tick {}", state.tick());
         let counts =
@@ -350,7 +350,7 @@ impl<'g> Walk<'g> {
         assert!(!self.game.actions(state).is_empty());
     }
 
-    /// An episode that replays bit for bit.
+    /// Plays an episode, which must replay bit for bit.
     fn episode(&mut self, choices: &mut Choices<'_>) {
         let (mut episode, mut state) = Episode::begin(self.game, self.level, self.seed);
         self.check(&state);
@@ -368,7 +368,7 @@ impl<'g> Walk<'g> {
         assert_eq!(observation.cells.len(), self.level.columns() * self.level.rows());
         let replayed =
             episode.replay(self.game, self.level).unwrap_or_else(|divergence| panic!("{divergence}"));
-        // As text, because some speeds are no numbers.
+        // As text, because some speeds are NaN.
         let written = |state: &State| format!("{:?}", self.game.records(state));
         assert_eq!(written(&replayed), written(&state));
         if state.is_over() && self.cost < COST / 2 {
@@ -376,8 +376,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Goes many short ways from states already reached. Where two ways lead to states with one search key but different
-    /// histories, the two are played on side by side.
+    /// Takes many short walks from states already reached. If two walks lead to states with one search key but
+    /// different histories, the two are played on side by side.
     fn explore(&mut self, choices: &mut Choices<'_>) {
         let start = self.start();
         let mut reached = vec![start.clone()];
@@ -418,10 +418,10 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Equal keys ⇒ equal keys, outcomes and gains after the same actions. Where nothing draws, chance is no part of the
-    /// key: then it must not matter either.
+    /// Equal keys imply equal keys, outcomes and gains after the same actions. If nothing draws, randomness is not
+    /// part of the key: then it must not matter either.
     ///
-    /// With a `keying`, the keys are its own, and where it leaves the tick out, the later state may lose by it.
+    /// With a `keying`, the keys are its own, and if it leaves the tick out, the later state may lose by it.
     fn compare_futures(&mut self, one: &State, two: &State, keying: Option<(&Analysis, &Keying)>) {
         self.seen.merged += 1;
         let (mut one, mut two) = (one.clone(), two.clone());

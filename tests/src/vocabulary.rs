@@ -1,8 +1,8 @@
-//! What the values of VGDL's parameters are, and values for them: mostly such as people write, some beyond all measure.
+//! The kinds of VGDL's parameters, and values for them: mostly realistic ones, some extreme.
 
 use crate::choices::Choices;
 
-/// What the value of a sprite's parameter is.
+/// The kind of a sprite parameter's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A whole number.
@@ -11,7 +11,7 @@ pub enum Kind {
     Ticks,
     /// A number.
     Number,
-    /// Between 0 and 1.
+    /// A probability between 0 and 1.
     Probability,
     /// A size in cells.
     Size,
@@ -27,13 +27,13 @@ pub enum Kind {
     Sprite,
     /// Names of sprite types.
     Sprites,
-    /// A text that means nothing to the rules.
+    /// A text without meaning for the rules.
     Text,
-    /// Says what the class says already: any other value is an error.
+    /// A value that the class fixes: any other value is an error.
     Fixed,
 }
 
-/// The kind of a sprite parameter; None if there is no such parameter.
+/// Returns the kind of a sprite parameter; None if there is no such parameter.
 pub fn sprite_parameter(key: &str) -> Option<Kind> {
     Some(match key {
         "cooldown" | "timeToLive" | "cons" | "age" | "limit" | "total" => Kind::Ticks,
@@ -69,31 +69,31 @@ pub fn sprite_parameter(key: &str) -> Option<Kind> {
     })
 }
 
-/// A whole number, one in eight beyond all measure.
+/// Returns a whole number, one in eight of them extreme.
 pub fn int(choices: &mut Choices<'_>) -> i32 {
     const TAME: [i32; 12] = [0, 1, 2, 3, 4, 5, 6, 8, 10, -1, -2, 20];
     const WILD: [i32; 6] = [i32::MAX, i32::MIN, i32::MAX - 1, -1000, 1_000_000, 1 << 16];
     if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
 }
 
-/// A number of ticks that matters in a short episode, or one that does not.
+/// Returns a number of ticks, which may be too large to matter in a short episode.
 pub fn ticks(choices: &mut Choices<'_>) -> i32 {
     if choices.once_in(8) { int(choices) } else { choices.below(8) as i32 + 1 }
 }
 
-/// A number as text: some are no float at all, some are infinite.
+/// Returns a number as text: some are not floats at all, some are infinite.
 pub fn number(choices: &mut Choices<'_>) -> &'static str {
     const TAME: [&str; 12] = ["1", "0.5", "0", "2", "0.25", "0.1", "-1", "3.5", "10", "0.75", "5", "-0.5"];
     const WILD: [&str; 8] = ["1e300", "-1e300", "1e999", "1e-320", "-0.0", "2147483648", "1e9", "0.000001"];
     if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
 }
 
-/// A probability, seldom one that is none.
+/// Returns a probability, seldom an invalid one.
 pub fn probability(choices: &mut Choices<'_>) -> &'static str {
     choices.pick(&["1", "0.5", "0.1", "0.9", "0", "1.0", "0.3", "2"])
 }
 
-/// The value of a parameter that names no sprite; None for kinds that do, and for [`Kind::Fixed`].
+/// Returns the value of a parameter that names no sprite; None for kinds that do, and for [`Kind::Fixed`].
 pub fn value(kind: Kind, choices: &mut Choices<'_>) -> Option<String> {
     Some(match kind {
         Kind::Int => int(choices).to_string(),

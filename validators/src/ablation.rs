@@ -1,4 +1,4 @@
-//! Would anything be different without this rule?
+//! The `ablation` criterion: disables one rule at a time and tests whether play changes.
 
 use crate::evidence::{Evidence, Line};
 use crate::game_report::{GameCase, GameValidator};
@@ -10,38 +10,38 @@ use engine::analysis::Role;
 use engine::{Action, Analysis, Chance, Episode, Game, Outcome, Seed, SpriteRecord, SpriteType, State};
 use rayon::prelude::*;
 
-/// Every interaction that is executed matters: with its consequences disabled but its draws kept
-/// ([`Game::without`]), some outcome or score changes.
+/// Every executed interaction matters: with its consequences disabled but its random draws kept ([`Game::without`]),
+/// some outcome or score changes.
 ///
-/// Three questions, the cheapest first. Do recorded episodes that execute it end otherwise, when their keys are pressed
-/// without it? Do random futures, from just before it is executed, with the same dice? Does what a searching player does
-/// without it lead elsewhere with it? One change is enough. Where every level was won, and not even the looks of any
-/// episode that executes it differ, the rule is idle: a failure. Where they do, but nothing that was tried ends otherwise,
-/// the answer is unknown. Rules on walls and the edge of the screen are told but not asked for: they are guards, and what
-/// they end far from the player may never matter.
+/// There are three tests, the cheapest first: replaying recorded episodes that execute the rule, without it; random
+/// futures from just before its execution, with and without it on the same seeds; and the episode of a searching
+/// player that plays without the rule, replayed with it. One change is enough. A rule is idle, and the criterion
+/// fails, if every level was won and even the sprites look the same in every episode that executes it. If they differ
+/// but no tried episode ends otherwise, the answer is unknown. Rules on walls and the edge of the screen are reported
+/// but never fail: they are guards, and sprites that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub struct RulesMatter {
     /// Forward-model calls for each interaction.
     pub calls: u64,
-    /// Forward-model calls of all interactions together, if they are bounded: what does not fit is not tried.
+    /// Forward-model calls of all interactions together, if bounded: tests that do not fit are skipped.
     pub total: Option<u64>,
 }
 
-/// Futures from each execution.
+/// Random futures from each execution.
 const FUTURES: u64 = 8;
 /// Ticks of a future.
 const DEPTH: usize = 60;
-/// Calls of a decision of the searching player, and how far it looks.
+/// Calls of a decision of the searching player, and its look-ahead in ticks.
 const DECISION: Budget = Budget(300);
 const SIGHT: u32 = 20;
-/// Ticks of its plays.
+/// Ticks of an episode of the searching player.
 const PLAY: usize = 400;
 
-/// What became of one interaction.
+/// The result of disabling one interaction.
 enum Found {
     /// Something ends otherwise without it.
     Matters,
-    /// The state differs, and nothing that was tried ends otherwise.
+    /// The state differs, but no tried episode ends otherwise.
     Unshown,
     /// Not even the state differs.
     Idle,
@@ -88,7 +88,7 @@ impl GameValidator for RulesMatter {
 }
 
 impl RulesMatter {
-    /// Tries one of so many lines.
+    /// Tests one of `lines` lines.
     fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use], lines: usize) -> (Found, u64) {
         let without = case.game.without(line);
         let share = self.total.map(|total| total / lines.max(1) as u64);
@@ -146,12 +146,12 @@ impl RulesMatter {
                 return (Found::Matters, calls);
             }
         }
-        // A rule that waits for something is idle as long as nobody gets that far.
+        // A rule that may have an effect later is not idle as long as no level is won.
         (if differs || cut || !case.usage.won { Found::Unshown } else { Found::Idle }, calls)
     }
 }
 
-/// Whether a rule only keeps sprites on the board: its partners are walls and the edge of the screen.
+/// Returns `true` if a rule only keeps sprites on the board: its partners are walls and the edge of the screen.
 fn is_guard(analysis: &Analysis, line: usize) -> bool {
     let game = analysis.game();
     let is_wall = |written: SpriteType| {
@@ -162,7 +162,7 @@ fn is_guard(analysis: &Analysis, line: usize) -> bool {
     of_line.peek().is_some() && of_line.all(|encounter| encounter.second.is_none_or(is_wall))
 }
 
-/// How an episode with these keys ends.
+/// Returns the outcome and score of an episode with these actions.
 fn ends(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]) -> (Outcome, f64) {
     let mut state = game.start(recorded.level, seed);
     for &action in actions {
@@ -181,9 +181,10 @@ struct Futures<'a> {
 }
 
 impl Futures<'_> {
-    /// Whether some future ends otherwise without the rule, whether the episode ever looks different, and the calls.
+    /// Returns whether some future ends otherwise without the rule, whether the episode ever looks different, and the
+    /// calls.
     fn differ(&self, seed: Seed) -> (bool, bool, u64) {
-        // States know what their game has foreseen, so each game plays the way to its own.
+        // A state carries predictions of its own game, so each game replays the prefix to get its own state.
         let before = [self.with, self.without].map(|game| {
             let mut state = game.start(self.recorded.level, self.episode.seed);
             self.episode.actions[..self.tick].iter().for_each(|&action| {
@@ -230,7 +231,7 @@ impl Futures<'_> {
         (false, differs, calls)
     }
 
-    /// All that can be told of a state, apart from what its rules remember.
+    /// Returns the observable state, without the internal memory of its rules.
     fn looks(&self, state: &State) -> (Vec<SpriteRecord>, Vec<i32>, (Outcome, f64)) {
         (self.with.records(state), state.counters().to_vec(), told(state))
     }

@@ -1,22 +1,22 @@
-//! The work that a validation may be: a number of forward-model calls, shared out among the criteria.
+//! The work that a validation may take: a number of forward-model calls, divided among the criteria.
 //!
-//! Minting needs none of this: its recipe bounds each criterion by itself. A designer names one number, and wants an answer
-//! after about as much work, whatever the game.
+//! Minting does not need this: its recipe bounds each criterion by itself. A designer names one number and wants an
+//! answer after about as much work, whatever the game.
 
 use crate::verdict::{Case, Finding, Validator};
 use crate::{Criteria, NotIdle, NotRandom};
 use engine::{Action, Game, Level, Meeting, Seed, Watch};
 
-/// Work of a tick, as `engine` counts it, up to which a call counts as one.
+/// The work of a tick, as `engine` counts it, up to which a call counts as one.
 const USUAL_WORK: u64 = 4096;
-/// Ticks by which the work of a level's ticks is estimated.
+/// Ticks that are played to estimate the work of a level's ticks.
 const WEIGHED: u64 = 16;
 
-/// Forward-model calls for each level, and for the game over all its levels, shared out.
+/// Forward-model calls for each level, and for the game over all its levels, to divide among the criteria.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Allowance {
     calls: u64,
-    /// As how many calls one counts: more than one where ticks are unusually heavy.
+    /// The number of calls that one call counts as: more than one where ticks are unusually heavy.
     weight: u64,
 }
 
@@ -34,7 +34,8 @@ impl Watch for Scales {
 }
 
 impl Allowance {
-    /// The calls allowed for these levels: fewer where the ticks of one of them are unusually heavy. Cost: some ticks of each.
+    /// Returns the calls allowed for these levels: fewer where the ticks of one of them are unusually heavy. Cost:
+    /// some ticks of each.
     pub(crate) fn of<'a>(calls: u64, game: &Game, levels: impl IntoIterator<Item = &'a Level>) -> Allowance {
         let weigh = |level: &Level| {
             let mut state = game.start(level, Seed::from_text("weigh"));
@@ -49,24 +50,24 @@ impl Allowance {
         Allowance { calls, weight: levels.into_iter().map(weigh).max().unwrap_or(1) }
     }
 
-    /// A share of the calls, `least` at least.
+    /// A share of the calls, at least `least`.
     fn share(self, times: u64, of: u64, least: u64) -> u64 {
         let share = u128::from(self.calls) * u128::from(times) / u128::from(of.max(1));
         let share = u64::try_from(share).unwrap_or(u64::MAX).max(least);
         (share / self.weight).max(1)
     }
 
-    /// Ticks of one play that does nothing.
+    /// Ticks of one episode of doing nothing.
     pub(crate) fn idle_play(self) -> usize {
         self.share(1, 16, 500) as usize
     }
 
-    /// Ticks of one play of random keys.
+    /// Ticks of one episode of random actions.
     pub(crate) fn random_play(self) -> usize {
         self.share(1, 80, 250) as usize
     }
 
-    /// The criteria, with what they may spend where that is a number of calls.
+    /// Returns the criteria with the call limits of this allowance.
     pub(crate) fn bounds(self, criteria: &Criteria) -> Criteria {
         let chances = u64::from(criteria.early_chances.max(1));
         Criteria {
@@ -77,12 +78,12 @@ impl Allowance {
         }
     }
 
-    /// Calls of one play of the ladder, of which a round has so many.
+    /// Calls of one play of the ladder, with `of_a_round` plays a round.
     pub(crate) fn ladder_play(self, of_a_round: u64) -> u64 {
         self.share(2, of_a_round, 1)
     }
 
-    /// Ticks of the ways that are tried on each level for rules which were never seen.
+    /// Ticks of the random walks that look for rules which were never executed, for each level.
     pub(crate) fn exploration(self) -> u64 {
         self.share(1, 3, 1)
     }
@@ -93,7 +94,7 @@ impl Allowance {
     }
 }
 
-/// [`NotIdle`] with plays of so many ticks at most.
+/// [`NotIdle`] with plays of a limited number of ticks.
 pub(crate) struct IdleWithin(pub(crate) NotIdle, pub(crate) usize);
 
 impl Validator for IdleWithin {
@@ -106,7 +107,7 @@ impl Validator for IdleWithin {
     }
 }
 
-/// [`NotRandom`] with plays of so many ticks at most.
+/// [`NotRandom`] with plays of a limited number of ticks.
 pub(crate) struct RandomWithin(pub(crate) NotRandom, pub(crate) usize);
 
 impl Validator for RandomWithin {
@@ -124,7 +125,7 @@ mod tests {
     use super::*;
     use crate::{Panel, Report};
 
-    /// A moth that comes to the goal at some time, and hardly before the 1000th tick.
+    /// A moth that reaches the goal at some time, rarely before the 1000th tick.
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    moth > RandomNPC cooldown=60\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    m > moth\n  InteractionSet\n    avatar wall > stepBack\n    moth wall > stepBack\n    goal moth > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    Timeout limit=1000 win=False\n";
     const LEVEL: &str = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                            w\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwm                           gw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
 
@@ -143,7 +144,7 @@ mod tests {
         (report, together)
     }
 
-    /// Calls, and ticks of all that was played.
+    /// Returns the calls, and the ticks of all episodes.
     fn spent(report: &Report) -> u64 {
         let of = |judged: &crate::Judgement| {
             let ticks: usize = judged.finding.episodes.iter().map(|episode| episode.actions.len()).sum();
@@ -157,9 +158,9 @@ mod tests {
         for calls in [1, 1000, 20_000] {
             let (report, together) = report(calls);
             let spent = spent(&report);
-            // One decision of each player, and the shortest plays, are the least.
+            // The minimum is one decision of each player, and the shortest plays.
             assert!(spent < 30_000 + 8 * calls, "{calls}: {spent}");
-            // What was broken off is no answer.
+            // A play that was broken off gives no answer.
             for judged in report.judgements.iter().chain(&together) {
                 let broken = ["not-random", "winnable", "skill"].contains(&judged.criterion);
                 let unknown = matches!(judged.finding.verdict, crate::Verdict::Unknown { .. });

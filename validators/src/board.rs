@@ -4,17 +4,17 @@ use engine::{Game, SpriteType, State};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// A state of a level in characters.
+/// A state of a level as text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Board {
-    /// From the top; one character a cell, that of the sprite that is drawn last.
+    /// From top to bottom; one character a cell, that of the sprite that is drawn last.
     pub rows: Vec<String>,
-    /// What the characters on the board stand for, by character.
+    /// The type that each character on the board stands for.
     pub legend: Vec<(char, String)>,
 }
 
 impl Board {
-    /// What a player sees of a state. Cost: O(sprites + cells).
+    /// Draws a state as a player sees it. Cost: O(sprites + cells).
     pub fn of(game: &Game, state: &State) -> Board {
         let symbols = symbols(game);
         let seen = game.observe(state);
@@ -31,11 +31,11 @@ impl Board {
     }
 }
 
-/// Characters for types that no level character places alone, in the order of trying.
+/// Characters for types that no level character places alone, in order of preference.
 const SPARE: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@#$%&*+=?!";
 
-/// A character for every type with a class: that of the LevelMapping which places it on top of others, or the first free one
-/// of its name, of the alphabet. Types beyond those share `~`.
+/// Returns a character for every type with a class: the one that places it on top in the LevelMapping, or the first
+/// free character of its name, then of the alphabet. Types beyond those share `~`.
 fn symbols(game: &Game) -> Vec<(SpriteType, char)> {
     let mut free: BTreeSet<char> = (' '..='~').filter(|&symbol| symbol != ' ' && symbol != '~').collect();
     let mut symbols: Vec<(SpriteType, char)> = Vec::new();
@@ -65,7 +65,7 @@ fn symbols(game: &Game) -> Vec<(SpriteType, char)> {
     symbols
 }
 
-/// The place of a type in the drawing order.
+/// The position of a type in the drawing order.
 pub(crate) fn drawn(game: &Game, stype: SpriteType) -> usize {
     game.drawing_order().iter().position(|&other| other == stype.0).unwrap_or_default()
 }

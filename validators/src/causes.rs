@@ -1,18 +1,19 @@
-//! Why a level cannot be won, in words: the chain of causes that the analysis proves, from the ending to the first thing that
-//! cannot be.
+//! Explanations of levels that cannot be won: the chain of causes that the analysis proves, from the termination back
+//! to the first obstacle.
 
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Reason, Verdict};
 use engine::analysis::{Apart, Cause, Chain, Closed, Deed, Lack, Motion, Obstacle, Shortage, Side};
 use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_rule};
 
-/// Chains that are told of: one for each termination that wins.
+/// The greatest number of chains to report: one for each winning termination.
 const MAX_CHAINS: usize = 3;
-/// Cells of a level times interactions up to which a swapped rule is looked for.
+/// Cells of a level times interactions up to which a swapped rule is searched.
 const MAX_EFFORT: usize = 1 << 18;
 
-/// Rewrites the failure of a level that is proved to be out of reach: with the chain of its causes, and a rule that is most
-/// likely the wrong way round. Other findings stay as they are. Cost: some analyses of the level, one for each rule.
+/// Rewrites the failure of a level that is proved to be unwinnable: adds the chain of its causes, and the rule whose
+/// sides are most likely swapped. Other findings are left unchanged. Cost: some analyses of the level, one for each
+/// rule.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let Case { game, level, analysis, .. } = case;
     if !matches!(finding.verdict, Verdict::Fail { .. }) || analysis.reach(level).can_win() {
@@ -21,7 +22,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let mut evidence = Vec::new();
     let effort = level.cells().len() * game.description().interactions.len();
     if analysis.can_win() && effort <= MAX_EFFORT {
-        // Where no level can be won, the warnings about the game say so.
+        // Where no level can be won, the game's own warnings report it.
         let text = level.to_string();
         let wins = |game: &Game| {
             let level = game.level(&text);
@@ -57,13 +58,13 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     finding.evidence = evidence;
 }
 
-/// A sentence as the end of another.
+/// A sentence as it reads at the end of another one.
 pub(crate) fn lower(sentence: &str) -> String {
     let mut characters = sentence.trim_end_matches('.').chars();
     characters.next().map_or(String::new(), |first| first.to_lowercase().chain(characters).collect())
 }
 
-/// The links of a chain as they are told.
+/// The links of a chain, in words.
 struct Words<'a> {
     analysis: &'a Analysis,
     level: &'a Level,
@@ -71,7 +72,7 @@ struct Words<'a> {
 }
 
 impl Words<'_> {
-    /// The termination, with the first sprite that would have to go.
+    /// The termination, with the first sprite that would have to be removed.
     fn ending(&self, chain: &Chain, sentence: &str) -> Evidence {
         let goal = &self.analysis.goals()[chain.goal];
         let cell = match &chain.cause {
@@ -109,7 +110,7 @@ impl Words<'_> {
         self.links.push(Evidence::new(text).advise(advice));
     }
 
-    /// Returns whether some rule ends sprites of the type.
+    /// Returns `true` if some rule removes sprites of the type.
     fn is_ended(&self, stype: SpriteType) -> bool {
         let applies = |written: SpriteType| self.analysis.applies(written, stype);
         self.analysis.encounters().iter().any(|encounter| {
@@ -172,7 +173,7 @@ impl Words<'_> {
         }
     }
 
-    /// A resource that is asked for and cannot be had.
+    /// A resource that is required and cannot be obtained.
     fn shortage(&mut self, target: SpriteType, rule: Option<Line>, shortage: &Shortage) {
         let Shortage { resource, needed, capacity, most, rules, sources } = shortage;
         let name = self.name(*resource).to_owned();
@@ -225,11 +226,11 @@ impl Words<'_> {
         self.links.push(Evidence::new("nothing makes more").advise(advice));
     }
 
-    /// A place that somebody never gets to, and what is in the way.
+    /// A place that a sprite never reaches, and the obstacle.
     fn apart(&mut self, apart: &Apart, text: String, rule: Option<Line>) {
         let cell = Some(self.place(apart.cell));
         let link = Evidence { cell, rule, ..Evidence::new(text) };
-        // Of a source among others, the shortage says what to do.
+        // For one source among several, the shortage gives the advice.
         let alone = apart.closed.is_empty() && link.rule.is_some();
         self.links.push(if alone { link.advise("open a way to it") } else { link });
         for Closed { stype, cell, obstacles } in &apart.closed {
@@ -243,7 +244,7 @@ impl Words<'_> {
         }
     }
 
-    /// A type if the level places it in a cell, or else what it places there on top.
+    /// The type itself if the level places it in the cell, or else the topmost type there.
     fn standing(&self, cell: usize, stype: SpriteType) -> SpriteType {
         let places = self.analysis.game().places(self.level.cells()[cell]);
         let known = places.contains(&stype) || places.is_empty();
@@ -258,7 +259,7 @@ impl Words<'_> {
         format!("the {}", self.name(stype))
     }
 
-    /// Somebody who acts: the avatar, whatever it is called, or sprites of a type.
+    /// The acting sprite: the avatar, whatever its name, or sprites of a type.
     fn who(&self, stype: SpriteType) -> String {
         let own = self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype));
         if own { "the avatar".to_owned() } else { self.the(stype) }

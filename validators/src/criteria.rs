@@ -3,21 +3,21 @@
 use crate::ladder::{Climb, Rung};
 use serde::{Deserialize, Serialize};
 
-/// The thresholds of all criteria; what a recipe's `[criteria]` says. The page `docs/validate.md` says what each means.
+/// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/validate.md` explains each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Criteria {
-    /// The criteria to ask, by name. They are asked in an order of their own, the cheapest first.
+    /// The criteria to check, by name. They are checked in a fixed order, the cheapest first.
     pub ask: Vec<String>,
     /// Forward-model calls of one decision of the searching player, and of players of the ladder without a number.
     pub decision: u64,
     /// Forward-model calls to find a win, all plays together.
     pub budget: u64,
-    /// The share of them that may go into proving how many ticks the shortest win takes, where chance decides nothing.
+    /// The share of them that may go into proving how many ticks the shortest win takes, in a deterministic game.
     pub shortest: f64,
     /// Look-ahead in ticks of the bold tree searches among the players that look for a win.
     pub depths: Vec<u32>,
-    /// Episodes of plain tree search that the card of a level tells of.
+    /// Episodes of plain tree search that the card of a level reports.
     pub mcts_plays: u32,
     /// Episodes of doing nothing.
     pub idle_plays: u32,
@@ -27,45 +27,45 @@ pub struct Criteria {
     pub random_wins: f64,
     /// Ticks that the shortest win found takes at least.
     pub least_ticks: usize,
-    /// Ticks that it takes at most.
+    /// The most ticks that it may take.
     pub most_ticks: usize,
     /// Ticks at the start in which death must be avoidable.
     pub early_ticks: usize,
-    /// Forward-model calls to look for a way to live through them, for each game of chance.
+    /// Forward-model calls to look for a way to survive them, for each random seed.
     pub early_calls: u64,
-    /// Games of chance to try that in.
+    /// Random seeds to try that with.
     pub early_chances: u32,
     /// The greatest share of them in which death may be unavoidable.
     pub early_deaths: f64,
     /// The players that difficulty and skill are measured with, the weakest first: `mcts:500`.
     pub ladder: Vec<String>,
-    /// Players that skill must show with too, and that no search may be guided by.
+    /// Players that must show skill too, and that never guide a search.
     pub held_out: Vec<String>,
-    /// Plays of each of them at most.
+    /// The greatest number of plays of each.
     pub ladder_plays: u64,
     /// Forward-model calls of all of them, after which no further round of plays begins.
     pub ladder_calls: u64,
-    /// A play of the ladder is broken off after so many times the ticks of the witness (and 50 more).
+    /// A play of the ladder is broken off after this multiple of the ticks of the witness (and 50 more).
     pub patience: usize,
-    /// By how much the win rates of stronger and weaker players must differ …
+    /// The difference by which the win rates of stronger and weaker players must differ …
     pub skill_wins: f64,
     /// … or else their mean scores, as a share of the range of all scores.
     pub skill_scores: f64,
-    /// By how much win rates must differ over all levels together, at the lower end of the 95 % interval.
+    /// The difference of win rates over all levels together, at the lower end of the 95 % interval.
     pub skill_overall: f64,
     /// Forward-model calls to show that a rule matters, for each rule.
     pub ablation_calls: u64,
 }
 
-/// The criteria of a level, in the order of asking.
+/// The criteria of a level, in the order of checking.
 pub const LEVEL_CRITERIA: &[&str] =
     &["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length", "skill"];
 
-/// The criteria of a game over all its levels, in the order of asking.
+/// The criteria of a game over all its levels, in the order of checking.
 pub const GAME_CRITERIA: &[&str] = &["skill-overall", "rule-use", "ablation"];
 
 impl Default for Criteria {
-    /// What minting asks unless the recipe says otherwise: what is cheap enough for many candidates.
+    /// Returns the defaults for minting: criteria that are cheap enough for many candidates.
     fn default() -> Criteria {
         let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
         Criteria {
@@ -97,39 +97,39 @@ impl Default for Criteria {
     }
 }
 
-/// What is wrong with a set of criteria.
+/// A problem with a set of criteria.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{key}` {message}")]
 pub struct CriteriaError {
     /// The key.
     pub key: &'static str,
-    /// What it must be.
+    /// The requirement that its value misses.
     pub message: String,
 }
 
 impl Criteria {
-    /// Every criterion for one game, where minting asks of many candidates; without `skill-overall`, which a good game can be
-    /// too hard for.
+    /// Returns the criteria for a single game, with those that minting leaves out; without `skill-overall`, which may
+    /// fail a good game only because it is too hard.
     pub fn full() -> Criteria {
         let all = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).filter(|&&name| name != "skill-overall");
         Criteria { ask: all.map(|&name| name.to_owned()).collect(), ..Criteria::default() }
     }
 
-    /// Every criterion: for games that are made, of which there are many to choose from.
+    /// Returns all criteria: for generated games, of which there are many candidates.
     pub fn of_made_games() -> Criteria {
         let all = LEVEL_CRITERIA.iter().chain(GAME_CRITERIA);
         Criteria { ask: all.map(|&name| name.to_owned()).collect(), ..Criteria::default() }
     }
 
-    /// Whether a criterion is asked.
+    /// Returns `true` if a criterion is checked.
     pub fn asks(&self, name: &str) -> bool {
         self.ask.iter().any(|asked| asked == name)
     }
 
-    /// Checks the values.
+    /// Validates the values.
     ///
     /// # Errors
-    /// The first value that is out of its range.
+    /// The first value that is out of range.
     pub fn check(&self) -> Result<(), CriteriaError> {
         let wrong = |key, message: String| Err(CriteriaError { key, message });
         let known = || LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).copied();
@@ -199,10 +199,10 @@ impl Criteria {
         Ok(())
     }
 
-    /// The players of the ladder.
+    /// Returns the players of the ladder.
     ///
     /// # Errors
-    /// A name that no planner has.
+    /// A name that is no planner's.
     pub fn climb(&self) -> Result<Climb, agents::UnknownPlanner> {
         Ok(Climb {
             rungs: self.rungs(&self.ladder)?,

@@ -1,4 +1,4 @@
-//! Can the player live through the first ticks?
+//! The `early-death` criterion: the player can survive the first ticks.
 
 use crate::ending::Ending;
 use crate::evidence::Evidence;
@@ -7,35 +7,36 @@ use engine::{Action, Episode, Outcome, Seed, State};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Some way of playing lives through the first ticks.
+/// Some way of playing survives the first ticks.
 ///
-/// In a deterministic game all ways are searched, tick by tick, states that behave alike counted once: no way left is a proof.
-/// In a game of chance the same is asked for several games of chance, each with its dice known beforehand; where even who
-/// knows the dice dies, death is unavoidable. Doing nothing may well be deadly: that is told, and is no failure.
+/// In a deterministic game all action sequences are searched, tick by tick, with equivalent states counted once: if
+/// none is left, that is a proof. In a stochastic game the same is asked for several seeds, each known beforehand; if
+/// even a player who knows the random draws dies, death is unavoidable. Doing nothing may well be deadly: that is
+/// reported, but is no failure.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEarlyDeath {
-    /// Ticks to live through.
+    /// Ticks to survive.
     pub ticks: usize,
-    /// Forward-model calls for each game of chance.
+    /// Forward-model calls for each seed.
     pub calls: u64,
-    /// Games of chance, where chance plays a part.
+    /// Random seeds, in a stochastic game.
     pub chances: u32,
     /// The greatest share of them in which death may be unavoidable.
     pub share: f64,
 }
 
-/// States of one tick that are followed up at most; beyond, the answer is unknown rather than no.
+/// The most states of one tick to expand; beyond that, the answer is unknown instead of no.
 const WIDEST: usize = 2000;
-/// Episodes of random keys that are tried before a search.
+/// Random episodes to try before a search.
 const TRIES: u64 = 24;
 
-/// What became of one game of chance.
+/// The result for one seed.
 struct Look {
-    /// Whether some way of playing lived.
+    /// `true` if some way of playing survived.
     lived: bool,
-    /// Whether all ways were tried.
+    /// `true` if all ways of playing were searched.
     complete: bool,
-    /// The longest life that was found, and the life of doing nothing.
+    /// The longest episode found, and the episode of doing nothing.
     longest: Episode,
     idle: Episode,
     calls: u64,
@@ -101,7 +102,7 @@ impl NoEarlyDeath {
         )
     }
 
-    /// Who does nothing dies, though there are ways to live.
+    /// Returns a note if doing nothing is deadly although there are ways to survive.
     fn idleness(&self, case: Case<'_>, looks: &[Look]) -> Option<Evidence> {
         let dead: Vec<&Episode> =
             looks.iter().map(|look| &look.idle).filter(|idle| idle.outcome == Outcome::Lost).collect();
@@ -118,7 +119,7 @@ impl NoEarlyDeath {
         Some(Evidence { text, board: None, ..cause })
     }
 
-    /// Looks for a way to live in one game of chance: doing nothing, random keys, then every way.
+    /// Looks for a way to survive with one seed: doing nothing, random actions, then an exhaustive search.
     fn look(&self, case: Case<'_>, seed: Seed) -> Look {
         let idle = self.live(case, seed, |_| Action::Nil);
         let mut calls = idle.actions.len() as u64;
@@ -158,7 +159,8 @@ impl NoEarlyDeath {
         episode
     }
 
-    /// All ways to play, tick by tick: the longest one, whether all were tried, and the calls. A way that lives ends it.
+    /// Searches all action sequences, tick by tick, until one survives. Returns the longest one, whether all were
+    /// tried, and the calls.
     fn search(&self, case: Case<'_>, seed: Seed) -> (Vec<Action>, bool, u64) {
         let game = case.game;
         let mut layer = vec![(game.start(case.level, seed), Vec::new())];

@@ -1,11 +1,11 @@
-//! How an episode ended, and by which lines: the cause that a reason names.
+//! The ending of an episode and the lines that caused it, for the reason of a verdict.
 
 use crate::board::Board;
 use crate::evidence::{Evidence, Line};
 use engine::analysis::{Encounter, Side};
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType, Watch};
 
-/// How an episode ended.
+/// The ending of an episode.
 #[derive(Clone, Debug)]
 pub(crate) struct Ending {
     /// Ticks played.
@@ -13,7 +13,7 @@ pub(crate) struct Ending {
     outcome: Outcome,
     /// The termination that holds, as an index into the description.
     termination: Option<usize>,
-    /// What brought it about in the last tick: the blow that ended the avatar, or the sprite that had to go.
+    /// The interaction of the last tick that caused it: it removed the avatar, or the sprite that had to go.
     blow: Option<Meeting>,
     /// The board before the last tick.
     before: Option<Board>,
@@ -21,11 +21,11 @@ pub(crate) struct Ending {
     action: Option<Action>,
 }
 
-/// Hears what happens in a tick.
+/// Records the meetings of a tick.
 #[derive(Default)]
 struct Ear(Vec<Meeting>);
 
-/// Meetings of a tick that are heard.
+/// The most meetings of a tick to record.
 const HEARD: usize = 256;
 
 impl Watch for Ear {
@@ -41,7 +41,7 @@ impl Watch for Ear {
 }
 
 impl Ending {
-    /// Plays an episode again, and listens to its last tick. Cost: that of the episode.
+    /// Replays an episode and records its last tick. Cost: that of the episode.
     pub(crate) fn of(analysis: &Analysis, level: &Level, episode: &Episode) -> Ending {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
@@ -75,7 +75,7 @@ impl Ending {
         }
     }
 
-    /// What happened in the last tick, a sentence for each line that had a part in it.
+    /// Returns the events of the last tick, a sentence for each line involved.
     pub(crate) fn evidence(&self, game: &Game) -> Vec<Evidence> {
         let mut list = Vec::new();
         let key = self.action.filter(|action| *action != Action::Nil);
@@ -101,7 +101,7 @@ impl Ending {
     }
 }
 
-/// Whether an interaction may have ended, on one of its sides, a sprite of one of these types.
+/// Returns `true` if an interaction may have removed, on one of its sides, a sprite of one of these types.
 fn ends(analysis: &Analysis, meeting: &Meeting, types: &[SpriteType]) -> bool {
     let of_line = |encounter: &&Encounter| encounter.line == meeting.line;
     let ends =
@@ -110,7 +110,7 @@ fn ends(analysis: &Analysis, meeting: &Meeting, types: &[SpriteType]) -> bool {
     first || meeting.second.is_some_and(|second| types.contains(&second)) && ends(Side::Second)
 }
 
-/// Counted from 1, as people count.
+/// Converts a cell to column and row counted from 1.
 fn placed((column, row): (i32, i32)) -> Option<(usize, usize)> {
     Some((usize::try_from(column).ok()? + 1, usize::try_from(row).ok()? + 1))
 }

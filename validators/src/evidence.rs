@@ -1,4 +1,4 @@
-//! What a judge has seen: a sentence with its tick, cell, line and board, and what to try.
+//! The observations of a validator: a sentence with its tick, cell, line and board, and advice.
 
 use crate::board::Board;
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine};
@@ -6,41 +6,41 @@ use engine::{Game, Span};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// One thing that was seen.
+/// One observation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
     /// In words.
     pub text: String,
-    /// In which tick; the first one is 1.
+    /// The tick; the first one is 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tick: Option<usize>,
-    /// Where: column and row, counted from 1, from the upper left.
+    /// The cell: column and row, counted from 1, from the upper left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cell: Option<(usize, usize)>,
-    /// The line of the game file that it is about.
+    /// The line of the game file that it concerns.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<Line>,
-    /// How it looked.
+    /// The board at that moment.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub board: Option<Board>,
-    /// What to try.
+    /// Advice to the designer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub advice: Option<String>,
 }
 
 impl Evidence {
-    /// In words alone.
+    /// Evidence that is only a sentence.
     pub fn new(text: impl Into<String>) -> Evidence {
         Evidence { text: text.into(), ..Evidence::default() }
     }
 
-    /// About a line.
+    /// Adds the line that it concerns.
     #[must_use]
     pub fn of_rule(self, rule: Line) -> Evidence {
         Evidence { rule: Some(rule), ..self }
     }
 
-    /// With advice.
+    /// Adds advice.
     #[must_use]
     pub fn advise(self, advice: impl Into<String>) -> Evidence {
         Evidence { advice: Some(advice.into()), ..self }
@@ -50,12 +50,12 @@ impl Evidence {
 /// A line of a game file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Line {
-    /// What it says, in canonical spelling.
+    /// Its text, in canonical spelling.
     pub text: String,
-    /// Where in the text that the game was read from; nowhere for games that were made, not read.
+    /// Its position in the source text; empty for games that were built, not read.
     #[serde(skip)]
     pub span: Span,
-    /// The number of the line in that text, from 1; whoever has the text fills it in.
+    /// The number of the line in that text, from 1; filled in by the caller that has the text.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
 }
@@ -81,7 +81,7 @@ impl Line {
         Line::new(with_params(class.text.clone(), params), class.span)
     }
 
-    /// The line of the SpriteSet that declares a type; none for what is there without being declared.
+    /// The line of the SpriteSet that declares a type; none for a type that exists without a declaration.
     pub fn sprite(game: &Game, name: &str) -> Option<Line> {
         let lines = game.description().sprite_lines();
         let (_, line) = lines.into_iter().find(|(_, line)| line.name.text == name)?;
@@ -90,7 +90,7 @@ impl Line {
         Some(Line::new(with_params(format!("{} >{class}", name.text), params), name.span))
     }
 
-    /// The line of the LevelMapping for a character; none for what is mapped without being written.
+    /// The line of the LevelMapping for a character; none for a character that is mapped by default.
     pub fn mapping(game: &Game, symbol: char) -> Option<Line> {
         let line = game.description().mapping.iter().find(|line| line.symbol == symbol)?;
         let names: Vec<&str> = line.names.iter().map(|name| name.text.as_str()).collect();

@@ -7,20 +7,20 @@ use crate::verdict::Finding;
 use engine::{Analysis, Game, Seed};
 use serde::Serialize;
 
-/// A game with its levels, and what was played on them.
+/// A game with its levels and their recorded episodes.
 #[derive(Clone, Copy)]
 pub struct GameCase<'a> {
     /// The game.
     pub game: &'a Game,
-    /// What its rules mean.
+    /// The analysis of its rules.
     pub analysis: &'a Analysis,
-    /// Its levels with the episodes of their judges.
+    /// Its levels with the episodes that their validators played.
     pub recording: &'a [Recorded<'a>],
-    /// How the players of a ladder fared on each, where one played.
+    /// The ladder results of each level, if its ladder was played.
     pub ladders: &'a [Option<&'a Ladder>],
-    /// What those episodes show.
+    /// The rules and types that those episodes show.
     pub(crate) usage: &'a Usage,
-    /// Where the validator's own chance comes from.
+    /// The source of the validator's own randomness.
     pub seed: Seed,
 }
 
@@ -33,22 +33,22 @@ pub trait GameValidator: Sync {
     fn validate(&self, case: GameCase<'_>) -> Finding;
 }
 
-/// What all validators found of a game: of each level, and of all of them together.
+/// The findings of all validators on a game: on each level, and on all of them together.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GameReport {
     /// In the order of the levels.
     pub levels: Vec<Report>,
-    /// In the order of asking.
+    /// In the order of checking.
     pub judgements: Vec<Judgement>,
 }
 
 impl GameReport {
-    /// Whether every level and the game meet every criterion.
+    /// Returns `true` if every level and the game meet every criterion.
     pub fn passes(&self) -> bool {
         self.levels.iter().all(Report::passes) && self.game_passes()
     }
 
-    /// Whether the game meets the criteria on all levels together.
+    /// Returns `true` if the game meets the criteria on all levels together.
     pub fn game_passes(&self) -> bool {
         self.judgements.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }

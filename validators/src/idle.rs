@@ -1,4 +1,4 @@
-//! Is it won by doing nothing?
+//! The `not-idle` criterion: doing nothing does not win.
 
 use crate::ending::Ending;
 use crate::evidence::Evidence;
@@ -6,7 +6,7 @@ use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
 use agents::{Budget, DoNothing, Limits, Play, play};
 use engine::Outcome;
 
-/// A player who does nothing never wins, in so many games of different chance (one if chance plays no part).
+/// A player who does nothing never wins, under several random seeds (one for a deterministic game).
 #[derive(Clone, Copy, Debug)]
 pub struct NotIdle {
     /// Episodes to play.
@@ -24,7 +24,7 @@ impl Validator for NotIdle {
 }
 
 impl NotIdle {
-    /// Judges by plays of so many ticks at most; what is broken off is no answer.
+    /// Judges by plays of at most `ticks` ticks; a play that was broken off gives no answer.
     pub(crate) fn judge(&self, case: Case<'_>, ticks: usize) -> Finding {
         let plays = if case.game.is_deterministic() { 1 } else { self.plays };
         let limits = Limits { ticks, ..Limits::default() };
@@ -50,7 +50,7 @@ impl NotIdle {
     }
 }
 
-/// That plays were broken off after so many ticks, where some were.
+/// Returns a finding if some plays were broken off after `ticks` ticks.
 pub(crate) fn broken_off(played: &[Play], ticks: usize) -> Option<Finding> {
     let is_cut =
         |play: &&Play| play.episode.outcome == Outcome::Ongoing && play.episode.actions.len() >= ticks;

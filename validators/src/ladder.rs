@@ -1,4 +1,4 @@
-//! Players from weak to strong on one level: how often each wins, and how hard that makes the level.
+//! Players from weak to strong on one level: the win rate of each, and the difficulty that follows.
 
 use crate::verdict::{Case, Rate};
 use agents::{Budget, Limits, Play, UnknownPlanner, planner, play};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// A player of a ladder: a planner of the registry with the forward-model calls of a decision, written `mcts:500`.
+/// A player of a ladder: a registered planner with the forward-model calls of a decision, written `mcts:500`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rung {
     name: String,
@@ -20,7 +20,7 @@ impl Rung {
     /// Reads `planner:calls`, or `planner` with `calls` calls.
     ///
     /// # Errors
-    /// There is no such planner, or what follows the colon is no number.
+    /// There is no such planner, or the text after the colon is not a number.
     pub fn new(name: &str, calls: u64) -> Result<Rung, UnknownPlanner> {
         let (planner_name, written) = name.split_once(':').map_or((name, None), |(a, b)| (a, Some(b)));
         let unknown = || UnknownPlanner(name.to_owned());
@@ -29,13 +29,13 @@ impl Rung {
         Ok(Rung { name: name.to_owned(), planner: planner_name.to_owned(), budget: Budget(calls) })
     }
 
-    /// Whether it looks ahead. Those who do nothing, or press any key, are what the others are measured against.
+    /// Returns `true` if the player looks ahead. Players that do nothing or act at random are the baselines.
     pub fn looks_ahead(&self) -> bool {
         !FLOORS.contains(&self.planner.as_str())
     }
 
     fn play(&self, case: Case<'_>, run: u64, limits: Limits) -> Play {
-        // All rungs meet the same chance in plays of one number, so that they can be compared play by play.
+        // All players get the same seed in plays of the same number, so that they can be compared play by play.
         let chance = case.seed.child("chance", run);
         let seed = case.seed.child(&self.name, run);
         let mut planner = planner(&self.planner, seed).expect("the name was checked");
@@ -46,37 +46,38 @@ impl Rung {
 /// Planners that do not look ahead.
 const FLOORS: &[&str] = &["do-nothing", "random", "random-with-nil"];
 
-/// How one player fared.
+/// The results of one player.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fared {
-    /// Who: `mcts:500`.
+    /// Its name: `mcts:500`.
     pub player: String,
-    /// Whether it looks ahead.
+    /// `true` if it looks ahead.
     pub looks_ahead: bool,
-    /// How often it won.
+    /// Its win rate.
     pub rate: Rate,
-    /// Mean ticks of the plays that were won, if any was.
+    /// Mean ticks of the plays that were won, if any.
     pub win_ticks: Option<f64>,
-    /// Mean score, from 0 for the least to 1 for the greatest of all plays of the rungs, those held out apart; none if all are equal.
+    /// Mean score, scaled from 0 for the least to 1 for the greatest score of all plays of the rungs, without the
+    /// held-out players; none if all scores are equal.
     pub reward: Option<f64>,
 }
 
-/// How the players of a ladder fared.
+/// The results of a ladder of players.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ladder {
     /// From the weakest to the strongest, as the criteria name them.
     pub rungs: Vec<Fared>,
-    /// Players that only acceptance asks.
+    /// Players that are held out until acceptance.
     pub held_out: Vec<Fared>,
-    /// How easy, from 0 to 1 (`spec/06` §2.6); none without a player that looks ahead.
+    /// The ease, from 0 to 1 (`spec/06` §2.6); none without a player that looks ahead.
     pub ease: Option<f64>,
-    /// The label of that.
+    /// The label of that ease.
     pub difficulty: Difficulty,
 }
 
-/// How hard a level is (`spec/06` §2.6).
+/// The difficulty of a level (`spec/06` §2.6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Difficulty {
@@ -95,7 +96,7 @@ pub enum Difficulty {
 }
 
 impl Difficulty {
-    /// The labels that can be asked for, with the eases that bear them, from and below.
+    /// The labels that can be requested, with the range of eases of each: from (inclusive) and below (exclusive).
     pub const LABELS: [(Difficulty, [f64; 2]); 5] = [
         (Difficulty::VeryEasy, [0.8, 1.0]),
         (Difficulty::Easy, [0.6, 0.8]),
@@ -104,7 +105,7 @@ impl Difficulty {
         (Difficulty::VeryHard, [0.0, 0.2]),
     ];
 
-    /// The eases that bear this label, from and below; none of what nobody wins.
+    /// Returns the range of eases of this label; none if no player wins.
     pub fn eases(self) -> Option<[f64; 2]> {
         Difficulty::LABELS.into_iter().find(|(label, _)| *label == self).map(|(_, eases)| eases)
     }
@@ -123,7 +124,7 @@ pub struct UnknownDifficulty(String);
 impl FromStr for Difficulty {
     type Err = UnknownDifficulty;
 
-    /// Reads a label that can be asked for: `very_easy`, `very-easy` and `very easy` are one.
+    /// Reads a label that can be requested: `very_easy`, `very-easy` and `very easy` are equal.
     fn from_str(text: &str) -> Result<Difficulty, UnknownDifficulty> {
         let plain = text.replace(['_', '-'], " ");
         let mut labels = Difficulty::LABELS.into_iter().map(|(label, _)| label);
@@ -144,36 +145,36 @@ impl fmt::Display for Difficulty {
     }
 }
 
-/// Whom to let play, and for how long.
+/// The players of a ladder and the limits of their plays.
 #[derive(Clone, Debug)]
 pub struct Climb {
     /// From the weakest to the strongest.
     pub rungs: Vec<Rung>,
-    /// Players that only acceptance asks: no search is guided by them.
+    /// Held-out players: they never guide a search.
     pub held_out: Vec<Rung>,
-    /// Plays of each player at most.
+    /// The greatest number of plays of each player.
     pub plays: u64,
     /// Forward-model calls of all plays together, after which no further round begins.
     pub calls: u64,
     /// Ticks of a play.
     pub ticks: usize,
-    /// A play is broken off after so many times the ticks of the witness, and 50 more, if there is a witness.
+    /// A play is broken off after this multiple of the ticks of the witness, and 50 more, if there is a witness.
     pub patience: usize,
 }
 
-/// Ticks that every play has beyond a multiple of the witness's.
+/// Ticks added to the multiple of the witness's ticks.
 const GRACE: usize = 50;
 
 /// Plays of each player in a round.
 const ROUND: u64 = 2;
 
-/// The plays of each player, by number: the rungs, then those held out.
+/// The plays of each player, by number: the rungs, then the held-out players.
 pub(crate) struct Climbed {
     pub(crate) plays: Vec<Vec<Play>>,
 }
 
 impl Climbed {
-    /// The number of plays that were broken off for want of calls.
+    /// Returns the number of plays that were broken off because their calls were spent.
     pub(crate) fn broken_off(&self, calls: u64) -> usize {
         let is_cut = |play: &&Play| {
             play.episode.outcome == Outcome::Ongoing
@@ -188,28 +189,29 @@ impl Climb {
         self.rungs.iter().chain(&self.held_out)
     }
 
-    /// How the players fare on a level, and how hard that makes it.
+    /// Measures the players on a level and the difficulty that follows.
     pub fn ladder(&self, case: Case<'_>) -> Ladder {
         self.measure(&self.climb(case))
     }
 
-    /// How the players fare, and all that they played.
+    /// Measures the players, and returns all their plays.
     pub fn play(&self, case: Case<'_>) -> (Ladder, Vec<Episode>) {
         let climbed = self.climb(case);
         (self.measure(&climbed), climbed.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 
-    /// The number of plays of a round.
+    /// Returns the number of plays of a round.
     pub(crate) fn of_a_round(&self) -> u64 {
         ROUND * self.players().count() as u64
     }
 
-    /// Lets all play equally often. Rounds go on until the plays, or the calls, are spent.
+    /// Lets every player play equally often. Rounds go on until the plays, or the calls, are spent.
     pub(crate) fn climb(&self, case: Case<'_>) -> Climbed {
         self.climb_within(case, u64::MAX)
     }
 
-    /// The same with plays that are broken off at the first decision beyond so many calls, and ticks.
+    /// Like [`Climb::climb`], but a play is broken off at the first decision after `calls` calls, or at its tick
+    /// limit.
     pub(crate) fn climb_within(&self, case: Case<'_>, calls: u64) -> Climbed {
         let patient = |witness: &Episode| self.patience.saturating_mul(witness.actions.len()) + GRACE;
         let ticks = self.ticks.min(case.witness.map_or(usize::MAX, patient));
@@ -222,7 +224,7 @@ impl Climb {
         while played < self.plays && (played == 0 || spent < self.calls) {
             let runs = played..self.plays.min(played + ROUND);
             played = runs.end;
-            // The strongest take longest: they begin.
+            // The strongest players take longest, so they start first.
             let tasks: Vec<(usize, u64)> = (0..players.len())
                 .rev()
                 .flat_map(|player| runs.clone().map(move |run| (player, run)))
@@ -237,8 +239,8 @@ impl Climb {
         Climbed { plays }
     }
 
-    /// What the plays of the players say of the level. Those held out are measured by the others, so that difficulty does not
-    /// depend on whether they play.
+    /// Computes the results of the plays. The rewards of held-out players are scaled by the scores of the others, so
+    /// that difficulty does not depend on held-out players.
     pub(crate) fn measure(&self, climbed: &Climbed) -> Ladder {
         let all = || climbed.plays[..self.rungs.len()].iter().flatten().map(|play| &play.episode);
         let scores = || all().map(|episode| episode.score);
@@ -273,8 +275,8 @@ fn won_in(episode: &Episode) -> Option<f64> {
     (episode.outcome == Outcome::Won).then_some(episode.actions.len() as f64)
 }
 
-/// 0.6 of the win rate, 0.2 of the reward and 0.2 of the step efficiency, `1 − mean ticks of wins / ticks of the longest play`;
-/// what is missing (scores all equal; no win) leaves its weight to the others.
+/// The weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2), which is
+/// `1 − mean ticks of wins / ticks of the longest play`; a missing value (equal scores; no win) leaves its weight to the others.
 fn ease(fared: &Fared, longest: f64) -> f64 {
     let Rate { wins, plays, .. } = fared.rate;
     let won = wins as f64 / plays.max(1) as f64;

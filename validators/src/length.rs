@@ -1,4 +1,4 @@
-//! Is it neither over at once nor endless?
+//! The `length` criterion: a level is neither over at once nor endless.
 
 use crate::ending::Ending;
 use crate::verdict::{Case, Finding, Validator, Verdict};

@@ -1,7 +1,8 @@
-//! Judgements on a game and a level: each criterion of a release is a validator of its own.
+//! Judgements on a game and a level: each criterion of a release is a separate validator.
 //!
-//! A verdict has three answers. *Pass* may carry a witness: an episode that replays. *Fail* says why and may carry a
-//! counter-example. *Unknown* says how much was spent: running out of budget is never called unsolvable.
+//! A verdict has three values. *Pass* may carry a witness: an episode that replays. *Fail* gives a reason and may
+//! carry a counter-example. *Unknown* gives the calls spent: a level is never called unsolvable because the budget
+//! ran out.
 
 mod ablation;
 mod allowance;

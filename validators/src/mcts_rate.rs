@@ -1,4 +1,4 @@
-//! How often plain Monte-Carlo tree search wins: what every level's card tells beside its witness.
+//! The win rate of plain Monte-Carlo tree search, reported on every level's card next to its witness.
 
 use crate::Criteria;
 use crate::verdict::Rate;
@@ -6,8 +6,9 @@ use agents::{Budget, Limits, Mcts, MctsConfig, Play, play};
 use engine::{Episode, Game, Level, Seed};
 use rayon::prelude::*;
 
-/// Plays the reference's tree search ([`Mcts`]) on a level that was won, and counts. A play is broken off after
-/// [`Criteria::patience`] times the ticks of the witness, and 50 more. Cost: `mcts_plays` plays of `decision` calls a tick.
+/// Plays the reference's tree search ([`Mcts`]) on a level that has a win, and returns its win rate. A play is broken
+/// off after [`Criteria::patience`] times the ticks of the witness, and 50 more. Cost: `mcts_plays` plays of
+/// `decision` calls a tick.
 pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Criteria, seed: Seed) -> Rate {
     let ticks = witness.actions.len().saturating_mul(criteria.patience).saturating_add(50);
     let limits = Limits { ticks, ..Limits::default() };

@@ -1,4 +1,4 @@
-//! What a level is like to play, in numbers: the axes of archives and of expressive range.
+//! Measures of a level in play: the axes of archives and of expressive range.
 
 use crate::ladder::{Fared, Ladder};
 use crate::panel::Report;
@@ -7,34 +7,35 @@ use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, Seed, Spr
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// What a won level is like to play. The first six come from its witness, so they are of one way to win it, the shortest
-/// that was found; `shortest` and `skill` are of all ways.
+/// The measures of a level with a win. The first six come from its witness, so they describe one way to win it, the
+/// shortest found; `shortest` and `skill` describe the level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measures {
     /// Ticks of the witness.
     pub ticks: usize,
-    /// Times that something was pushed and moved by it, or went away: in Sokoban, the pushes of the solution.
+    /// The number of times that a sprite was pushed and moved, or was removed by the push: in Sokoban, the pushes of
+    /// the solution.
     pub pushes: usize,
-    /// How much a choice changes, from 0 to 1: of the actions at a tick of the witness, the share that lead to states of
-    /// their own ([`State::search_key`]), in the mean over its ticks. 1: every action matters; 1 / actions: none does.
+    /// The effect of choices, from 0 to 1: the share of the actions at a tick of the witness that lead to distinct
+    /// states ([`State::search_key`]), on average over its ticks. 1: every action matters; 1 / actions: none does.
     pub branching: f64,
-    /// Mechanics used, from 0 to 1: the share of the game's interactions that the witness executes. Interactions with the
-    /// edge of the screen do not count: they are guards, which walls make idle.
+    /// Mechanics used, from 0 to 1: the share of the game's interactions that the witness executes. Interactions with
+    /// the edge of the screen do not count: they are guards, which walls make idle.
     pub mechanics: f64,
-    /// The interactions that it executes, as [`used_rules`] has them.
+    /// The interactions that it executes, as returned by [`used_rules`].
     pub rules: Vec<usize>,
-    /// How near to losing the witness leads, from 0 to 1: from a tick of it, the probability that a random action and
-    /// [`FORESIGHT`] − 1 random ones after it lose the game, in the mean over its ticks.
+    /// The risk of losing along the witness, from 0 to 1: the probability that a random action and [`FORESIGHT`] − 1
+    /// more random ones from a tick of it lose the game, on average over its ticks.
     pub pressure: f64,
-    /// Ticks of the shortest win, where it is proved that no fewer win.
+    /// Ticks of the shortest win, if it is proved that no fewer win.
     pub shortest: Option<usize>,
-    /// What looking ahead gains, if a ladder played.
+    /// The advantage of looking ahead, if a ladder was played.
     pub skill: Option<SkillGap>,
 }
 
-/// By how much players that look ahead do better than those who do not (`random`, `do-nothing`), in the mean over the players
-/// of each kind, those held out included.
+/// The advantage of players that look ahead over those that do not (`random`, `do-nothing`), on average over the
+/// players of each kind, including held-out ones.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkillGap {
@@ -44,17 +45,18 @@ pub struct SkillGap {
     pub reward: Option<f64>,
 }
 
-/// Ticks that pressure looks ahead.
+/// The ticks that pressure looks ahead.
 pub const FORESIGHT: usize = 8;
 /// Random futures of each action.
 const FUTURES: u64 = 3;
-/// Ticks of a witness that are looked at: all, or so many evenly spread.
+/// The most ticks of a witness that are sampled, evenly spread.
 const MOMENTS: usize = 60;
 
 impl Measures {
-    /// Measures a level that was judged, and on which a ladder may have played; none if the report has no witness. The same
-    /// arguments give the same numbers on every machine. Cost: the witness is played again; at 60 of its ticks at most, every action is tried once for branching, and
-    /// three times for up to [`FORESIGHT`] ticks for pressure: with five actions at most 7,500 forward-model calls.
+    /// Measures a level that was judged, and whose ladder may have been played; none if the report has no witness.
+    /// The same arguments give the same numbers on every machine. Cost: the witness is replayed; at no more than 60
+    /// of its ticks, every action is tried once for branching, and three times for up to [`FORESIGHT`] ticks for
+    /// pressure: with five actions at most 7,500 forward-model calls.
     pub fn of(
         analysis: &Analysis,
         level: &Level,
@@ -71,7 +73,7 @@ impl Measures {
         })
     }
 
-    /// Measures one way to play a level; without `shortest` and `skill`. Cost: as [`Measures::of`].
+    /// Measures one way to play a level; without `shortest` and `skill`. Cost: that of [`Measures::of`].
     pub fn of_episode(analysis: &Analysis, level: &Level, episode: &Episode, seed: Seed) -> Measures {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
@@ -106,7 +108,7 @@ impl Measures {
 }
 
 impl SkillGap {
-    /// Of the players of a ladder; none unless some look ahead and some do not.
+    /// Compares the players of a ladder; none unless some look ahead and some do not.
     pub fn of(ladder: &Ladder) -> Option<SkillGap> {
         let players = || ladder.rungs.iter().chain(&ladder.held_out);
         let gap = |value: &dyn Fn(&Fared) -> Option<f64>| {
@@ -142,20 +144,20 @@ pub fn used_rules(game: &Game, level: &Level, episode: &Episode) -> Vec<usize> {
 /// The name of the edge of the screen in interactions.
 const EDGE: &str = "EOS";
 
-/// Whether an interaction is with the edge of the screen.
+/// Returns `true` if an interaction is with the edge of the screen.
 pub fn is_guard(game: &Game, line: usize) -> bool {
     let written = &game.description().interactions[line];
     written.first.text == EDGE || written.second.iter().any(|word| word.text == EDGE)
 }
 
-/// The actions of a state, doing nothing included.
+/// Returns the actions of a state, including doing nothing.
 pub(crate) fn actions(game: &Game, state: &State) -> Vec<Action> {
     let known = game.actions(state);
     let idle = (!known.contains(&Action::Nil)).then_some(Action::Nil);
     known.iter().copied().chain(idle).collect()
 }
 
-/// The share of the actions that lead to states of their own, all with the same dice.
+/// Returns the share of the actions that lead to distinct states under the same random draws.
 fn different(game: &Game, state: &State) -> f64 {
     let actions = actions(game, state);
     let after = |&action: &Action| {
@@ -167,7 +169,8 @@ fn different(game: &Game, state: &State) -> f64 {
     keys.len() as f64 / actions.len() as f64
 }
 
-/// The share of random futures that lose. All actions meet the same dice and the same keys after them.
+/// Returns the share of random futures that lose. All actions get the same random draws and the same actions after
+/// them.
 fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
     let (mut lost, mut all) = (0u64, 0u64);
     for action in actions(game, state) {
@@ -189,8 +192,8 @@ fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
     lost as f64 / all.max(1) as f64
 }
 
-/// How many sprites were pushed in a tick and moved by it, or went away. A push against something that holds is undone in the
-/// same tick, and does not count.
+/// Returns the number of sprites that were pushed in a tick and moved, or were removed. A push against an obstacle is
+/// undone in the same tick, and does not count.
 fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &State) -> usize {
     let pushes = |meeting: &&Meeting| {
         let of_line = analysis.encounters().iter().filter(|encounter| encounter.line == meeting.line);
@@ -209,13 +212,13 @@ fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &Sta
     moved.min(types.len())
 }
 
-/// Hears which interactions are executed, and on whom in this tick.
+/// Records the executed interactions, and the meetings of the current tick.
 struct Ear {
     lines: Vec<bool>,
     meetings: Vec<Meeting>,
 }
 
-/// Meetings of a tick that are heard.
+/// The most meetings of a tick to record.
 const HEARD: usize = 256;
 
 impl Ear {
@@ -238,7 +241,7 @@ impl Watch for Ear {
     }
 }
 
-/// A mean that grows; 0 of nothing.
+/// A running mean; 0 if empty.
 #[derive(Default)]
 pub(crate) struct Mean {
     sum: f64,
@@ -290,14 +293,14 @@ mod tests {
         assert_eq!((solved.ticks, solved.pushes, solved.rules.as_slice()), (2, 2, &[1, 3][..]));
         assert!((solved.mechanics - 2.0 / 6.0).abs() < 1e-12, "{solved:?}");
         assert_eq!(solved.pressure, 0.0);
-        // Against a wall nothing moves; past the crate nothing is pushed.
+        // Against a wall nothing moves; a step past the crate pushes nothing.
         let stuck = check("wwwwww\nwAcw w\nw   ow\nwwwwww\n", &[Right, Right, Left]);
         assert_eq!(stuck.pushes, 0, "{stuck:?}");
     }
 
     #[test]
     fn branching_tells_room_from_a_dead_end() {
-        // In a hole in the wall only staying is left; in the open five ways lead to five states.
+        // In a niche of the wall the only option is to stay; in the open five actions lead to five states.
         let caged = check("wwwwww\nwAw ow\nwww cw\nwwwwww\n", &[Up]);
         let free = check("wwwwww\nw    w\nw A  w\nw   ow\nw   cw\nwwwwww\n", &[Action::Nil]);
         assert!(caged.branching < free.branching && free.branching == 1.0, "{caged:?} {free:?}");

@@ -1,4 +1,4 @@
-//! All judges together.
+//! The panel of all validators.
 
 use crate::ablation::RulesMatter;
 use crate::allowance::{Allowance, IdleWithin, RandomWithin};
@@ -20,39 +20,39 @@ use serde::Serialize;
 pub struct Panel {
     validators: Vec<Box<dyn Validator + Send>>,
     of_game: Vec<Box<dyn GameValidator + Send>>,
-    /// The criteria, and the calls that they share, if those are bounded.
+    /// The criteria, and the calls that they share, if bounded.
     bound: Option<(Criteria, u64)>,
     /// The search for a win.
     search: PortfolioConfig,
-    /// Ticks of the ways that are tried on each level for rules which were never seen.
+    /// Ticks of the random walks that look for rules which were never executed, for each level.
     exploration: u64,
 }
 
-/// Criteria that cannot be asked of a level which nobody can win.
+/// Criteria that do not apply to a level that cannot be won.
 const NEED_A_WIN: [&str; 2] = ["length", "skill"];
-/// The words for criteria that are not asked of an unwinnable level.
+/// The message for criteria that are skipped on an unwinnable level.
 const NOT_ASKED: &str = "not asked: the level cannot be won";
-/// Criteria that ask nothing of play, or whose answer is why the others are not asked.
+/// Criteria that need no play, or whose failure is the reason why the others are skipped.
 const OF_THE_START: [&str; 2] = ["well-formed", "readable"];
-/// The words for criteria that are not asked where no play gets beyond its first tick.
+/// The message for criteria that are skipped because the game stops in its first tick.
 const STOPPED: &str = "not asked: the game stops in its first tick";
-/// Criteria of a game whose doubts follow from a level that nobody can win.
+/// Criteria of a game whose failures or unknowns may follow from a level that cannot be won.
 const OF_RULES: [&str; 2] = ["rule-use", "ablation"];
 
-/// What one validator found.
+/// The finding of one validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judgement {
     /// The validator.
     pub criterion: &'static str,
-    /// What it found.
+    /// Its finding.
     #[serde(flatten)]
     pub finding: Finding,
 }
 
-/// What all validators found of a level.
+/// The findings of all validators on a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
-    /// In the order of asking.
+    /// In the order of checking.
     pub judgements: Vec<Judgement>,
     /// The shortest win found.
     #[serde(skip)]
@@ -60,41 +60,40 @@ pub struct Report {
 }
 
 impl Report {
-    /// Whether every criterion is met.
+    /// Returns `true` if every criterion is met.
     pub fn passes(&self) -> bool {
         self.judgements.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
-    /// The first criterion that is not met.
+    /// Returns the first criterion that is not met.
     pub fn first_obstacle(&self) -> Option<&Judgement> {
         self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
     }
 
-    /// What was found of a criterion, if it was asked.
+    /// Returns the finding of a criterion, if it was checked.
     pub fn finding(&self, criterion: &str) -> Option<&Finding> {
         let judgement = self.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
         Some(&judgement.finding)
     }
 
-    /// How the players of the ladder fared, if they played.
+    /// Returns the results of the ladder, if it was played.
     pub fn ladder(&self) -> Option<&Ladder> {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
     }
 
-    /// Returns whether it is proved that nobody can win.
+    /// Returns `true` if it is proved that the level cannot be won.
     fn is_unwinnable(&self) -> bool {
         self.finding("winnable").is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
     }
 
-    /// Returns whether the engine stops the game in its first tick.
+    /// Returns `true` if the engine stops the game in its first tick.
     fn is_stopped(&self) -> bool {
         let verdict = self.finding("well-formed").map(|finding| &finding.verdict);
         matches!(verdict, Some(Verdict::Fail { witness: Some(episode), .. })
             if matches!(episode.outcome, Outcome::Stopped(_)))
     }
 
-    /// Takes the witness of a judgement; where there is none because the search found none, a win that somebody else has
-    /// played is as good.
+    /// Takes the witness of a judgement. If the search found none, a win by another player serves as well.
     fn accept(&mut self, judgement: &mut Judgement) {
         if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
             judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
@@ -110,7 +109,8 @@ impl Report {
         won.min_by_key(|episode| episode.actions.len()).cloned()
     }
 
-    /// All episodes that the judges played, the telling ones first: the witness, then those of the last judges.
+    /// Returns all episodes that the validators played, the most informative ones first: the witness, then those of
+    /// the last validators.
     pub fn episodes(&self) -> Vec<Episode> {
         let played = self.judgements.iter().rev().flat_map(|judgement| {
             let shown = match &judgement.finding.verdict {
@@ -124,20 +124,21 @@ impl Report {
 }
 
 impl Panel {
-    /// The panel of these criteria.
+    /// Returns the panel of these criteria.
     ///
     /// # Panics
-    /// If they name players or criteria that there are not; see [`Criteria::check`].
+    /// If they name unknown players or criteria; see [`Criteria::check`].
     pub fn new(criteria: &Criteria) -> Panel {
         Panel::allowed(criteria, None)
     }
 
-    /// The same with so many forward-model calls for each level, and for the game over all its levels, shared out among all
-    /// criteria: together they take some eight times as many at most, and the least that gives any answer. What does not fit is
-    /// broken off, and its answer is unknown. Where a tick is unusually much work, it counts as several calls.
+    /// Like [`Panel::new`], with a number of forward-model calls for each level, and for the game over all its
+    /// levels, divided among all criteria: together they take up to about eight times as many, and at least the
+    /// minimum for an answer. Work that does not fit is broken off, and its answer is unknown. A tick with unusually
+    /// much work counts as several calls.
     ///
     /// # Panics
-    /// As [`Panel::new`].
+    /// Those of [`Panel::new`].
     pub fn bounded(criteria: &Criteria, calls: u64) -> Panel {
         Panel { bound: Some((criteria.clone(), calls)), ..Panel::new(criteria) }
     }
@@ -196,7 +197,7 @@ impl Panel {
         }
     }
 
-    /// Asks every validator of levels.
+    /// Runs every validator of levels.
     pub fn judge(&self, game: &Game, level: &Level, seed: Seed) -> Report {
         match &self.bound {
             None => self.ask(game, level, None, seed, false),
@@ -207,18 +208,18 @@ impl Panel {
         }
     }
 
-    /// Asks until one does not pass: for minting, where candidates are many.
+    /// Runs the validators until one does not pass: for minting, where candidates are many.
     pub fn screen(&self, game: &Game, level: &Level, seed: Seed) -> Report {
         self.ask(game, level, None, seed, true)
     }
 
-    /// The same of a level that `witness` is known to win.
+    /// Like [`Panel::screen`], for a level that `witness` is known to win.
     pub fn screen_won(&self, game: &Game, level: &Level, witness: Episode, seed: Seed) -> Report {
         self.ask(game, level, Some(witness), seed, true)
     }
 
-    /// Asks every validator, of the levels and of the game. Each level has a seed of its own, derived from its text, so that
-    /// it gets the same answer alone and among others.
+    /// Runs every validator, on the levels and on the game. Each level has a seed derived from its text, so that it gets
+    /// the same answer alone and among others.
     pub fn judge_game(&self, game: &Game, levels: &[Level], seed: Seed) -> GameReport {
         let judge = |level: &Level| self.judge(game, level, seed.child(&level.digest().to_string(), 0));
         let reports: Vec<Report> = levels.par_iter().map(judge).collect();
@@ -226,7 +227,7 @@ impl Panel {
         GameReport { levels: reports, judgements }
     }
 
-    /// Asks the validators of a game over all its levels, whose reports are given in their order.
+    /// Runs the validators of a game over all its levels, with the reports of the levels in order.
     pub fn judge_together(
         &self,
         game: &Game,
@@ -300,7 +301,7 @@ impl Panel {
                 return report;
             }
         }
-        // Players of the ladder may win what no search for a win did.
+        // A player of the ladder may win a level that the search did not.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
             report.witness = Some(won);
             for validator in self.validators.iter().filter(|validator| validator.name() != "skill") {
@@ -321,12 +322,13 @@ impl Panel {
     }
 }
 
-/// The finding of a criterion that is left out, with the reason.
+/// Returns the finding of a criterion that is skipped, with the reason.
 fn not_asked(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// Why a doubt about the rules of a game is no more than a consequence: of levels that nobody can win.
+/// Returns the reason why a failed or unknown verdict on the rules is only a consequence of levels that cannot be
+/// won.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());
@@ -338,13 +340,14 @@ fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
         _ if lost == all => {
             Some(if all == 1 { NOT_ASKED } else { "not asked: no level can be won" }.to_owned())
         }
-        // What is proved of all levels holds, whatever becomes of some.
+        // A proof over all levels holds even if some cannot be won.
         Verdict::Fail { .. } => None,
         Verdict::Unknown { .. } => Some(format!("not asked: {lost} of {all} levels cannot be won")),
     }
 }
 
-/// What was played on each level, and what random keys add in at most `most` ticks where some rule was never seen.
+/// Returns the episodes of each level, plus random walks of at most `most` ticks a level if some rule was never
+/// executed.
 pub(crate) fn record(
     game: &Game,
     levels: &[Level],
@@ -359,7 +362,7 @@ pub(crate) fn record(
         explore(game, &recording, &usage, seed, most)
     };
     for (episodes, new) in episodes.iter_mut().zip(new) {
-        // After the witness, before what may be too much to look at.
+        // After the witness, before episodes that may exceed the limit.
         let at = usize::from(!episodes.is_empty());
         episodes.splice(at..at, new);
     }

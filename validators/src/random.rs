@@ -1,4 +1,4 @@
-//! Is it won by pressing any key?
+//! The `not-random` criterion: random play seldom wins.
 
 use crate::ending::Ending;
 use crate::idle::broken_off;
@@ -7,7 +7,7 @@ use agents::{Budget, Limits, Play, Random, play};
 use engine::Outcome;
 use rayon::prelude::*;
 
-/// Random play wins at most a stated share of its episodes.
+/// Random play wins at most a given share of its episodes.
 #[derive(Clone, Copy, Debug)]
 pub struct NotRandom {
     /// Episodes to play.
@@ -27,7 +27,7 @@ impl Validator for NotRandom {
 }
 
 impl NotRandom {
-    /// Judges by plays of so many ticks at most; what is broken off is no answer.
+    /// Judges by plays of at most `ticks` ticks; a play that was broken off gives no answer.
     pub(crate) fn judge(&self, case: Case<'_>, ticks: usize) -> Finding {
         let limits = Limits { ticks, ..Limits::default() };
         let played: Vec<Play> = (0..u64::from(self.plays))

@@ -1,4 +1,4 @@
-//! What is proved before anything is searched.
+//! A proof from the analysis, before any search.
 
 use crate::causes::lower;
 use crate::evidence::{Evidence, Line};
@@ -6,9 +6,9 @@ use crate::verdict::{Case, Finding, Validator, Verdict};
 use engine::analysis::Cause;
 use engine::describe;
 
-/// Asks the analysis of the level before a search: a win that is out of reach (`engine::analysis::Reach`) is a failure, and
-/// the validator within is not asked. Its name is that of the one within. (Where designers ask, the panel adds the chain of
-/// causes.)
+/// Consults the analysis of the level before a search: if a win is out of reach (`engine::analysis::Reach`), that is
+/// a failure, and the inner validator does not run. Its name is that of the inner validator. (For designers, the
+/// panel adds the chain of causes.)
 #[derive(Clone, Debug)]
 pub struct Reachable<V>(pub V);
 

@@ -1,4 +1,4 @@
-//! Can a player see what decides?
+//! The `readable` criterion: a player can see everything that decides the game.
 
 use crate::board::drawn;
 use crate::evidence::{Evidence, Line};
@@ -6,15 +6,15 @@ use crate::verdict::{Case, Finding, Validator, Verdict};
 use engine::analysis::{Analysis, Reach, Role};
 use engine::{Game, Level, SpriteType};
 
-/// Every visible type has a character of its own, and nothing that decides is hidden.
+/// Every visible type has a character of its own, and nothing decisive is hidden.
 ///
-/// A type that counts towards a win or a loss, or does something to the avatar, fails if it is `hidden`, or if the level places
-/// it only under sprites that cover it. What is hidden and only makes others (a spawner) is told, not held against the level;
-/// what lies under others and decides nothing is scenery.
+/// A type that counts towards a win or a loss, or affects the avatar, fails if it is `hidden`, or if the level places
+/// it only under sprites that cover it. A hidden type that only makes others (a spawner) is reported, but is no
+/// failure; types that are covered and decide nothing are scenery.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Readable;
 
-/// Printable characters without the blank: one for each visible type.
+/// The printable characters without the blank: one for each visible type.
 const CHARACTERS: usize = 94;
 
 impl Validator for Readable {
@@ -56,7 +56,7 @@ fn is_there(reach: &Reach, stype: SpriteType) -> bool {
     reach.touched(stype).next().is_some()
 }
 
-/// Whether a type counts for a termination, or a rule is about it and an avatar.
+/// Returns `true` if a type counts for a termination, or a rule concerns it and an avatar.
 fn decides(analysis: &Analysis, stype: SpriteType) -> bool {
     let counted = analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype));
     let meets = |avatar: SpriteType| {
@@ -65,7 +65,7 @@ fn decides(analysis: &Analysis, stype: SpriteType) -> bool {
     counted || analysis.avatars().iter().any(|avatar| meets(avatar.stype))
 }
 
-/// Types that no character shows: wherever the level has them, something else is drawn over them.
+/// Returns the types that no character shows: wherever the level has them, another type is drawn over them.
 fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     let game = analysis.game();
     let visible = |stype: &&SpriteType| !analysis.facts(**stype).hidden;
@@ -79,7 +79,7 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
         let with = |symbol: &&u8| game.places(**symbol).contains(&stype);
         let mut placing = symbols.iter().filter(with).peekable();
         let Some(&&first) = placing.peek() else { continue };
-        // The avatar walks off what it stands on.
+        // The avatar moves off the sprite that it stands on.
         let over = |symbol: u8| {
             let others = game.places(symbol).iter().filter(visible);
             others.copied().find(|&other| {
@@ -107,7 +107,8 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     faults
 }
 
-/// Whether some character, used in this level or not, shows the type: then a player can learn what it looks like.
+/// Returns `true` if some character shows the type, even if this level does not use it: then a player can learn its
+/// looks.
 fn shown_elsewhere(game: &Game, stype: SpriteType, over: impl Fn(u8) -> Option<SpriteType>) -> bool {
     (b'!'..=b'~').any(|symbol| game.places(symbol).contains(&stype) && over(symbol).is_none())
 }
@@ -139,7 +140,7 @@ mod tests {
         check(GAME, "A.gr", None, 0);
         // Hidden, but it only makes others.
         check(GAME, "Ang.", None, 1);
-        // Some character shows gems, so that one can know them.
+        // Some character shows gems, so players can recognize them.
         check(GAME, "A.xg", None, 0);
         let hidden = GAME.replace("gem > Immovable", "gem > Immovable hidden=True");
         check(&hidden, "A.gr", Some("`gem` decides how the game goes, but is hidden"), 1);

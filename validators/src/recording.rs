@@ -1,14 +1,14 @@
-//! What the recorded episodes of a game show: which interactions were executed, and which types were there.
+//! The interactions executed and the types present in the recorded episodes of a game.
 
 use engine::{Action, Episode, Game, Level, Meeting, Outcome, Seed, Watch};
 use rayon::prelude::*;
 
-/// A level with the episodes that its judges have played, the telling ones first.
+/// A level with the episodes that its validators played, the most informative ones first.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'a> {
     /// The level.
     pub level: &'a Level,
-    /// What was played on it.
+    /// Its episodes.
     pub episodes: &'a [Episode],
 }
 
@@ -21,23 +21,23 @@ pub(crate) struct Use {
     pub(crate) tick: usize,
 }
 
-/// What a recording shows.
+/// The interactions and types that a recording shows.
 #[derive(Clone, Debug)]
 pub(crate) struct Usage {
     /// By interaction line: the first executions in some episodes, of all levels in turn.
     pub(crate) lines: Vec<Vec<Use>>,
-    /// By type: whether such a sprite was there, or was held.
+    /// By type: `true` if such a sprite was present, or was held.
     pub(crate) types: Vec<bool>,
-    /// Whether some episode of every level is won.
+    /// `true` if some episode of every level is won.
     pub(crate) won: bool,
-    /// How many episodes were looked at, and their ticks.
+    /// The number of episodes replayed, and their ticks.
     pub(crate) episodes: usize,
     pub(crate) ticks: u64,
 }
 
-/// Episodes of an interaction that are kept.
+/// The most episodes of an interaction to keep.
 const USES: usize = 24;
-/// Ticks of a level's episodes that are looked at; the telling episodes come first.
+/// Ticks of a level's episodes to replay; the most informative episodes come first.
 const TICKS: u64 = 100_000;
 
 struct Ear<'a> {
@@ -71,12 +71,13 @@ impl Usage {
         Usage { lines, types: vec![false; game.sprite_types().count()], won: true, episodes: 0, ticks: 0 }
     }
 
-    /// Plays the recording again. Cost: that of the episodes, at most 100,000 ticks a level.
+    /// Replays the recording. Cost: that of the episodes, at most 100,000 ticks a level.
     pub(crate) fn of(game: &Game, recording: &[Recorded<'_>]) -> Usage {
         Usage::within(game, recording, TICKS)
     }
 
-    /// The same of at most so many ticks a level, and the episode that goes beyond.
+    /// Like [`Usage::of`], with about `most` ticks a level: the episode that exceeds the limit is the last one
+    /// replayed.
     pub(crate) fn within(game: &Game, recording: &[Recorded<'_>], most: u64) -> Usage {
         let most = most.min(TICKS);
         let numbered: Vec<(usize, &Recorded<'_>)> = recording.iter().enumerate().collect();
@@ -85,7 +86,7 @@ impl Usage {
         let mut usage = Usage::new(game);
         let levels: Vec<Usage> = numbered.par_iter().map(of_level).collect();
         for (line, all) in usage.lines.iter_mut().enumerate() {
-            // The first of every level, then the second: what a rule is for may be seen on one level only.
+            // The first of every level, then the second: the effect of a rule may show on one level only.
             let ranked =
                 (0..USES).flat_map(|rank| levels.iter().filter_map(move |of| of.lines[line].get(rank)));
             all.extend(ranked.copied().take(USES));
@@ -131,20 +132,22 @@ impl Usage {
     }
 }
 
-/// By interaction line, the level and the episode of up to 24 recorded executions, each in an episode of its own: where to look
-/// for what a rule does. Cost: that of the episodes, at most 100,000 ticks a level.
+/// Returns, by interaction line, the level and the episode of up to 24 recorded executions, each in a different
+/// episode: a list of places to look for the effect of a rule. Cost: that of the episodes, at most 100,000 ticks a
+/// level.
 pub fn executions(game: &Game, recording: &[Recorded<'_>]) -> Vec<Vec<[usize; 2]>> {
     let places = |uses: Vec<Use>| uses.iter().map(|at| [at.level, at.episode]).collect();
     Usage::of(game, recording).lines.into_iter().map(places).collect()
 }
 
-/// Ways to try on each level, when some rule was never seen.
+/// Random walks on each level, if some rule was never executed.
 const TRIES: u64 = 400;
-/// Random keys of a way.
+/// Random actions of a walk.
 const KEYS: usize = 40;
 
-/// Looks for executions of interactions that a recording does not show: from some moment of some episode of a level,
-/// random keys are pressed, for at most `most` ticks a level and one way more. Returns, by level, the episodes that show something new; they are episodes like all others.
+/// Looks for executions of interactions that a recording does not show, by random walks from random moments of the
+/// episodes of each level: up to `most` ticks a level, and one walk more. Returns, by level, the episodes that show
+/// something new; they are ordinary episodes.
 pub(crate) fn explore(
     game: &Game,
     recording: &[Recorded<'_>],
@@ -169,7 +172,7 @@ pub(crate) fn explore(
     numbered.par_iter().map(of_level).collect()
 }
 
-/// Marks what a way shows that was not seen; the episode up to the last of it.
+/// Takes a random walk and marks the new interactions that it shows. Returns the episode up to the last of them.
 fn try_way(
     game: &Game,
     recorded: Recorded<'_>,
@@ -187,7 +190,7 @@ fn try_way(
         return None;
     }
     let mut sampler = seed.sampler();
-    // The telling ones come first: every other way starts from the very first.
+    // The most informative episode comes first: every other walk starts from it.
     let among = if sampler.ratio(1, 2) { 1 } else { recorded.episodes.len() };
     let from = &recorded.episodes[sampler.below(among)];
     let start = sampler.below(from.actions.len().max(1));

@@ -3,39 +3,41 @@
 use crate::evidence::Line;
 use engine::{Analysis, EFFECTS, Episode, Level, Meeting, SpriteType, Watch, nearest};
 
-/// Interactions of one game that somebody means: all that fit what was written.
+/// The interactions of one game that match a written name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleRef {
     text: String,
-    /// Indices into the description, with who has to meet whom; none: any of the line's partners.
+    /// Indices into the description, with the pair that has to meet; without one, any of the line's partners.
     meant: Vec<(usize, Option<Pair>)>,
 }
 
-/// Who is acted upon, and by whom; none: the edge of the screen.
+/// The sprite that is acted upon, and its partner; without one, the edge of the screen.
 type Pair = (SpriteType, Option<SpriteType>);
 
-/// What is wrong with the name of a rule.
+/// The problems that the name of a rule can have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` names no interaction of the game: {reason}")]
 pub struct RuleRefError {
-    /// What was written.
+    /// The text that was written.
     pub text: String,
-    /// What is wrong with it, and what was perhaps meant.
+    /// The problem, and perhaps a suggestion.
     pub reason: String,
 }
 
 /// The name of the edge of the screen in interactions.
 const EDGE: &str = "EOS";
-/// Interactions that a message lists at most.
+/// The most interactions that a message lists.
 const LISTED: usize = 4;
 
 impl RuleRef {
-    /// Reads the name of a rule: the number of its line in the InteractionSet, from 1; or the two sprites, as the line writes
-    /// them or of types below those; with the effect, if the two meet in more than one way. `box hole > killSprite` is as
-    /// good. Two sprites that only an interaction in the other order has mean that one.
+    /// Reads the name of a rule: the number of its line in the InteractionSet, from 1; or the two sprites, as the
+    /// line writes them or as types below those; with the effect, if the two meet in more than one way.
+    /// `box hole > killSprite` is equivalent. If only an interaction in the opposite order has the two sprites, the name refers
+    /// to that one.
     ///
     /// # Errors
-    /// The number is too large, or no such interaction, sprite or effect is in the game: with what may have been meant.
+    /// The number is too large, or the game has no such interaction, sprite or effect; the message suggests
+    /// alternatives.
     pub fn parse(analysis: &Analysis, text: &str) -> Result<RuleRef, RuleRefError> {
         let game = analysis.game();
         let wrong = |reason: String| Err(RuleRefError { text: text.to_owned(), reason });
@@ -90,17 +92,17 @@ impl RuleRef {
         Ok(named(meant))
     }
 
-    /// What was written.
+    /// Returns the text that was written.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The lines that are meant: indices into [`Description::interactions`](engine::Description), ascending.
+    /// Returns the matching lines: indices into [`Description::interactions`](engine::Description), ascending.
     pub fn lines(&self) -> impl Iterator<Item = usize> + '_ {
         self.meant.iter().map(|(line, _)| *line)
     }
 
-    /// Whether an episode executes one of them, on sprites of the named types. Cost: that of the episode.
+    /// Returns `true` if an episode executes one of them on sprites of the named types. Cost: that of the episode.
     pub fn is_used(&self, analysis: &Analysis, level: &Level, episode: &Episode) -> bool {
         let game = analysis.game();
         let mut ear = Ear { rule: self, analysis, heard: false };
@@ -112,7 +114,7 @@ impl RuleRef {
     }
 }
 
-/// Listens for a rule.
+/// Watches for a rule.
 struct Ear<'a> {
     rule: &'a RuleRef,
     analysis: &'a Analysis,
@@ -144,7 +146,7 @@ impl Watch for Ear<'_> {
     }
 }
 
-/// The sprites and the effect of a written rule. Without `>`, a third word is the effect.
+/// Splits a written rule into its sprites and its effect. Without `>`, a third word is the effect.
 fn words<'a>(analysis: &Analysis, text: &'a str) -> (Vec<&'a str>, Option<&'a str>) {
     if let Some((sprites, effect)) = text.split_once('>') {
         return (sprites.split_whitespace().collect(), effect.split_whitespace().next());
@@ -168,7 +170,7 @@ fn quoted(words: &[&str]) -> String {
     words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(" and ")
 }
 
-/// The interactions that a sprite does have.
+/// The interactions that a sprite has.
 fn meetings_of(analysis: &Analysis, name: &str) -> String {
     let game = analysis.game();
     let lines = &game.description().interactions;
@@ -212,7 +214,7 @@ mod tests {
         check("crate pit", &[3, 4]);
         check("crate pit killSprite", &[3]);
         check("crate pit > killsprite", &[3]);
-        // In the other order, of a type below the one that is written, and at the edge.
+        // In the opposite order, of a type below the written one, and at the edge.
         check("pit crate", &[3, 4]);
         check("barrel avatar", &[1]);
         check("avatar EOS", &[5]);

@@ -1,4 +1,4 @@
-//! Is every rule, and every sprite type, used?
+//! The `rule-use` criterion: every rule and every sprite type is used.
 
 use crate::evidence::{Evidence, Line};
 use crate::game_report::{GameCase, GameValidator};
@@ -9,10 +9,11 @@ use crate::verdict::{Finding, Verdict};
 use engine::analysis::{Analysis, Reach};
 use engine::{Game, Level, Seed, SpriteType};
 
-/// Every interaction is executed, and a sprite of every type is there, in some recorded episode of the game.
+/// Every interaction is executed, and a sprite of every type is present, in some recorded episode of the game.
 ///
-/// What was not seen and is proved never to happen in any of the levels is a failure; what was not seen, but might be, is
-/// unknown. Rules on the edge of the screen are told but not asked for: they are guards, which walls make idle.
+/// Rules and types that never occurred, and are proved never to occur in any of the levels, are a failure; those that
+/// might occur are unknown. Rules on the edge of the screen are reported but never fail: they are guards, which walls
+/// make idle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RuleUse;
 
@@ -63,24 +64,24 @@ impl GameValidator for RuleUse {
     }
 }
 
-/// What recorded play shows of a game's rules: what [`RuleUse`] asks about, counted.
+/// The rules and types of a game that recorded play shows: the subject of [`RuleUse`], counted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RulesShown {
-    /// Interactions that some episode executes, as indices into [`Description::interactions`](engine::Description); those
-    /// with the edge of the screen left out.
+    /// Interactions that some episode executes, as indices into [`Description::interactions`](engine::Description),
+    /// without those with the edge of the screen.
     pub executed: Vec<usize>,
-    /// Interactions that none does; those with the edge of the screen left out.
+    /// Interactions that none executes, without those with the edge of the screen.
     pub idle: Vec<usize>,
-    /// Types that are declared for sprites of their own, and of which some was there or held.
+    /// Types that are declared for their own sprites, and of which a sprite was present or held.
     pub there: Vec<SpriteType>,
-    /// Types of which none ever was.
+    /// Types of which no sprite was ever present.
     pub absent: Vec<SpriteType>,
 }
 
 impl RulesShown {
-    /// What the episodes of the levels' judges show, and the ways that the panel tries for rules which they do not. The same
-    /// arguments give the same answer on any number of threads. Cost: twice that of the episodes, at most 100,000 ticks a
-    /// level each, and up to 400 ways of 40 random keys on each level.
+    /// Counts the rules and types in the episodes of the levels' validators, and in the panel's random walks for
+    /// missing rules. The same arguments give the same answer on any number of threads. Cost: twice that of the
+    /// episodes, at most 100,000 ticks a level each, and up to 400 walks of 40 random actions on each level.
     pub fn of(game: &Game, levels: &[Level], reports: &[Report], seed: Seed) -> RulesShown {
         let episodes = record(game, levels, reports, seed, u64::MAX);
         let usage = Usage::of(game, &recorded(levels, &episodes));
@@ -91,7 +92,7 @@ impl RulesShown {
     }
 }
 
-/// A reason and how many more there are.
+/// A reason, and the number of further ones.
 pub(crate) fn more(first: &str, others: usize) -> String {
     match others {
         0 => first.to_owned(),
@@ -99,12 +100,12 @@ pub(crate) fn more(first: &str, others: usize) -> String {
     }
 }
 
-/// Types that were never there, of those that the file declares and that can have sprites.
+/// Returns the types that were never present, of those that the file declares and that can have sprites.
 fn unused_types(game: &Game, usage: &Usage) -> Vec<SpriteType> {
     own_types(game).into_iter().filter(|stype| !usage.types[stype.index()]).collect()
 }
 
-/// Types that the file declares and that can have sprites.
+/// Returns the types that the file declares and that can have sprites.
 fn own_types(game: &Game) -> Vec<SpriteType> {
     let lines = game.description().sprite_lines();
     let declared =
@@ -112,11 +113,11 @@ fn own_types(game: &Game) -> Vec<SpriteType> {
     game.sprite_types().filter(|&stype| game.class(stype).is_some() && declared(game.name(stype))).collect()
 }
 
-/// Whether the two sides of an interaction may meet in some level: false only if it is proved that they cannot.
+/// Returns `true` unless it is proved that the two sides of an interaction cannot meet in any level.
 fn meets(analysis: &Analysis, recording: &[Recorded<'_>], reaches: &[Reach], line: usize) -> bool {
     let game = analysis.game();
     let of_line: Vec<_> = analysis.encounters().iter().filter(|encounter| encounter.line == line).collect();
-    // Lines by the clock are no encounters.
+    // Lines that run by the clock are not encounters.
     if of_line.is_empty() {
         return true;
     }

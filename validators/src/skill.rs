@@ -1,4 +1,4 @@
-//! Does it pay to play well?
+//! The `skill` criterion: playing well pays on a level.
 
 use crate::evidence::Evidence;
 use crate::ladder::{Climb, Climbed, Fared, Ladder};
@@ -7,33 +7,33 @@ use agents::Play;
 use engine::Outcome;
 use statistics::{Interval, Z95};
 
-/// Stronger players win more, or score more, than those who do not look ahead: by a margin, and surely (the 95 % interval of
-/// the difference is above 0). One of the ladder must show it, and one that was held out from all search: a level must not
-/// be fitted to the players that found it.
+/// Stronger players win more, or score more, than players that do not look ahead: by a margin, and significantly (the
+/// 95 % interval of the difference is above 0). One player of the ladder and one held-out player must show it: a
+/// level must not be fitted to the players that found it.
 ///
-/// In a deterministic game a witness is a player that always wins, and was held out; so a puzzle that is too deep for every
-/// player of the ladder still shows skill, if those who do not look ahead lose it.
+/// In a deterministic game a witness counts as a player that always wins and was held out; so a puzzle that is too
+/// deep for every player of the ladder still shows skill, if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
 pub struct SkillPays {
-    /// Who plays.
+    /// The players and the limits of their plays.
     pub climb: Climb,
-    /// By how much the win rates must differ.
+    /// The difference that win rates must reach.
     pub wins: f64,
-    /// Or by how much the mean scores must, as a share of the range of all scores.
+    /// Or the difference that mean scores must reach, as a share of the range of all scores.
     pub scores: f64,
-    /// Forward-model calls of one play, after which it is broken off; then a failure is no answer.
+    /// Forward-model calls of one play, after which it is broken off; then a failure becomes unknown.
     pub play_calls: u64,
 }
 
 /// Resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
 
-/// How much better one player is than another.
+/// The advantage of one player over another.
 struct Edge {
     text: String,
-    /// It is large enough, and sure.
+    /// `true` if it is large enough and significant.
     pays: bool,
-    /// It is large enough, but not sure.
+    /// `true` if it is large enough, but not significant.
     unsure: bool,
 }
 
@@ -48,7 +48,7 @@ impl Validator for SkillPays {
         let ladder = self.climb.measure(&climbed);
         let spent = climbed.plays.iter().flatten().map(|play| play.calls).sum();
         let range = range(&climbed);
-        // Of those who do not look ahead, the best one counts.
+        // The baseline is the best of the players that do not look ahead.
         let floor = |&at: &usize| !ladder.rungs[at].looks_ahead;
         let Some(weak) = (0..ladder.rungs.len()).filter(floor).max_by(|&a, &b| better(&ladder, a, b)) else {
             return Verdict::Unknown { spent }.into();
@@ -139,7 +139,7 @@ impl SkillPays {
         Edge { text, pays, unsure: unsure && !pays }
     }
 
-    /// Who knows the way wins every time; how much more is that than the weaker player?
+    /// Compares the witness, which wins every time, with the weaker player.
     fn against_search(&self, weaker: &Fared) -> Edge {
         let (wins, plays) = (weaker.rate.wins, weaker.rate.plays);
         let text = format!("who knows the way wins every time, {} {wins} of {plays}", weaker.player);
@@ -149,7 +149,7 @@ impl SkillPays {
     }
 }
 
-/// Which of two rungs wins more; scores more, if they win alike.
+/// Compares two rungs by wins, then by mean score.
 fn better(ladder: &Ladder, a: usize, b: usize) -> std::cmp::Ordering {
     let (a, b) = (&ladder.rungs[a].rate, &ladder.rungs[b].rate);
     a.wins.cmp(&b.wins).then(a.mean_score.total_cmp(&b.mean_score))

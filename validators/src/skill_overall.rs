@@ -1,4 +1,4 @@
-//! Does it pay to play well, over all levels together?
+//! The `skill-overall` criterion: playing well pays over all levels together.
 
 use crate::evidence::Evidence;
 use crate::game_report::{GameCase, GameValidator};
@@ -7,12 +7,12 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
 
-/// Over all levels together, the strongest player of the ladder wins more often than the best of those who do not look ahead,
-/// and so does the strongest of those held out: by a margin that even the lower end of the 95 % interval of the difference
-/// (Newcombe's) reaches. One level has too few plays to be so sure; five have enough.
+/// Over all levels together, the strongest player of the ladder wins more often than the best player that does not
+/// look ahead, and so does the strongest held-out player: by a margin that even the lower end of the 95 % interval of
+/// the difference (Newcombe's) reaches. One level has too few plays for such a test; five have enough.
 ///
-/// In a deterministic game of which every level has a win, who knows the way is such a player, and held out. Cost: none; the
-/// plays are those of the criterion `skill`.
+/// In a deterministic game whose levels all have a win, a player that knows the solutions counts as such a player,
+/// and as held out. Cost: none; the plays are those of the criterion `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
     /// The margin, as a difference of win rates.
@@ -29,19 +29,19 @@ struct Total {
 }
 
 impl Total {
-    /// What it wins of its plays.
+    /// Returns the share of its plays that it wins.
     fn share(&self) -> f64 {
         self.wins as f64 / self.plays.max(1) as f64
     }
 
-    /// After `times` as many plays again, of which it wins a share.
+    /// Extrapolates by `times` as many further plays, won at the rate `share`.
     fn going_on(&self, times: f64, share: f64) -> Total {
         let plays = (self.plays as f64 * times).round();
         let wins = self.wins + (plays * share).round() as u64;
         Total { wins, plays: self.plays + plays as u64, ..self.clone() }
     }
 
-    /// By how much more it wins, as an interval.
+    /// Returns the interval of the difference to the win rate of `floor`.
     fn above(&self, floor: &Total) -> Interval {
         statistics::difference([self.wins, floor.wins], [self.plays, floor.plays], Z95)
     }
@@ -93,9 +93,10 @@ impl GameValidator for SkillOverall {
 }
 
 impl SkillOverall {
-    /// Whether the first levels of a game, of `levels` in all, leave it no hope: it would miss the margin even if the strong
-    /// went on to win the share at the upper end of the 95 % interval (Wilson's) of what they win on these. `planned` tells of
-    /// a deterministic game of which each of these levels has a win. Of all levels, it is what the criterion finds.
+    /// Returns `true` if the game, judged by the first of its `levels` levels, has no chance to meet the margin: it
+    /// would miss it even if the strong players went on to win at the upper end of the 95 % interval (Wilson's) of
+    /// their win rate on these. `planned` is for a deterministic game in which each of these levels has a win. With
+    /// all levels given, the answer is that of the criterion.
     pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool, levels: usize) -> bool {
         let ahead = levels.saturating_sub(ladders.len()) as f64 / ladders.len().max(1) as f64;
         sides(ladders, planned).is_some_and(|(floor, sides)| {
@@ -106,7 +107,8 @@ impl SkillOverall {
     }
 }
 
-/// The best of those who do not look ahead; the strongest of the ladder, and of those held out. None if there is no such player.
+/// Returns the best player that does not look ahead, and the strongest players of the ladder and of the held-out
+/// ones. None if one is missing.
 fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     let rungs = totals(ladders, |ladder| &ladder.rungs);
     let held_out = totals(ladders, |ladder| &ladder.held_out);
@@ -123,7 +125,7 @@ fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     Some((floor, sides))
 }
 
-/// How each player fared on all levels; all ladders have the same players.
+/// Sums the results of each player over all levels; all ladders have the same players.
 fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<Fared>) -> Vec<Total> {
     let first = ladders.first().map_or(&[][..], |ladder| of(ladder));
     let total = |(at, fared): (usize, &Fared)| {
@@ -138,7 +140,7 @@ fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<Fared>) -> Vec<Total
     first.iter().enumerate().map(total).collect()
 }
 
-/// Who wins the greatest share; of equals, the weaker by name of the ladder.
+/// Returns the player with the greatest share of wins; of equals, the first of the ladder.
 fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
     totals.fold(None, |best: Option<&Total>, total| match best {
         Some(best) if best.share() >= total.share() => Some(best),
@@ -151,7 +153,7 @@ mod tests {
     use crate::{Criteria, Panel};
     use engine::{Game, Seed};
 
-    /// Fetch the gem; where chance comes in, whoever stands still is caught sooner or later.
+    /// Fetch the gem; in the stochastic variant, a player that stands still is caught sooner or later.
     const GAME: &str = "BasicGame
     SpriteSet
         wall > Immovable
@@ -172,7 +174,7 @@ mod tests {
         Timeout limit=12 win=False
 ";
 
-    /// Six steps, and a detour for whoever goes straight.
+    /// Six steps, and a detour for a player that goes straight.
     const FAR: &str = "wwwwwww\nwA   ww\nww w  w\nwr w gw\nwwwwwww\n";
 
     #[track_caller]

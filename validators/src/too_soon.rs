@@ -1,4 +1,4 @@
-//! Levels that cannot be won only because their time is up too soon.
+//! Levels that cannot be won only because their time runs out too soon.
 
 use crate::board::Board;
 use crate::evidence::{Evidence, Line};
@@ -7,8 +7,8 @@ use agents::{PortfolioConfig, Solution, solve};
 use engine::analysis::Condition;
 use engine::{Analysis, Description, Game};
 
-/// Rewrites the failure of a level of which a search proved that it cannot be won, if a search of the game without its losing
-/// Timeouts wins it: they are the cause. Other findings stay as they are. Cost: what the first search has left of its budget.
+/// Rewrites the failure of a level that a search proved unwinnable, if a search without the game's losing Timeouts
+/// finds a win: they are the cause. Other findings are left unchanged. Cost: the rest of the first search's budget.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) {
     let Case { game, level, analysis, seed, .. } = case;
     let Some(spent) = finding.searched.filter(|_| matches!(finding.verdict, Verdict::Fail { .. })) else {
@@ -40,7 +40,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
         rule.text
     );
     finding.verdict = Verdict::Fail { reason: Reason(reason), witness: None };
-    // The board when the time is up, on the way to that win.
+    // The board at the time limit, on the way to that win.
     let mut state = game.start(level, episode.seed);
     let mut until = 0;
     for &action in &episode.actions {
@@ -78,7 +78,7 @@ mod tests {
         assert!(reason.0.starts_with(meant), "{reason:?}");
         let advice = finding.evidence[0].advice.as_deref();
         assert_eq!(advice, Some("raise its `limit=` beyond 6, or make the way shorter"));
-        // With time enough it is a win.
+        // With enough time the same level can be won.
         let game = Game::from_source(&GAME.replace("limit=4", "limit=40")).unwrap();
         let level = game.level(&level.to_string()).unwrap();
         let report = Panel::new(&Criteria::default()).judge(&game, &level, Seed::from_text("soon"));

@@ -1,20 +1,20 @@
-//! What a validator is asked, and what it answers.
+//! The input and the result of a validator.
 
 use crate::evidence::Evidence;
 use crate::ladder::Ladder;
 use engine::{Analysis, Episode, Game, Level, Seed};
 use serde::{Deserialize, Serialize};
 
-/// What is judged, and with which seed.
+/// The subject of a validator, with the seed to use.
 #[derive(Clone, Copy)]
 pub struct Case<'a> {
     /// The game.
     pub game: &'a Game,
     /// The level.
     pub level: &'a Level,
-    /// Where the validator's own chance comes from.
+    /// The source of the validator's own randomness.
     pub seed: Seed,
-    /// What the rules of the game mean.
+    /// The analysis of the rules of the game.
     pub analysis: &'a Analysis,
     /// An episode that wins, if an earlier validator found one.
     pub witness: Option<&'a Episode>,
@@ -29,28 +29,28 @@ pub trait Validator: Sync {
     fn validate(&self, case: Case<'_>) -> Finding;
 }
 
-/// A verdict, and what was seen and measured on the way.
+/// A verdict, with the observations and measurements made on the way.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// The answer.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// How often players won, where players played.
+    /// The win rate of the players, if any played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Rate>,
     /// Forward-model calls of a search, besides those of the plays that were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub searched: Option<u64>,
-    /// Ticks of the shortest win, where it is proved that no fewer win.
+    /// Ticks of the shortest win, if it is proved that no fewer win.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimal: Option<usize>,
-    /// What was seen, in the order of telling.
+    /// The observations, in the order to report them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<Evidence>,
-    /// How a ladder of players fared, where one played.
+    /// The results of a ladder of players, if one was played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// Episodes that were played: what shows which rules are used.
+    /// The episodes played: they show which rules are used.
     #[serde(skip)]
     pub episodes: Vec<Episode>,
 }
@@ -70,27 +70,27 @@ impl From<Verdict> for Finding {
 }
 
 impl Finding {
-    /// Forward-model calls of all that it took: plays that were measured, searches, and the players of a ladder.
+    /// Returns all forward-model calls: of measured plays, of searches, and of the players of a ladder.
     pub fn calls(&self) -> u64 {
         let ladder = self.ladder.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out));
         let ladder: u64 = ladder.map(|fared| fared.rate.calls).sum();
         self.searched.unwrap_or(0) + self.measured.as_ref().map_or(0, |rate| rate.calls) + ladder
     }
 
-    /// With a rate.
+    /// Adds a win rate.
     #[must_use]
     pub fn measured(self, rate: Rate) -> Finding {
         Finding { measured: Some(rate), ..self }
     }
 
-    /// With evidence.
+    /// Adds evidence.
     #[must_use]
     pub fn seen(mut self, evidence: impl IntoIterator<Item = Evidence>) -> Finding {
         self.evidence.extend(evidence);
         self
     }
 
-    /// With episodes.
+    /// Adds episodes.
     #[must_use]
     pub fn played(mut self, episodes: impl IntoIterator<Item = Episode>) -> Finding {
         self.episodes.extend(episodes);
@@ -98,7 +98,7 @@ impl Finding {
     }
 }
 
-/// The answer.
+/// The answer of a validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "verdict", rename_all = "lowercase")]
 pub enum Verdict {
@@ -110,7 +110,7 @@ pub enum Verdict {
     },
     /// No.
     Fail {
-        /// Why.
+        /// The reason.
         reason: Reason,
         /// An episode that shows it, if one episode can.
         #[serde(skip)]
@@ -124,33 +124,33 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// A pass that nothing needs to show.
+    /// A pass without a witness.
     pub fn pass() -> Verdict {
         Verdict::Pass { witness: None }
     }
 
-    /// A failure for a reason in words.
+    /// A failure with a reason.
     pub fn fail(reason: impl Into<String>) -> Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: None }
     }
 
-    /// A failure that an episode shows.
+    /// A failure with an episode that shows it.
     pub fn fail_with(reason: impl Into<String>, witness: Episode) -> Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: Some(witness) }
     }
 
-    /// Whether the answer is yes.
+    /// Returns `true` if the verdict is a pass.
     pub fn is_pass(&self) -> bool {
         matches!(self, Verdict::Pass { .. })
     }
 }
 
-/// Why not, in words that a designer can act on.
+/// The reason of a failure, in words that a designer can act on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Reason(pub String);
 
-/// How often players won, and how they scored.
+/// The win rate of some plays, with their scores.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// Episodes won.
@@ -166,7 +166,7 @@ pub struct Rate {
 }
 
 impl Rate {
-    /// The rate of some plays.
+    /// Computes the rate of some plays.
     pub fn of<'a>(plays: impl IntoIterator<Item = &'a agents::Play>) -> Rate {
         let plays: Vec<&agents::Play> = plays.into_iter().collect();
         let wins = plays.iter().filter(|play| play.episode.outcome == engine::Outcome::Won).count() as u64;

@@ -1,13 +1,13 @@
-//! Is there a game at all?
+//! The `well-formed` criterion: the game works at all.
 
 use crate::ending::Ending;
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Case, Finding, Validator, Verdict};
 use engine::{Action, Episode, Game, Limit, Outcome, SpriteClass};
 
-/// The game can be won in principle, is not over in its first tick, and does nothing that the engine stops at.
+/// The game can be won in principle, is not over in its first tick, and does nothing that makes the engine stop.
 ///
-/// That the text is VGDL and the level fits it is what `Game` and `Level` already say by existing.
+/// The types `Game` and `Level` already guarantee that the text is VGDL and that the level fits it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WellFormed;
 
@@ -19,7 +19,7 @@ impl Validator for WellFormed {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Case { game, level, analysis, seed, .. } = case;
         if !analysis.can_win() {
-            // Of swapped rules only the one because of which there is no win.
+            // Of the swapped rules, report only the one that prevents every win.
             let told = game.warnings().iter().find(|warning| {
                 warning.code == "no-win"
                     || warning.code == "swapped-rule" && warning.message.contains("cannot be won")
@@ -54,7 +54,7 @@ impl Validator for WellFormed {
     }
 }
 
-/// The line of the first sprite that looks for paths.
+/// The line of the first sprite that uses path finding.
 fn path_seeker(game: &Game) -> Option<Line> {
     let seeks = |class: SpriteClass| {
         [SpriteClass::PathChaser, SpriteClass::PathAltChaser].iter().any(|&seeker| class.is_a(seeker))

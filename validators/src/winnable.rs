@@ -1,4 +1,4 @@
-//! Can it be won?
+//! The `winnable` criterion: a search finds a win.
 
 use crate::board::Board;
 use crate::evidence::{Evidence, Line};
@@ -7,10 +7,10 @@ use agents::{PortfolioConfig, Solution, solve};
 use engine::Action;
 use engine::analysis::Condition;
 
-/// The portfolio ([`agents::solve`]) looks for a win, which is the witness. Where chance decides nothing it may also prove
-/// that there is none, and that the win found is the shortest.
+/// The portfolio ([`agents::solve`]) looks for a win, which is the witness. In a deterministic game it may also prove
+/// that there is none, or that the win found is the shortest.
 ///
-/// No win within the budget is `Unknown`, never `Fail`: a search that was broken off proves nothing.
+/// No win within the budget is `Unknown`, never `Fail`: an interrupted search proves nothing.
 #[derive(Clone, Debug)]
 pub struct Winnable(pub PortfolioConfig);
 
@@ -44,10 +44,10 @@ impl Validator for Winnable {
     }
 }
 
-/// Names of types that are told at most.
+/// The most types to name.
 const MAX_NAMED: usize = 3;
 
-/// How near to a win any play can come.
+/// Describes the state closest to a win that any play can reach.
 fn nearest_to_a_win(
     Case { game, level, analysis, seed, .. }: Case<'_>,
     actions: &[Action],

@@ -1,8 +1,8 @@
-//! `cargo xtask bench`: how fast is the engine, game by game, and against the reference?
+//! `cargo xtask bench`: measures the speed of the engine, game by game, and compares it with the reference.
 //!
-//! The rules are those of the reference's own figures: level 0, actions drawn uniformly from those of the avatar, NIL left
-//! out; episodes start from copies made off the clock; on the clock are whole steps with the hash of the state after each.
-//! Time is that of the processor, in the one thread that steps.
+//! The method is that of the reference's own figures: level 0, actions drawn uniformly from those of the avatar, NIL
+//! left out. Episodes start from copies made outside the measurement; whole steps are measured, including the hash of
+//! the state after each. Time is CPU time of the stepping thread.
 
 use crate::course::{Course, Subject, first_digest, subjects};
 use crate::instructions;
@@ -38,7 +38,7 @@ pub(crate) struct Args {
     /// Also forward-model calls per second of MCTS
     #[arg(long)]
     mcts: bool,
-    /// Also how many times as fast two threads step a batch as one does: a tick at a time, and 32 ticks at a time
+    /// Also the speedup of two threads over one at stepping a batch: one tick at a time, and 32 ticks at a time
     #[arg(long)]
     batch: bool,
     /// Also instructions per tick, if valgrind is installed
@@ -47,7 +47,7 @@ pub(crate) struct Args {
     /// Write the table to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Play so many ticks and print the digest of the visited states, nothing else
+    /// Play this number of ticks and print the digest of the visited states, nothing else
     #[arg(long, value_name = "TICKS")]
     ticks: Option<u64>,
 }
@@ -105,7 +105,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Ticks per second, warm.
+/// Measures the ticks per second, after a warm-up.
 fn speed(subject: &Subject, seconds: f64) -> f64 {
     let mut course = Course::new(subject);
     while course.time.as_secs_f64() < seconds / 5.0 {
@@ -126,7 +126,7 @@ fn summarise(kind: &str, mut ratios: Vec<f64>) {
     }
 }
 
-/// The reference's ticks per second by game.
+/// The reference's ticks per second, by game.
 fn figures(path: &Path) -> anyhow::Result<Vec<(String, f64)>> {
     let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let row = |line: &str| {
@@ -136,7 +136,7 @@ fn figures(path: &Path) -> anyhow::Result<Vec<(String, f64)>> {
     Ok(text.lines().skip(1).filter_map(row).collect())
 }
 
-/// Seconds of a warm `clone_from`.
+/// Measures the seconds of a warm `clone_from`.
 fn clone_time(start: &State) -> f64 {
     let mut copy = start.clone();
     let mut best = f64::INFINITY;
@@ -152,7 +152,7 @@ fn clone_time(start: &State) -> f64 {
     best
 }
 
-/// Forward-model calls per second of MCTS deciding along an episode, its copies included.
+/// Measures the forward-model calls per second of MCTS deciding along an episode, copies included.
 fn mcts_calls(subject: &Subject) -> f64 {
     let mut planner = Mcts::new(MctsConfig::default(), Seed::from_text("bench"));
     let mut state = subject.start.clone();
@@ -175,8 +175,8 @@ pub(crate) fn now() -> Instant {
     Instant::now()
 }
 
-/// How many times as fast as one thread two are, at stepping a batch so many ticks at a time: the best of three each, which take
-/// turns.
+/// The speedup of two threads over one at stepping a batch by `ticks` at a time: the best of three runs each, in
+/// alternation.
 fn speedup(subject: &Subject, ticks: usize) -> f64 {
     let pools = [1, 2].map(|threads| {
         ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
@@ -190,7 +190,7 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
     best[1] / best[0]
 }
 
-/// Ticks per second on the clock on the wall, new episodes included.
+/// The ticks per second of wall-clock time, including new episodes.
 fn batch_speed(subject: &Subject, ticks: usize) -> f64 {
     const LANES: usize = 1024;
     let seed = Seed::from_text(&subject.name);

@@ -1,4 +1,4 @@
-//! Random episodes of a game, one after the other: what is timed, and what is counted.
+//! Random episodes of a game, one after the other, for measurements of time and instructions.
 
 use anyhow::{Context, bail};
 use cpu_time::ThreadTime;
@@ -7,12 +7,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Ticks of an episode at most, as in the reference's figures.
+/// The maximum number of ticks of an episode, as in the reference's figures.
 const EPISODE: usize = 2001;
-/// Episodes that are prepared at once, off the clock.
+/// The number of episodes that are prepared together, outside the measurement.
 const BATCH: usize = 16;
 
-/// Random numbers that are drawn beforehand.
+/// The number of random numbers drawn in advance.
 const DRAWS: usize = 1 << 16;
 
 /// A game at the start of its level 0, loaded as the reference loads it.
@@ -22,7 +22,7 @@ pub(crate) struct Subject {
     pub(crate) start: State,
 }
 
-/// The games in the folders of a folder, by name; all of them if `only` names none.
+/// The games in the subfolders of a folder, by name; all of them if `only` is empty.
 pub(crate) fn subjects(games: &Path, only: &[String]) -> anyhow::Result<Vec<Subject>> {
     let mut folders: Vec<PathBuf> = fs::read_dir(games)
         .with_context(|| games.display().to_string())?
@@ -59,9 +59,9 @@ pub(crate) struct Course<'a> {
     states: Vec<State>,
     draws: Vec<u32>,
     pub(crate) ticks: u64,
-    /// Of the processor, on stepping.
+    /// The CPU time of stepping.
     pub(crate) time: Duration,
-    /// Of the hash of every visited state, in order.
+    /// The digest of the hashes of all visited states, in order.
     pub(crate) digest: u128,
 }
 
@@ -73,7 +73,8 @@ impl<'a> Course<'a> {
         Course { subject, episodes: 0, states, draws, ticks: 0, time: Duration::ZERO, digest }
     }
 
-    /// Lets the buffers of the states grow to what `ticks` of the first episodes need, off the clock.
+    /// Lets the buffers of the states grow to the size that `ticks` of the first episodes need, outside the
+    /// measurement.
     pub(crate) fn warm_up(&mut self, ticks: u64) {
         self.prepare();
         self.play(ticks);
@@ -87,7 +88,7 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// Plays [`BATCH`] episodes, or fewer if `ticks` are reached before.
+    /// Plays [`BATCH`] episodes, or fewer if `ticks` are reached earlier.
     pub(crate) fn batch(&mut self, ticks: u64) {
         self.prepare();
         let clock = ThreadTime::now();
@@ -95,7 +96,7 @@ impl<'a> Course<'a> {
         self.time += clock.elapsed();
     }
 
-    /// All that is on the clock, and, by its name, all of which instructions are counted.
+    /// The measured part. Instruction counting selects it by the function's name.
     #[inline(never)]
     fn play_on_the_clock(&mut self, ticks: u64) {
         self.play(ticks);
@@ -126,7 +127,7 @@ fn chain(digest: u128, hash: u128) -> u128 {
     (digest.rotate_left(5) ^ hash).wrapping_mul(0x2360_ED05_1FC6_5DA4_4385_DF64_9FCC_F645)
 }
 
-/// The digest of the states of the first batch. It must be what stepping with hashes from scratch gives.
+/// The digest of the states of the first batch. It must equal the one of stepping with hashes from scratch.
 pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
     const TICKS: u64 = 300;
     let mut course = Course::new(subject);

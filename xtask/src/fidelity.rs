@@ -1,8 +1,8 @@
-//! `cargo xtask fidelity`: do our planners play like the reference's own?
+//! `cargo xtask fidelity`: tests whether our planners play like the reference's own.
 //!
-//! The reference's episodes are recorded, one a row: game, level, agent, run, calls of a decision, outcome, ticks, score.
-//! Ours are played on the same cells, with the same budgets and the same limit of ticks (`spec/04` §10.2). Nothing is
-//! fitted: what differs is a difference of rules, to be found there.
+//! The reference's episodes are recorded, one per row: game, level, agent, run, calls per decision, outcome, ticks,
+//! score. Ours are played in the same cells, with the same budgets and the same limit of ticks (`spec/04` §10.2).
+//! Nothing is fitted: a deviation means a difference in the rules, which must be found.
 
 use crate::levels::load;
 use agents::{Budget, Limits, PlannerSpec, Play, play};
@@ -13,10 +13,11 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Plays our MCTS, OLETS and RHEA where the reference's were recorded, and compares wins, scores and ticks.
+/// Plays our MCTS, OLETS and RHEA in the cells where the reference's were recorded, and compares wins, scores and
+/// ticks.
 ///
-/// Exit status 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5 %), the win rates differ by
-/// more than 10 points in the mean, or a mean score in aliens or boulderdash by more than 20 %.
+/// Exit status 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5 %), the win rates differ
+/// by more than 10 points on average, or a mean score in aliens or boulderdash differs by more than 20 %.
 ///
 /// Example: cargo xtask fidelity --games gvgai/games --recorded agents-1000.csv
 #[derive(clap::Args)]
@@ -27,16 +28,16 @@ pub(crate) struct Args {
     /// The reference's episodes: a CSV
     #[arg(long, value_name = "FILE")]
     recorded: PathBuf,
-    /// Published win rates, to be shown beside: a CSV with the columns agent, setting and the games
+    /// Published win rates to show for comparison: a CSV with the columns agent, setting and the games
     #[arg(long, value_name = "FILE")]
     paper: Option<PathBuf>,
     /// Episodes of each planner on each level
     #[arg(long, value_name = "N", default_value_t = 5)]
     runs: u64,
-    /// Ticks of an episode at most
+    /// Maximum ticks of an episode
     #[arg(long, value_name = "N", default_value_t = 1000)]
     ticks: usize,
-    /// Text that all seeds come from
+    /// Text that all seeds are derived from
     #[arg(long, value_name = "TEXT", default_value = "fidelity")]
     seed: String,
     /// Only these games
@@ -50,22 +51,22 @@ pub(crate) struct Args {
     jobs: usize,
 }
 
-/// Whom of ours a recorded agent is compared with.
+/// The planner of ours that each recorded agent is compared with.
 const PAIRS: [(&str, &str); 3] = [("sampleMCTS", "mcts"), ("olets", "olets"), ("sampleRHEA", "rhea")];
-/// The bars.
+/// The thresholds.
 const FALSE_DISCOVERIES: f64 = 0.05;
 const MEAN_DIFFERENCE: f64 = 0.10;
 const SCORE_DIFFERENCE: f64 = 0.20;
 const SCORED_GAMES: [&str; 2] = ["aliens", "boulderdash"];
 
-/// What is compared of an episode.
+/// The figures of an episode that are compared.
 #[derive(Clone, Copy)]
 struct Result {
     level: usize,
     won: bool,
     ticks: f64,
     score: f64,
-    /// Of a decision, in the mean: by how much a search overshoots its budget tells how deep it looks.
+    /// The mean number of calls per decision. The overshoot of a search over its budget shows how deep it looks.
     calls: f64,
 }
 
@@ -123,7 +124,7 @@ fn play_cell(args: &Args, cell: &Cell, game: &Game, levels: &[Level]) -> anyhow:
     Ok(results.collect())
 }
 
-/// The table and the bars; whether all hold.
+/// Prints the table and the thresholds, and returns `true` if all are met.
 fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     println!(
         "{:<12} {:<7} {:>9} {:>9} {:>6} {:>6} {:>6}  {:>15}  {:>13}  {:>15}  wins by level",
@@ -203,7 +204,7 @@ struct Line {
     score: f64,
 }
 
-/// The recorded episodes, by game and agent in the order of the file.
+/// The recorded episodes by game and agent, in the order of the file.
 fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     let mut cells: Vec<Cell> = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize() {
@@ -220,7 +221,7 @@ fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     Ok(cells)
 }
 
-/// The published win rates of searching agents: agent, game, per cent.
+/// The published win rates of search agents: agent, game, per cent.
 fn published(path: &Path) -> anyhow::Result<Vec<(String, String, f64)>> {
     let mut rates = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize::<BTreeMap<String, String>>() {

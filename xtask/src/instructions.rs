@@ -1,5 +1,5 @@
-//! `cargo xtask instructions`: has a step become slower? Instructions are counted, not time: the counts are the same on a
-//! busy machine, so that a change of a few per cent can be told.
+//! `cargo xtask instructions`: tests whether a step has become slower. It counts instructions instead of time: the
+//! counts are the same on a busy machine, so a change of a few per cent is visible.
 
 use crate::course::subjects;
 use anyhow::{Context, bail};
@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-/// Counts the instructions of a tick, of games of a folder, and compares them with a file.
+/// Counts the instructions per tick for the games of a folder, and compares them with a file.
 ///
-/// Needs valgrind; without it, or with another compiler than the expected counts are of, says so and passes: another
-/// compiler makes other instructions. After an update of the toolchain, write the file anew with --bless.
+/// Needs valgrind; without it, or if the expected counts are for another compiler, reports that and passes: another
+/// compiler emits other instructions. After an update of the toolchain, rewrite the file with --bless.
 ///
 /// Example: cargo xtask instructions
 #[derive(clap::Args)]
@@ -20,10 +20,10 @@ pub(crate) struct Args {
     /// Folder of game folders
     #[arg(long, value_name = "DIR", default_value = "corpora")]
     games: PathBuf,
-    /// What is expected: a CSV with the columns game and instructions_per_tick
+    /// The expected counts: a CSV with the columns game and instructions_per_tick
     #[arg(long, value_name = "FILE", default_value = "xtask/instructions.csv")]
     expected: PathBuf,
-    /// How much more a tick may cost than expected, in per cent
+    /// Tolerated increase of the cost of a tick, in per cent
     #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
     tolerance: f64,
     /// Write the file instead
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     bless: bool,
 }
 
-/// Ticks that are counted.
+/// The number of ticks that are counted.
 const TICKS: u64 = 2000;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -81,7 +81,7 @@ fn compiler() -> anyhow::Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// Instructions of a warm tick of a game's level 0, the hash included; None without valgrind.
+/// The instructions of a warm tick of a game's level 0, including the hash; `None` without valgrind.
 pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"])

@@ -1,4 +1,4 @@
-//! `cargo xtask solve`: which levels of a folder of games does the portfolio win?
+//! `cargo xtask solve`: determines which levels of a folder of games the portfolio wins.
 
 use crate::bench::now;
 use crate::levels::load;
@@ -12,8 +12,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-/// Looks for a win of every level of every game, with the portfolio of planners, and lists what it finds: won (every win is
-/// replayed), impossible (proved), unknown, or without a win that can be reached by the rules.
+/// Searches for a win of every level of every game, with the portfolio of planners, and lists the results: won (every
+/// win is replayed), impossible (proved), unknown, or without a win that the rules allow to reach.
 ///
 /// Example: cargo xtask solve --games gvgai/games --csv solved.csv
 #[derive(clap::Args)]
@@ -24,25 +24,25 @@ pub(crate) struct Args {
     /// Forward-model calls for a level
     #[arg(long, value_name = "CALLS", default_value_t = PortfolioConfig::default().budget)]
     budget: u64,
-    /// The share of them for the shortest win, where chance decides nothing
+    /// Share of them for the shortest win, in deterministic games
     #[arg(long, value_name = "SHARE", default_value_t = PortfolioConfig::default().shortest)]
     shortest: f64,
     /// Bytes that a systematic search may use
     #[arg(long, value_name = "BYTES", default_value_t = PortfolioConfig::default().bytes)]
     bytes: usize,
-    /// Text that all seeds come from
+    /// Text that all seeds are derived from
     #[arg(long, value_name = "TEXT", default_value = "solve")]
     seed: String,
     /// Only these games
     #[arg(long, value_name = "NAME")]
     game: Vec<String>,
-    /// Games of continuous space too
+    /// Include games of continuous space
     #[arg(long)]
     continuous: bool,
     /// Threads; all cores if not given. Changes no result
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
-    /// One line a level: game, level, found, ticks, whether proved shortest, calls, seconds
+    /// One line per level: game, level, found, ticks, whether proved shortest, calls, seconds
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 }
@@ -54,7 +54,7 @@ struct Entry<'a> {
     analysis: &'a Analysis,
 }
 
-/// What came of a level.
+/// The result for a level.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Found {
     Won,

@@ -5,12 +5,12 @@ use super::{Answer, Pushes, SearchLimits, Searched};
 use engine::State;
 use engine::analysis::Analysis;
 
-/// Looks at states in the order of the ticks that a win through them takes at least: those that it takes to reach them,
-/// and the [`Pushes`] that they need (Hart, Nilsson and Raphael 1968). Where nothing is pushed this is breadth-first search.
+/// Expands states in the order of the least number of ticks of a win through them: the ticks to reach them, plus the
+/// [`Pushes`] that they need (Hart, Nilsson and Raphael 1968). If nothing is pushed this is breadth-first search.
 ///
-/// `start` is a state from which on chance decides nothing ([`Analysis::is_deterministic_from`]); from another one, the
-/// answer is [`Answer::OutOfCalls`] at no cost, because nothing could be proved. Cost: at most the number of states times
-/// that of an action each, in calls; O(size of a state) for each call.
+/// `start` is a state from which play is deterministic ([`Analysis::is_deterministic_from`]); from any other state,
+/// the answer is [`Answer::OutOfCalls`] at no cost, because nothing could be proved. Cost: at most the number of
+/// states times the number of actions, in calls; O(size of a state) for each call.
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     let mut tree = Tree::new(analysis, pushes, start, limits);
     if start.is_over() || !analysis.is_deterministic_from(start) {
@@ -22,8 +22,8 @@ pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: Searc
     }
     while let Some((node, kept)) = queue.pop() {
         let expanded = tree.expand(node, &kept, &mut |tree, id, _, least, kept| {
-            // Every push is a tick, every tick one push at most, and one tick is needed at least: the estimate never falls
-            // by more than the tick that passes, so each state is expanded when its shortest way is known.
+            // Every push takes a tick, every tick has at most one push, and at least one tick is needed: the estimate
+            // never falls by more than the tick that passes, so each state is expanded with its shortest way known.
             queue.push(tree.depth(id) + least.max(1), (id, kept));
         });
         match expanded {
@@ -36,7 +36,7 @@ pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: Searc
     tree.answer(Answer::Impossible)
 }
 
-/// Open states by their estimate, a small number of ticks; of those with the same one, the last one first.
+/// Open states by their estimate, a small number of ticks; of equals, the last one first.
 #[derive(Default)]
 struct Buckets {
     buckets: Vec<Vec<(NodeId, Kept)>>,

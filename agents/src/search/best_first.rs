@@ -1,4 +1,4 @@
-//! Best-first width search: a win soon, not the shortest one.
+//! Best-first width search: finds some win soon, not the shortest one.
 
 use super::tree::{Expanded, Kept, NodeId, ROOT, Tree};
 use super::{Answer, Pushes, SearchLimits, Searched};
@@ -8,12 +8,12 @@ use engine::State;
 use engine::analysis::Analysis;
 use std::collections::{BTreeMap, BinaryHeap};
 
-/// Looks first at states with something new in them: a sprite where none of its type was yet, more of a resource, among
-/// states equally far from the goal. (Lipovetzky and Geffner 2017, "Best-first width search: exploration and exploitation
-/// in classical planning"; the goal counter is how many sprites must go or come, and the score.) Ties go to states nearer
-/// the goal, then to those that need fewer [`Pushes`].
+/// Prefers novel states among states equally far from the goal: those with a sprite where none of its type was yet,
+/// or more of a resource. (Lipovetzky and Geffner 2017, "Best-first width search: exploration and exploitation in
+/// classical planning"; the goal counter is the number of sprites that must go or come, and the score.) Ties go to
+/// states nearer the goal, then to those that need fewer [`Pushes`].
 ///
-/// Unlike the paper's, nothing is pruned that is merely not new, so that the search is complete: without a win it proves
+/// Unlike in the paper, states that are not novel are not pruned, so the search is complete: without a win it proves
 /// that there is none. Conditions and costs are those of [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     let mut tree = Tree::new(analysis, pushes, start, limits);
@@ -47,7 +47,7 @@ pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: S
 struct Queue<'a> {
     progress: Progress<'a>,
     features: Features,
-    /// The atoms seen, by how far from the goal and with what score.
+    /// The atoms seen, by distance from the goal and score.
     seen: BTreeMap<(u32, i64), Atoms>,
     open: BinaryHeap<Open>,
 }
@@ -92,7 +92,7 @@ impl PartialOrd for Open {
 }
 
 impl Ord for Open {
-    /// The heap gives the greatest first.
+    /// The heap returns the greatest first.
     fn cmp(&self, other: &Open) -> std::cmp::Ordering {
         other.rank().cmp(&self.rank())
     }

@@ -1,9 +1,9 @@
-//! Systematic search, for games in which chance decides nothing from here on: it proves a level winnable in so many ticks,
-//! or not at all.
+//! Systematic search, for states from which play is deterministic: it proves that a level can be won in some number
+//! of ticks, or not at all.
 //!
-//! States are told apart by [`engine::analysis::Keying`], kept as they differ from the start ([`engine::Packed`]), and
-//! counted in forward-model calls. A search stops at the first win, when every state that can be reached has been looked
-//! at, or when its limits are met: only the second proves that there is no win.
+//! States are told apart by [`engine::analysis::Keying`], stored as differences from the start ([`engine::Packed`]),
+//! and counted in forward-model calls. A search stops at the first win, after all reachable states, or at its limits:
+//! only the second case proves that there is no win.
 
 mod a_star;
 mod best_first;
@@ -17,7 +17,7 @@ pub use pushes::Pushes;
 use engine::Action;
 use serde::{Deserialize, Serialize};
 
-/// What a search may cost.
+/// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SearchLimits {
     /// Forward-model calls.
@@ -27,22 +27,23 @@ pub struct SearchLimits {
 }
 
 impl SearchLimits {
-    /// So many calls, and a gibibyte.
+    /// Limits of `calls` calls and one gibibyte.
     pub fn calls(calls: u64) -> SearchLimits {
         SearchLimits { calls, bytes: 1 << 30 }
     }
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Searched {
     /// The answer.
     pub answer: Answer,
     /// Forward-model calls that it cost.
     pub calls: u64,
-    /// Different states that were met.
+    /// The number of distinct states found.
     pub states: u64,
-    /// The actions that lead to the first of the states from which the fewest sprites must still go or come for a win.
+    /// The actions that lead to the first of the states from which the fewest sprites must still go or come for a
+    /// win.
     pub nearest: Vec<Action>,
 }
 
@@ -51,12 +52,12 @@ pub struct Searched {
 pub enum Answer {
     /// These actions win.
     Won {
-        /// From the state on that the search started from.
+        /// The actions from the initial state of the search.
         actions: Vec<Action>,
-        /// Whether no fewer actions win.
+        /// `true` if no fewer actions win.
         shortest: bool,
     },
-    /// There is no win: every state that can be reached was looked at.
+    /// There is no win: all reachable states were searched.
     Impossible,
     /// Not known: the calls were spent.
     OutOfCalls,

@@ -1,43 +1,44 @@
-//! How many pushes a state needs at least before it can be won; none will do for a box in a corner.
+//! A lower bound on the pushes that a state needs before it can be won; a box in a corner can never be pushed home.
 
 use engine::analysis::{Analysis, Condition, Deed, Encounter, Motion, Provided, Reach, Side};
 use engine::{Level, Seed, SpriteType, State};
 use smallvec::SmallVec;
 
-/// The pushes that pushed things need, in one level.
+/// The pushes that pushable sprites need, in one level.
 ///
-/// For every type that moves only by being pushed, and every cell, the least number of pushes is found after which a rule
-/// may end the sprite, or turn it into something that need not go: the distances and the "simple deadlocks" of Sokoban
-/// solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing general single-agent search methods using domain
-/// knowledge"), derived from the rules. Each sprite is taken as if it were alone on the board and everything else as helpful
-/// as [`Reach`] allows, so no state needs fewer pushes than are counted, and what is called dead is dead.
+/// For every type that moves only by being pushed, and every cell, this is the least number of pushes after which a
+/// rule may remove the sprite, or turn it into something that need not go: the distances and the "simple deadlocks"
+/// of Sokoban solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing general single-agent search methods using
+/// domain knowledge"), derived from the rules. Each sprite is treated as if it were alone on the board, and
+/// everything else as helpful as [`Reach`] allows, so no state needs fewer pushes than the bound, and a state called
+/// dead is dead.
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,
-    /// By goal that wins: none if something else than pushes can decide it.
+    /// The needs of each winning goal; none if anything but pushes can decide it.
     needs: Vec<Need>,
 }
 
 /// A goal that needs sprites to go.
 #[derive(Clone, Debug)]
 struct Need {
-    /// How many may be left.
+    /// The number of sprites that may be left.
     limit: usize,
     /// The types that count, each with the pushes that it needs, by cell.
     pushes: Vec<(SpriteType, Vec<u16>)>,
 }
 
-/// No number of pushes helps.
+/// No number of pushes suffices.
 const NEVER: u16 = u16::MAX;
 
 impl Pushes {
-    /// Finds them. Cost: that of [`Analysis::reach`], and O(types × interactions × cells).
+    /// Computes the bounds. Cost: that of [`Analysis::reach`], and O(types × interactions × cells).
     pub fn of(analysis: &Analysis, level: &Level) -> Pushes {
         find(analysis, level).unwrap_or_default()
     }
 
-    /// How many pushes a state of that level needs at least, and thereby ticks; 0 if nothing is known. None: it cannot be
-    /// won any more. Cost: O(sprites that must go).
+    /// Returns the least number of pushes, and hence of ticks, that a state of that level needs; 0 if nothing is
+    /// known. None: it can no longer be won. Cost: O(sprites that must go).
     pub fn least(&self, state: &State) -> Option<u32> {
         if self.needs.is_empty() {
             return Some(0);
@@ -52,13 +53,13 @@ impl Need {
         let mut needed: SmallVec<[u16; 32]> = SmallVec::new();
         for (stype, pushes) in &self.pushes {
             for rect in state.rects(*stype) {
-                // Between cells nothing is known.
+                // For a sprite between cells nothing is known.
                 let is_aligned = rect.x % block == 0 && rect.y % block == 0;
                 let cell = (rect.y / block).wrapping_mul(columns).wrapping_add(rect.x / block);
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
             }
         }
-        // Those that need most may be the ones that are left.
+        // The sprites that need most may be the ones that are left.
         if self.limit > 0 {
             needed.sort_unstable();
             needed.truncate(needed.len().saturating_sub(self.limit));
@@ -68,7 +69,7 @@ impl Need {
     }
 }
 
-/// None: what the rules are cannot be followed, so nothing is certain.
+/// Computes the bounds; none if the rules cannot be modelled, so that nothing is certain.
 fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     let game = analysis.game();
     if analysis.pushables().is_empty() || analysis.has_clockwork() || !steps_are_whole(analysis) {
@@ -102,7 +103,7 @@ fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     Some(Pushes { columns: level.columns() as i32, needs: needs? })
 }
 
-/// Whether all avatars go by whole cells, face where they go, and are moved by nothing else.
+/// Returns `true` if all avatars move by whole cells, face the way they go, and are moved by nothing else.
 fn steps_are_whole(analysis: &Analysis) -> bool {
     let displaces = |deed: &Deed| {
         matches!(deed, Deed::Turn | Deed::Push | Deed::Carry | Deed::Teleport | Deed::Wrap | Deed::Speed(_))
@@ -119,14 +120,14 @@ struct Board<'a> {
     analysis: &'a Analysis,
     level: &'a Level,
     reach: &'a Reach,
-    /// The types that are where the level places them, always.
+    /// The types that always stay where the level places them.
     still: Vec<SpriteType>,
     columns: usize,
     rows: usize,
 }
 
 impl Board<'_> {
-    /// The rules that a sprite of the type takes part in, with its side and the rule's place in the tick.
+    /// Returns the rules that a sprite of the type takes part in, with its side and the rule's place in the tick.
     fn rules_of(&self, stype: SpriteType) -> impl Iterator<Item = (usize, Side, &Encounter)> {
         let analysis = self.analysis;
         analysis.encounters().iter().enumerate().flat_map(move |(at, encounter)| {
@@ -136,8 +137,8 @@ impl Board<'_> {
         })
     }
 
-    /// The place in the tick of the first rule by which something that always lies in the cell throws a sprite of the
-    /// type back: none if it may be pushed there later in the tick.
+    /// Returns the place in the tick of the first rule by which a fixed sprite of the cell undoes the movement of a
+    /// sprite of the type: none if the sprite may be pushed there later in the tick.
     fn thrown_back(&self, stype: SpriteType, cell: usize) -> Option<usize> {
         let here = self.analysis.game().places(self.level.cells()[cell]);
         let throws = |side: Side, rule: &Encounter| {
@@ -165,7 +166,7 @@ impl Board<'_> {
         back.filter(|&back| last_push.is_none_or(|push| push < back))
     }
 
-    /// Whether nothing but pushes moves sprites of the type.
+    /// Returns `true` if only pushes move sprites of the type.
     fn only_pushed(&self, stype: SpriteType) -> bool {
         let moves = |deed: &Deed| matches!(deed, Deed::Carry | Deed::Teleport | Deed::Wrap | Deed::Speed(_));
         self.analysis.facts(stype).motion == Motion::Still
@@ -174,7 +175,7 @@ impl Board<'_> {
             && !self.rules_of(stype).any(|(_, side, rule)| side == Side::First && rule.does(moves))
     }
 
-    /// Whether it may be pushed by something else than an avatar, which could stand anywhere.
+    /// Returns `true` if it may be pushed by anything but an avatar: the pusher could stand anywhere.
     fn is_pushed_by_others(&self, stype: SpriteType) -> bool {
         let avatars = self.analysis.avatars();
         self.rules_of(stype).any(|(_, side, rule)| {
@@ -191,7 +192,7 @@ impl Board<'_> {
         })
     }
 
-    /// Whether a rule's partner of that side, or the edge, may be met in a cell.
+    /// Returns `true` if a rule's partner of that side, or the edge, may be met in a cell.
     fn may_be_met(&self, rule: &Encounter, side: Side, cell: usize) -> bool {
         let partner = match side {
             Side::First => rule.first,
@@ -206,8 +207,8 @@ impl Board<'_> {
             .any(|other| self.reach.can_touch(other, cell))
     }
 
-    /// What may become of a sprite of the type in a cell: gone (None), or another type. What throws it back leaves it to
-    /// the rules before.
+    /// Returns the possible fates of a sprite of the type in a cell: gone (None), or another type. Where its movement
+    /// is undone, only the rules before that apply.
     fn fates(&self, stype: SpriteType, cell: usize) -> Vec<Option<SpriteType>> {
         let mut fates = Vec::new();
         let before = self.thrown_back(stype, cell).unwrap_or(usize::MAX);
@@ -253,11 +254,11 @@ impl Board<'_> {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// By cell: the pushes that a sprite of the type needs to become none of the types that count. A fixed point from the
-    /// places where it may end, backwards.
+    /// Returns, by cell, the pushes that a sprite of the type needs to become none of the types that count: a fixed
+    /// point, computed backwards from the cells where it may end.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
-        // The types that it may turn into and still count, by place.
+        // The types that it may turn into and still count, by index.
         let mut kinds = vec![stype];
         // By kind, then by cell.
         let mut fates: Vec<Vec<Vec<Option<SpriteType>>>> = Vec::new();
@@ -280,14 +281,14 @@ impl Board<'_> {
                         None => 0,
                         Some(to) => kinds.iter().position(|&k| k == to).map_or(0, |to| pushes[to][cell]),
                     });
-                    // From where it is only thrown back from, it is not pushed on.
+                    // From a cell that it is always thrown back from, it is not pushed on.
                     let rests = self.reach.can_be(kind, cell) && self.thrown_back(kind, cell).is_none();
                     let pushed = |(dx, dy): (i32, i32)| {
                         // Beyond the edge anything may happen.
                         let Some(there) = self.neighbour(cell, (dx, dy)) else { return 0 };
                         let behind = self.neighbour(cell, (-dx, -dy));
                         if by_others[at] {
-                            // Many may be pushed in a tick.
+                            // Several sprites may be pushed in a tick.
                             pushes[at][there]
                         } else if behind.is_none_or(|cell| self.reach.avatar_reaches(cell)) {
                             pushes[at][there].saturating_add(1)

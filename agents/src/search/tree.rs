@@ -1,4 +1,5 @@
-//! What systematic searches share: the states met so far, how each was come to, and how successors are made.
+//! The tree that the systematic searches share: the states found so far, the actions that led to them, and the
+//! generation of successors.
 
 use super::{Answer, Pushes, SearchLimits, Searched};
 use crate::progress::Progress;
@@ -8,12 +9,12 @@ use engine::{Action, Outcome, Packed, SearchKey, State};
 use std::hash::{BuildHasherDefault, Hasher};
 use std::rc::Rc;
 
-/// A node, by its number.
+/// A node, by its index.
 pub(super) type NodeId = u32;
-/// The node of the start.
+/// The node of the initial state.
 pub(super) const ROOT: NodeId = 0;
 
-/// How a state was come to.
+/// A node: the step by which a state was reached.
 #[derive(Clone, Copy)]
 struct Node {
     parent: NodeId,
@@ -22,7 +23,7 @@ struct Node {
     expanded: bool,
 }
 
-/// Keys are hashes already.
+/// A hasher that returns its input, because keys are hashes already.
 #[derive(Default)]
 struct KeyHasher(u64);
 
@@ -42,14 +43,14 @@ impl Hasher for KeyHasher {
     }
 }
 
-/// The node of each state that was met.
+/// The node of each state found so far.
 #[expect(clippy::disallowed_types, reason = "asked for keys, never iterated")]
 type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
 
-/// Steps that are played again to come back to a state, at most: seldom dearer than to keep it whole.
+/// The most steps to replay to restore a state: seldom more expensive than storing it whole.
 const REPLAYED: usize = 7;
 
-/// An open state: a state that is kept whole, and the few actions that lead on from it.
+/// An open state: a stored state, and the few actions that lead on from it.
 pub(super) struct Kept {
     whole: Rc<Packed>,
     steps: ArrayVec<Action, REPLAYED>,
@@ -61,24 +62,24 @@ pub(super) struct Tree<'a> {
     keying: Keying,
     pushes: &'a Pushes,
     progress: Progress<'a>,
-    /// The node that is nearest to a win, and how near.
+    /// The node nearest to a win, with its distance.
     nearest: (u32, NodeId),
-    /// What states are packed against.
+    /// The state that packed states are stored relative to.
     base: State,
     nodes: Vec<Node>,
     met: Met,
     actions: Vec<Action>,
     limits: SearchLimits,
     calls: u64,
-    /// Bytes of the packed states that are kept.
+    /// Bytes of the packed states in memory.
     packed: usize,
-    /// That a state and its successors are made in.
+    /// Buffers for a state and its successor.
     buffers: Option<(State, State)>,
 }
 
-/// What became of an expansion.
+/// The result of an expansion.
 pub(super) enum Expanded {
-    /// Its new successors have been handed out.
+    /// Its new successors were passed on.
     On,
     /// A successor wins.
     Won(NodeId),
@@ -97,7 +98,7 @@ impl<'a> Tree<'a> {
     ) -> Tree<'a> {
         let game = analysis.game();
         let keying = analysis.keying(start);
-        // All that some avatar can do, and waiting.
+        // All actions of any avatar, and waiting.
         let mut actions = vec![Action::Nil];
         for avatar in analysis.avatars() {
             actions.extend(game.actions_of(avatar.stype));
@@ -137,8 +138,8 @@ impl<'a> Tree<'a> {
         Kept { whole: Rc::new(packed), steps: ArrayVec::new() }
     }
 
-    /// Makes all successors of a state, hands the new ones that are not over and no dead ends to `open`, and forgets the
-    /// state.
+    /// Generates all successors of a state, passes the new ones that are neither over nor dead ends to `open`, and
+    /// drops the state.
     pub(super) fn expand(
         &mut self,
         node: NodeId,
@@ -220,7 +221,7 @@ impl<'a> Tree<'a> {
         (self.nodes.len() - 1) as NodeId
     }
 
-    /// Whether this is a shorter way to a node than the one known; it is taken then.
+    /// Replaces the way to a node if this one is shorter; returns `true` if it was.
     fn shorten(&mut self, node: NodeId, parent: NodeId, action: Action) -> bool {
         let depth = self.depth(parent) + 1;
         let known = &mut self.nodes[node as usize];
@@ -231,19 +232,19 @@ impl<'a> Tree<'a> {
         is_shorter
     }
 
-    /// The ticks that the shortest known way to a node takes.
+    /// Returns the ticks of the shortest known way to a node.
     pub(super) fn depth(&self, node: NodeId) -> u32 {
         self.nodes[node as usize].depth
     }
 
-    /// Bytes in use; an estimate, but not one of the clock or the allocator.
+    /// Returns the bytes in use: an estimate, but a deterministic one, independent of the clock and the allocator.
     fn bytes(&self) -> usize {
-        // A table of keys is at least 7/16 full and has a byte of its own for each place; queues hold the packed states.
+        // A table of keys is at least 7/16 full and needs one more byte for each slot; queues hold the packed states.
         let keys = self.met.len() * (size_of::<(SearchKey, NodeId)>() + 1) * 16 / 7;
         keys + self.nodes.len() * (size_of::<Node>() + size_of::<Kept>()) + self.packed
     }
 
-    /// The actions that lead from the start to a node.
+    /// Returns the actions that lead from the start to a node.
     fn way(&self, mut node: NodeId) -> Vec<Action> {
         let mut actions = Vec::new();
         while node != ROOT {

@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Differences of one tick that are shown; the first is the first divergence.
+/// The most differences of one tick to show; the first is the first divergence.
 const SHOWN: usize = 6;
 
 /// The first tick at which engine and trace differ.
@@ -16,11 +16,11 @@ pub(crate) struct Difference {
     pub(crate) tick: i32,
     /// The action of the tick.
     action: Option<Action>,
-    /// State of the game's chance before the tick.
+    /// The state of the game's random generator before the tick.
     chance_before: u64,
-    /// What differs in that tick, up to a few.
+    /// The first few differing fields of that tick.
     fields: Vec<Field>,
-    /// How many more there are.
+    /// The number of further ones.
     more: usize,
 }
 
@@ -49,7 +49,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// The first divergence, or none.
+/// Returns the first divergence, or none.
 pub(crate) fn compare(game: &Game, level: &Level, trace: &Trace) -> Option<Difference> {
     let mut state = game.start_with(level, Chance::from_java(trace.header.seed));
     let mut expected: BTreeMap<u32, SpriteRecord> =
@@ -108,7 +108,7 @@ impl Check<'_> {
         self.equal("block_size", header.block_size, state.block());
         self.equal("width", header.width, columns * state.block());
         self.equal("height", header.height, rows * state.block());
-        // Doing nothing is left out: it is not in the lists of all avatars, but always possible.
+        // Doing nothing is left out: not every avatar lists it, but it is always possible.
         let nil = Some(Action::Nil);
         let mut actions: Vec<_> = header.actions.iter().map(|name| Action::from_reference(name)).collect();
         actions.retain(|action| *action != nil);
@@ -116,7 +116,7 @@ impl Check<'_> {
         let own = game.actions(state).iter().copied().map(Some).filter(|action| *action != nil);
         self.equal("actions", actions, own.collect());
         self.equal("avatar", header.avatar, state.avatar_id());
-        // Of the two messages about a missing avatar the second comes as the run starts: a log may be without it.
+        // The second of the two messages about a missing avatar comes as the run starts: a log may lack it.
         let messages = state.messages() as usize;
         let late = header.avatar.is_none() && header.log.len() < messages;
         self.equal("log", header.log.len(), messages - usize::from(late));
@@ -150,7 +150,7 @@ impl Check<'_> {
         }
     }
 
-    /// Brings the expected sprites up to this tick; a trace that contradicts itself shows as a difference.
+    /// Applies this tick's changes to the expected sprites; a trace that contradicts itself shows as a difference.
     fn apply(&mut self, tick: &Tick, expected: &mut BTreeMap<u32, SpriteRecord>) {
         for id in &tick.del {
             let gone = expected.remove(id);
@@ -227,7 +227,7 @@ impl Check<'_> {
     }
 }
 
-/// Bits, not values: −0.0 is not 0.0 in a trace. What is no number is the same in all its bits.
+/// Compares by bits, not values: −0.0 is not 0.0 in a trace. All NaNs are equal.
 fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }

@@ -1,4 +1,4 @@
-//! Golden traces of the reference engine: reading them, and playing along.
+//! Golden traces of the reference engine: reading and replaying them.
 
 mod compare;
 mod trace;

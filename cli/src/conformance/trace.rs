@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-/// Bytes of one line at most; the longest real ones are some hundred kilobytes.
+/// The most bytes of one line; the longest real ones are some hundred kilobytes.
 const MAX_LINE: u64 = 64 << 20;
 
 #[derive(Deserialize)]
@@ -82,7 +82,7 @@ pub(crate) struct Tick {
     pub(crate) add: Vec<SpriteRecord>,
     pub(crate) del: Vec<u32>,
     pub(crate) modified: Vec<SpriteRecord>,
-    /// The reference ended the game because it had logged too many messages.
+    /// `true` if the reference ended the game because it had logged too many messages.
     pub(crate) noted: bool,
     pub(crate) engine_error: Option<String>,
 }
@@ -99,7 +99,7 @@ impl Trace {
     /// Reads a trace, gzip'd or plain.
     ///
     /// # Errors
-    /// What is wrong and in which line, in words.
+    /// The problem and its line, in words.
     pub(crate) fn read(path: &Path) -> Result<Trace, String> {
         let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
         let packed = path.extension().is_some_and(|extension| extension == "gz");
@@ -143,7 +143,7 @@ impl Trace {
 
 type NumberedLine = Result<(usize, String), String>;
 
-/// The lines with their numbers; a line beyond [`MAX_LINE`] is an error.
+/// Returns the lines with their numbers; a line beyond [`MAX_LINE`] is an error.
 fn numbered(mut reader: impl BufRead) -> impl Iterator<Item = NumberedLine> {
     let mut number = 0;
     std::iter::from_fn(move || {
@@ -168,7 +168,7 @@ fn records(line: usize, values: &[Value]) -> Result<Vec<SpriteRecord>, String> {
     values.iter().map(|value| record(value).ok_or_else(|| wrong(value))).collect()
 }
 
-/// A number, or what JSON has no numbers for.
+/// Reads a number, or one of the strings for values that JSON cannot express as numbers.
 fn double(value: &Value) -> Option<f64> {
     match value.as_str() {
         Some("NaN") => Some(f64::NAN),
@@ -203,7 +203,7 @@ fn record(value: &Value) -> Option<SpriteRecord> {
         record.rotation = extra.get("rot").map_or(Some(0.0), double)?;
         if let Some(resources) = extra.get("res") {
             for (stype, amount) in resources.as_object()? {
-                // A type that is not declared has the number −1.
+                // An undeclared type has the number −1.
                 let stype = if stype == "-1" { u16::MAX } else { stype.parse().ok()? };
                 record.resources.push((stype, amount.as_i64()?.try_into().ok()?));
             }

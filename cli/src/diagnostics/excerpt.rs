@@ -1,33 +1,34 @@
-//! The lines around a problem, no wider than they can be shown.
+//! The lines around a problem, cropped to a width that can be shown.
 
 use engine::line_and_column;
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
-/// Characters of a line that are shown.
+/// The most characters of a line that are shown.
 const WIDEST: usize = 160;
-/// Characters that are shown before the place, where the line is cut off on the left.
+/// Characters that are shown before the position of the problem, if the line is cropped on the left.
 const BEFORE: usize = 40;
-/// For characters that are left out.
+/// The replacement for characters that are left out.
 const CUT: char = '…';
-/// For a tab, which counts as one column.
+/// The replacement for a tab, which counts as one column.
 const TAB: char = '→';
 
-/// The line of a problem, and the ones above and below: cropped around the place, with tabs to be seen.
+/// The line of a problem, and the ones above and below: cropped around its position, with visible tabs.
 pub(super) struct Excerpt {
     name: String,
     text: String,
-    /// The number of the first line in `text`, from 0, and how many it has.
+    /// The number of the first line in `text`, from 0, and the number of lines.
     first: usize,
     count: usize,
-    /// The place of the problem: line and column in the file, from 0.
+    /// The position of the problem: line and column in the file, from 0.
     line: usize,
     column: usize,
-    /// Its place in `text`: start and length.
+    /// Its position in `text`: start and length.
     span: (usize, usize),
 }
 
 impl Excerpt {
-    /// Around the bytes `start..end` of a text. What goes on to another line is shown to the end of the first.
+    /// Makes the excerpt around the bytes `start..end` of a text. A problem that continues on another line is shown
+    /// to the end of the first.
     pub(super) fn of(name: &str, source: &str, start: usize, end: usize) -> Excerpt {
         let boundary = |mut at: usize| {
             at = at.min(source.len());
@@ -56,7 +57,7 @@ impl Excerpt {
         }
         let marked = source[start..end.min(to)].chars().count();
         let (offset, shown) = excerpt.push(&source[from..to], column - 1);
-        // The characters that are shown of the line from the place on.
+        // The visible characters of the line from the position on.
         let visible = excerpt.text[shown..].trim_end_matches('\n');
         let length = visible.chars().take(marked).map(char::len_utf8).sum();
         excerpt.span = (shown, length);
@@ -70,7 +71,8 @@ impl Excerpt {
         excerpt
     }
 
-    /// Adds a line, cropped around a column: where it starts in the text, and where that column is.
+    /// Adds a line, cropped around a column: returns the start of the line in the text, and the position of that
+    /// column.
     fn push(&mut self, line: &str, column: usize) -> (usize, usize) {
         let line = line.strip_suffix('\r').unwrap_or(line);
         let offset = self.text.len();
@@ -100,14 +102,14 @@ impl Excerpt {
         (offset, place)
     }
 
-    /// The place of the problem in the text that is shown.
+    /// Returns the position of the problem in the text that is shown.
     pub(super) fn span(&self) -> SourceSpan {
         self.span.into()
     }
 }
 
 impl SourceCode for Excerpt {
-    /// All of it, or, with no lines of context, where the problem is.
+    /// The whole excerpt, or, with no lines of context, the position of the problem.
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,

@@ -1,4 +1,4 @@
-//! Diagnostics as people and programs read them.
+//! Diagnostics for people and programs.
 
 mod excerpt;
 
@@ -14,7 +14,7 @@ use std::io::IsTerminal;
 /// The problems of a file, as an error.
 #[derive(Debug)]
 pub(crate) struct Problems {
-    /// The line that says how many there are.
+    /// The line with the number of problems.
     pub(crate) summary: String,
     pub(crate) placed: Vec<Placed>,
     text: String,
@@ -28,14 +28,14 @@ impl fmt::Display for Problems {
 
 impl std::error::Error for Problems {}
 
-/// The failure of a verb that cannot go on because of the problems of a file.
+/// Returns the failure of a verb that cannot go on because of the problems of a file.
 pub(crate) fn failure(source: &Named, problems: &[Diagnostic]) -> Failure {
     let text = in_words(source, problems);
     let summary = text.lines().next().unwrap_or_default().to_owned();
     Failure::Malformed(Problems { summary, placed: placed(source, problems), text }.into())
 }
 
-/// A summary line, then every problem with its place.
+/// A summary line, then every problem with its position.
 pub(crate) fn in_words(source: &Named, problems: &[Diagnostic]) -> String {
     let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
     let plural = if errors == 1 { "problem" } else { "problems" };
@@ -118,7 +118,7 @@ mod tests {
         );
         check("bad", "bad", &["game.vgdl:1:1", "1 │ bad", "─┬─"]);
         check("one\r\nbad\r\n", "bad", &["game.vgdl:2:1", "1 │ one\n", "2 │ bad\n"]);
-        // A tab is one column, and to be seen.
+        // A tab is one column, and is made visible.
         check("a\n\tbad\n", "bad", &["game.vgdl:2:2", "2 │ →bad", "·  ─┬─"]);
         check("", "", &["no such thing"]);
     }

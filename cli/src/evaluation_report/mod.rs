@@ -1,4 +1,4 @@
-//! The report on evaluations as files: one page that needs nothing else, Markdown, JSON, and every table as CSV and LaTeX.
+//! The report on evaluations as files: one self-contained page, Markdown, JSON, and every table as CSV and LaTeX.
 
 mod page;
 mod plots;
@@ -13,25 +13,26 @@ use evaluation::{Entrant, Evaluation};
 use serde::Serialize;
 use snapshots::Draft;
 
-/// What a report is made of.
+/// The input of a report.
 pub(crate) struct Results<'a> {
     /// The numbers.
     pub(crate) study: &'a Study,
     /// The results folders, for replays and settings.
     pub(crate) evaluations: &'a [Evaluation],
-    /// Levels of which each player's first run can be watched.
+    /// The number of levels for which the page replays each player's first run.
     pub(crate) replays: usize,
 }
 
-/// The document `report.json`. It names no folder, so that the same results give the same bytes wherever they lie.
+/// The document `report.json`. It names no folder, so that the same results give the same bytes wherever they are
+/// stored.
 #[derive(Serialize)]
 struct Document<'a> {
-    /// What was asked of each player.
+    /// The settings of each player.
     evaluations: Vec<Asked<'a>>,
     study: &'a Study,
 }
 
-/// What was asked of a player: its settings without the games, which the study lists.
+/// The settings of a player, without the games, which the study lists.
 #[derive(Serialize)]
 struct Asked<'a> {
     entrant: &'a Entrant,
@@ -43,7 +44,8 @@ struct Asked<'a> {
     max_steps: u64,
 }
 
-/// Writes `report.html`, `report.md`, `report.json` and `tables/`: their names. The same results give the same bytes.
+/// Writes `report.html`, `report.md`, `report.json` and `tables/`, and returns their names. The same results give the
+/// same bytes.
 pub(crate) fn write_evaluation_report(draft: Draft, results: &Results<'_>) -> Result<Vec<String>, Failure> {
     let Results { study, evaluations, .. } = results;
     let tables = study.tables();

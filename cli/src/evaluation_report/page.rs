@@ -1,4 +1,4 @@
-//! The page: one HTML file that needs nothing else.
+//! The page: one self-contained HTML file.
 
 use super::Results;
 use super::replay::Replays;
@@ -15,10 +15,10 @@ const TEMPLATE: &str = include_str!("page.html");
 const PARTS: [(&str, &str); 2] =
     [("page.css", include_str!("page.css")), ("replay.js", include_str!("replay.js"))];
 
-/// Bytes of the page, about: replays fill what the plots leave.
+/// The approximate size of the page in bytes: replays fill the space that the plots leave.
 const BYTES: usize = 12_000_000;
 
-/// All that the template shows.
+/// The data of the template.
 #[derive(Serialize)]
 struct Page<'a> {
     title: &'a str,
@@ -30,12 +30,12 @@ struct Page<'a> {
     /// Style rules that show the chosen heat map.
     tab_rules: String,
     replays: Option<Replays>,
-    /// The nonce of the script of the page, so that no other one runs. It follows from all that the page shows, none of which can
-    /// therefore name it.
+    /// The nonce of the page's script, so that no other script runs. It is derived from the whole content of the
+    /// page, so the content cannot contain it.
     nonce: String,
 }
 
-/// The page. The same results give the same bytes.
+/// Renders the page. The same results give the same bytes.
 pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Result<String, Failure> {
     let (sections, tab_rules) = sections::all(results.study, tables);
     let room = BYTES.saturating_sub(sections.iter().map(Section::bytes).sum());
@@ -57,7 +57,8 @@ pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Re
     crate::page::render_with(&PARTS, TEMPLATE, &page)
 }
 
-/// What is looked at first: the best models, or players if there is no model, and the marks to compare them with.
+/// Returns the figures at the top: the best models, or players if there is no model, and the references to compare
+/// them with.
 fn headlines(study: &Study) -> Vec<Fact> {
     let is_model = |row: &&LeaderRow| !study.players[row.player].is_reference();
     let models = study.leaderboard.iter().filter(is_model).take(3);

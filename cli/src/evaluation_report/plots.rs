@@ -9,10 +9,10 @@ use evaluation::study::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Columns of a heat map that stay together; it is as wide as a phone.
+/// Columns of a heat map that stay together; it fits the width of a phone.
 const COLUMNS: usize = 6;
 
-/// A plot with what is said above and below.
+/// A plot with its heading and caption.
 #[derive(Serialize)]
 pub(super) struct Plot {
     head: String,
@@ -20,14 +20,14 @@ pub(super) struct Plot {
     caption: String,
 }
 
-/// Plots behind a heading that opens them.
+/// A group of plots behind a collapsible heading.
 #[derive(Serialize)]
 pub(super) struct Group {
     name: String,
     plots: Vec<Plot>,
 }
 
-/// Heat maps: one is seen at a time.
+/// Heat maps, of which one is visible at a time.
 #[derive(Serialize)]
 pub(super) struct Heats {
     measures: Vec<String>,
@@ -41,7 +41,7 @@ struct Panel {
     measure: usize,
     scope: usize,
     svgs: Vec<String>,
-    /// The scale, and what stands at its ends.
+    /// The scale, with its end labels.
     key: String,
     low: String,
     high: String,
@@ -49,7 +49,7 @@ struct Panel {
 }
 
 impl Heats {
-    /// All measures in all scopes.
+    /// Makes the heat maps of all measures in all scopes.
     pub(super) fn of(study: &Study) -> Heats {
         let scopes = study.by_level.iter().map(|matrix| match matrix.scope {
             Scope::ZeroShot => "zero-shot".to_owned(),
@@ -64,12 +64,12 @@ impl Heats {
         Heats { measures, scopes: scopes.collect(), panels: panels.collect() }
     }
 
-    /// What they take of the page.
+    /// Returns their size in the page, in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.panels.iter().flat_map(|panel| &panel.svgs).map(String::len).sum()
     }
 
-    /// The style rules by which a choice shows its panel.
+    /// Returns the style rules by which a choice shows its panel.
     pub(super) fn rules(&self) -> String {
         let mut text = String::new();
         for measure in 0..self.measures.len() {
@@ -150,7 +150,7 @@ impl Panel {
     }
 }
 
-/// `.45`, `1`: the zero before the point is left out, so that it fits into a cell.
+/// `.45`, `1`: the zero before the point is left out, so that the text fits into a cell.
 fn two_digits(value: f64) -> String {
     let text = format!("{value:.2}");
     match text.as_str() {
@@ -160,7 +160,7 @@ fn two_digits(value: f64) -> String {
     }
 }
 
-/// The colours of a heat map from left to right.
+/// Returns the colours of a heat map from left to right.
 fn key() -> String {
     let step =
         |at: usize| format!("<g class=\"q{at}\"><rect x=\"{}\" width=\"12\" height=\"12\"/></g>", 12 * at);
@@ -168,7 +168,7 @@ fn key() -> String {
     format!("<svg width=\"132\" height=\"12\" viewBox=\"0 0 132 12\" aria-hidden=\"true\">{steps}</svg>")
 }
 
-/// The columns in stretches of about [`COLUMNS`]: games stay whole unless they are longer than that.
+/// Splits the columns into groups of about [`COLUMNS`]: games stay whole unless they are longer than that.
 fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     let mut stretches: Vec<Vec<usize>> = Vec::new();
     for game in 0..study.games.len() {
@@ -185,13 +185,13 @@ fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     stretches
 }
 
-/// What a game is called.
+/// Returns the name of a game.
 pub(super) fn game(study: &Study, game: usize) -> String {
     let game = &study.games[game];
     if game.title.is_empty() { game.id.clone() } else { game.title.clone() }
 }
 
-/// A player in two lines: its name; its mode and aids, or that it is a mark to compare with.
+/// Returns the label of a player in two lines: its name; its mode and aids, or a note that it is a reference.
 fn label(name: &str, reference: bool) -> Label {
     match name.split_once(" (") {
         Some((name, note)) => Label { name: name.to_owned(), note: note.trim_end_matches(')').to_owned() },
@@ -206,7 +206,7 @@ fn label_of(player: &Player) -> Label {
     label(&player.label(), player.is_reference())
 }
 
-/// Win rates of all players over all that they played.
+/// Plots the win rates of all players over all episodes.
 pub(super) fn win_rates(study: &Study) -> Plot {
     let rows: Vec<ForestRow> = study
         .leaderboard
@@ -224,7 +224,7 @@ pub(super) fn win_rates(study: &Study) -> Plot {
     }
 }
 
-/// Win rates by game, a plot for each player.
+/// Plots win rates by game, a plot for each player.
 pub(super) fn win_rates_by_game(study: &Study) -> Vec<Group> {
     let group = |sweep: &evaluation::study::Sweep| {
         let player = &study.players[sweep.player];
@@ -253,7 +253,7 @@ fn forest_row(label: Label, rate: Option<Estimate>, of: String, reference: bool)
     ForestRow { label, share, of, reference }
 }
 
-/// How won and other episodes were walked.
+/// Plots the movement failures of won and other episodes.
 pub(super) fn failures(study: &Study) -> Vec<Plot> {
     let shown = [
         FailureMeasure::BumpRate,
@@ -273,7 +273,7 @@ pub(super) fn failures(study: &Study) -> Vec<Plot> {
     modes.map(plot).collect()
 }
 
-/// The correlation matrices; none without episodes.
+/// Plots the correlation matrices; none without episodes.
 pub(super) fn correlations(study: &Study) -> Vec<Plot> {
     if study.correlations.episodes == 0 {
         return Vec::new();

@@ -5,7 +5,7 @@ use crate::page::words;
 use evaluation::study::{Study, Table, TableCell};
 use serde::Serialize;
 
-/// Rows of a table in the page, at most; its file has all.
+/// The most rows of a table in the page; its file has all.
 const MOST: usize = 150;
 
 /// A question.
@@ -28,7 +28,7 @@ struct Shown {
     note: String,
     columns: Vec<Column>,
     rows: Vec<Row>,
-    /// Rows that are left out, in words; empty if none is.
+    /// The number of omitted rows, in words; empty if there are none.
     more: String,
 }
 
@@ -41,7 +41,7 @@ struct Column {
 #[derive(Serialize)]
 struct Row {
     cells: Vec<String>,
-    /// Whether it is about a player that is no model.
+    /// `true` if it is about a player that is not a model.
     mark: bool,
 }
 
@@ -58,13 +58,13 @@ impl Section {
         }
     }
 
-    /// What its heat maps, by far the largest part, take of the page.
+    /// Returns the size of its heat maps, by far the largest part of the page.
     pub(super) fn bytes(&self) -> usize {
         self.heats.as_ref().map_or(0, Heats::bytes)
     }
 }
 
-/// All questions, and the style rules of the heat maps.
+/// Returns all questions, and the style rules of the heat maps.
 pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let of = |ids: &[&str]| -> Vec<Shown> {
         let found = ids.iter().flat_map(|id| tables.iter().filter(move |table| table.id == *id));
@@ -129,7 +129,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     (vec![leaders, levels, games, kinds, pairs, modes, aids, walked, correlations, answers], rules)
 }
 
-/// The proved shortest wins as a row of the leaderboard.
+/// Returns the proved shortest wins as a row of the leaderboard.
 fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     let levels: Vec<Option<usize>> =
         study.games.iter().flat_map(|game| &game.levels).map(|level| level.optimal_ticks).collect();

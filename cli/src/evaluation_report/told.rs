@@ -1,4 +1,4 @@
-//! What is said before any table: what was counted, what was not, and why.
+//! The introduction of the report: the episodes counted, and those left out with the reasons.
 
 use super::Results;
 use crate::page::words;
@@ -7,15 +7,15 @@ use evaluation::metrics::EpisodeStatus;
 use evaluation::study::{Study, Table, in_markdown};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The words at the head of page and Markdown.
+/// The text at the head of page and Markdown.
 pub(super) struct Told {
     /// The heading.
     pub(super) title: String,
-    /// Where the results are from.
+    /// The source of the results.
     pub(super) subtitle: String,
-    /// What was counted.
+    /// The contents that were counted.
     pub(super) counted: Vec<String>,
-    /// What has to be known before anything is compared.
+    /// Caveats for any comparison.
     pub(super) warnings: Vec<String>,
 }
 
@@ -39,7 +39,7 @@ impl Told {
         Told { title, subtitle: subtitle(evaluations), counted, warnings: study.notes.clone() }
     }
 
-    /// The report as Markdown.
+    /// Returns the report as Markdown.
     pub(super) fn markdown(&self, tables: &[Table]) -> String {
         let mut text = format!("# {}\n\n{}\n", in_markdown(&self.title), in_markdown(&self.subtitle));
         for sentence in &self.counted {
@@ -81,7 +81,7 @@ fn subtitle(evaluations: &[Evaluation]) -> String {
     )
 }
 
-/// How many episodes count, and why others do not.
+/// Returns the number of episodes that count, and the reasons why others do not.
 fn episodes(study: &Study) -> String {
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     let mut excluded: BTreeMap<String, u64> = BTreeMap::new();
@@ -108,7 +108,7 @@ fn episodes(study: &Study) -> String {
     format!("{all}, of which {ended} ended and count. Left out of every number: {}.", why.join(", "))
 }
 
-/// On which levels the players can be compared.
+/// Returns the levels on which the players can be compared.
 fn common(study: &Study, levels: u64) -> String {
     let played = |player: usize| -> BTreeSet<(usize, usize)> {
         let ended = study.on(player, None, None).iter().filter(|episode| episode.metrics.counts());
@@ -132,7 +132,7 @@ fn common(study: &Study, levels: u64) -> String {
     }
 }
 
-/// What came of the models' answers.
+/// Returns the statistics of the models' answers.
 fn answers(study: &Study) -> Option<String> {
     let models = study.leaderboard.iter().filter(|row| !study.players[row.player].is_reference());
     let (mut steps, mut invalid, mut refused, mut truncated, mut tolerant) = (0, 0, 0, 0, 0);

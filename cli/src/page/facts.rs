@@ -23,7 +23,7 @@ pub(crate) struct Fact {
     bar: String,
     /// Its interval.
     band: String,
-    /// Of how many.
+    /// The number of cases.
     of: String,
 }
 
@@ -35,7 +35,7 @@ pub(crate) struct Five {
     count: u64,
 }
 
-/// What a measure spans, here and in the game's own levels.
+/// The range of a measure, here and in the game's own levels.
 #[derive(Serialize)]
 pub(crate) struct Beside {
     pub(crate) measure: String,
@@ -46,14 +46,14 @@ pub(crate) struct Beside {
 }
 
 impl Fact {
-    /// So many of so many.
+    /// A share, such as the share of levels won.
     pub(crate) fn share(name: impl Into<String>, share: &Share) -> Fact {
         let bar = if share.of == 0 { String::new() } else { bar(share.share(), share.interval) };
         let (value, band, of) = (words::percent(share), words::band(share), words::counted(share));
         Fact { name: name.into(), value, bar, band, of }
     }
 
-    /// A value alone.
+    /// A value without an interval.
     pub(crate) fn plain(name: impl Into<String>, value: String) -> Fact {
         Fact { name: name.into(), value, bar: String::new(), band: String::new(), of: String::new() }
     }
@@ -69,26 +69,26 @@ impl Fact {
         Fact { bar, band: words::mean_band(interval), ..Fact::plain(name, words::mean(mean)) }
     }
 
-    /// Of how many.
+    /// Sets the number of cases.
     #[must_use]
     pub(crate) fn of(self, of: String) -> Fact {
         Fact { of, ..self }
     }
 
-    /// Its interval.
+    /// Sets its interval.
     #[must_use]
     pub(crate) fn within(self, band: String) -> Fact {
         Fact { band, ..self }
     }
 }
 
-/// Quantiles in a line; none of nothing.
+/// Quantiles in a line; none if there are no values.
 pub(crate) fn five(name: impl Into<String>, quantiles: Option<&Quantiles>) -> Option<Five> {
     let found = quantiles?;
     Some(Five { name: name.into(), five: words::five(found), count: found.count })
 }
 
-/// A question with figures alone.
+/// A question whose answers are only figures.
 pub(crate) fn section(title: &'static str, note: impl Into<String>, facts: Vec<Fact>) -> Section {
     Section { title, note: note.into(), facts, quantiles: Vec::new(), fits: Vec::new() }
 }
@@ -105,7 +105,7 @@ fn bar(share: f64, [low, high]: [f64; 2]) -> String {
     )
 }
 
-/// In tenths of a pixel.
+/// Formats a number with one decimal, in pixels.
 pub(crate) fn number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     if tenths % 10 == 0 { format!("{}", tenths / 10) } else { format!("{:.1}", tenths as f64 / 10.0) }

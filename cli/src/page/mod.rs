@@ -1,4 +1,5 @@
-//! What the pages of all reports share: how figures are worded and laid out, and the template parts that show them.
+//! Shared parts of the pages of all reports: the wording and layout of figures, and the template parts that show
+//! them.
 
 pub(crate) mod facts;
 pub(crate) mod plots;
@@ -30,7 +31,7 @@ pub(crate) struct Figure<'a> {
 }
 
 impl<'a> Figure<'a> {
-    /// A PNG of this size, with what is said under it.
+    /// A PNG of this size, with its caption.
     pub(crate) fn new(
         png: &[u8],
         size: [u32; 2],
@@ -40,18 +41,18 @@ impl<'a> Figure<'a> {
         Figure { png: STANDARD.encode(png), size, head: head.into(), line: line.into() }
     }
 
-    /// What it takes of the page.
+    /// Returns the size of its PNG in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.png.len()
     }
 }
 
-/// The page that a template makes: one HTML file that needs nothing else. The same arguments give the same bytes.
+/// Renders the page of a template: one self-contained HTML file. The same arguments give the same bytes.
 pub(crate) fn render(template: &'static str, page: &impl Serialize) -> Result<String, Failure> {
     render_with(&[], template, page)
 }
 
-/// The page of a template that includes or imports these, by name, beside the shared ones.
+/// Renders the page of a template that includes or imports these templates, by name, beside the shared ones.
 pub(crate) fn render_with(
     parts: &[(&'static str, &'static str)],
     template: &'static str,

@@ -1,9 +1,9 @@
-//! Figures as people read them.
+//! Figures in words.
 
 use snapshots::levels::report::{Quantiles, Share};
 use validators::Difficulty;
 
-/// `95 %`, which is not broken between lines; of nothing, a dash.
+/// `95 %`, with a non-breaking space; a dash if there are no cases.
 pub(crate) fn percent(share: &Share) -> String {
     if share.of == 0 { NONE.to_owned() } else { whole_percent(share.share()) }
 }
@@ -13,7 +13,7 @@ pub(crate) fn counted(share: &Share) -> String {
     format!("{} of {}", share.count, share.of)
 }
 
-/// `76 to 99 %`; of nothing, nothing.
+/// `76 to 99 %`; empty if there are no cases.
 pub(crate) fn band(share: &Share) -> String {
     let [low, high] = share.interval.map(|end| 100.0 * end);
     if share.of == 0 { String::new() } else { format!("{low:.0} to {high:.0}\u{a0}%") }
@@ -55,7 +55,7 @@ pub(crate) fn five(quantiles: &Quantiles) -> [String; 5] {
     [min, lower, median, upper, max].map(short)
 }
 
-/// A count without decimals, anything else with as many as tell it from its neighbours.
+/// A count without decimals, or any other value with enough decimals to tell it from its neighbours.
 pub(crate) fn short(value: f64) -> String {
     let decimals = if value.fract() == 0.0 || value.abs() >= 100.0 {
         0
@@ -81,7 +81,7 @@ pub(crate) fn label(difficulty: Option<Difficulty>) -> String {
     difficulty.map_or(NONE.to_owned(), |label| label.to_string())
 }
 
-/// What stands where there is nothing to tell.
+/// The placeholder for a missing value.
 pub(crate) const NONE: &str = "–";
 
 /// `95 %`.

@@ -1,11 +1,11 @@
-//! A state as cells of a terminal: two columns each, the uppermost thing in it.
+//! A state as cells of a terminal: two columns each, showing the uppermost sprite.
 
 use engine::{SpriteType, State};
 use ratatui::style::{Color, Modifier, Style};
 use render::{Colour, Glyph, Look, Looks, Symbols};
 use std::ops::Range;
 
-/// The empty board.
+/// The colour of the empty board.
 pub(crate) const GROUND: Color = Color::Indexed(235);
 
 /// A cell of the board.
@@ -23,8 +23,8 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
-    /// The sign of the glyph; where several types have one sign, the type's own character is its second column, so that more
-    /// than colour tells them apart. (Unicode signs that fill both columns stay as they are.)
+    /// Chooses the sign of each type by its glyph; if several types have one sign, the type's own character is its
+    /// second column, so that they differ in more than colour. (Unicode signs that fill both columns are left alone.)
     pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
         let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };
         let text = |stype: SpriteType| {
@@ -44,14 +44,15 @@ impl Signs {
         Signs { texts, fallen: sign(Glyph::Fallen), ascii }
     }
 
-    /// A sprite type on what lies below.
+    /// Returns the cell of a sprite type over the background below it.
     pub(crate) fn drawn(&self, looks: &Looks, stype: SpriteType, below: Color) -> Cell<'_> {
         let look = looks.look(stype);
         Cell { text: &self.texts[stype.index()], style: style(look, below, self.ascii) }
     }
 }
 
-/// The cells, row-major. A sprite is in the cell that its middle is in, a large one in all that it covers; what the player steers is never covered.
+/// Returns the cells, row-major. A sprite is in the cell of its middle, a large one in all that it covers; the avatar
+/// is never covered.
 pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<Cell<'a>> {
     let game = looks.game();
     let (columns, rows) = (state.size().0.max(1), state.size().1.max(1));
@@ -102,8 +103,8 @@ fn style(look: Look, below: Color, ascii: bool) -> Style {
     }
 }
 
-/// The columns, or rows, of a board of `limit` that a sprite covers: the one that its middle is in, and of a sprite larger
-/// than a cell all whose middle it covers.
+/// Returns the columns, or rows, of a board of `limit` that a sprite covers: the one of its middle, and for a sprite
+/// larger than a cell all whose middle it covers.
 fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
     let middle = from.saturating_add(size / 2).div_euclid(block);
     let first = from.saturating_add(block / 2).div_euclid(block).min(middle);
@@ -113,14 +114,14 @@ fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
     first.clamp(0, limit)..end.clamp(0, limit)
 }
 
-/// Light enough to be read on a dark ground.
+/// Returns a colour light enough to be read on a dark background.
 fn light(Colour(parts): Colour) -> Color {
     let brightest = parts.into_iter().max().unwrap_or(0);
     let lift = 160_u8.saturating_sub(brightest);
     indexed(Colour(parts.map(|part| part.saturating_add(lift))))
 }
 
-/// The nearest colour of the 6 × 6 × 6 cube of terminals with 256 colours.
+/// Returns the nearest colour of the 6 × 6 × 6 cube of terminals with 256 colours.
 fn indexed(Colour(parts): Colour) -> Color {
     // The steps of the cube: 0, 95, 135, 175, 215, 255.
     let step = |part: u8| match part {

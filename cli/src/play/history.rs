@@ -1,15 +1,15 @@
-//! An episode in the making that can be taken back tick by tick.
+//! An episode in progress that can be undone tick by tick.
 
 use engine::{Action, Episode, Game, Level, Seed, State};
 
-/// Ticks between two states that are kept: taking back a tick replays at most so many.
+/// Ticks between two stored states: undoing a tick replays at most this many.
 const STRIDE: usize = 32;
 
-/// What has been played, and the state that it led to.
+/// The actions played, and the state that they led to.
 pub(crate) struct History {
     episode: Episode,
     state: State,
-    /// After 0, [`STRIDE`], 2 × [`STRIDE`] … ticks.
+    /// The states after 0, [`STRIDE`], 2 × [`STRIDE`] … ticks.
     kept: Vec<State>,
 }
 
@@ -38,8 +38,8 @@ impl History {
         }
     }
 
-    /// Takes back the last tick; nothing at the start. The same action leads to the same state again: chance is taken back,
-    /// too.
+    /// Undoes the last tick; does nothing at the start. The random state is undone too, so the same action leads to
+    /// the same state again.
     pub(crate) fn take_back(&mut self, game: &Game) {
         let Some(ticks) = self.ticks().checked_sub(1) else { return };
         self.kept.truncate(ticks / STRIDE + 1);

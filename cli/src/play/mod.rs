@@ -1,7 +1,7 @@
-//! `arcade play` without its terminal, and then with it.
+//! The interactive player of `arcade play`, with and without its terminal.
 //!
-//! [`session`] is what has been played and what a command does to it; [`view`] is what that looks like; neither knows a
-//! terminal, a clock or a file. [`screen`] is the terminal.
+//! [`session`] holds the episode and the effect of commands; [`view`] draws it; neither uses a terminal, a clock or a
+//! file. [`screen`] is the terminal.
 
 pub(crate) mod board;
 pub(crate) mod history;

@@ -1,4 +1,4 @@
-//! The terminal: keys in, frames out, and everything as it was afterwards.
+//! The terminal: keys in, frames out, and everything restored afterwards.
 
 use super::session::{Command, Session};
 use super::view::{MIN_SIZE, View};
@@ -12,10 +12,10 @@ use ratatui::crossterm::{cursor, execute, terminal};
 use std::io::{IsTerminal, Stderr};
 use std::time::Duration;
 
-/// How long to wait for a key, where no clock runs.
+/// The time to wait for a key if no clock runs.
 const IDLE: Duration = Duration::from_millis(500);
 
-/// Plays until the person at the keyboard quits. Draws on standard error, so that standard output keeps to the answer.
+/// Plays until the user quits. Draws on standard error, so that standard output holds only the answer.
 pub(crate) fn play(session: &mut Session, view: &View) -> Result<(), Failure> {
     if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
         return Err(Failure::malformed(
@@ -35,7 +35,7 @@ pub(crate) fn play(session: &mut Session, view: &View) -> Result<(), Failure> {
     screen.run(session, view).map_err(failed)
 }
 
-/// A terminal in raw mode, showing its other screen; put back when dropped, and before a panic is told.
+/// A terminal in raw mode, showing its alternate screen; restored when dropped, and before a panic is reported.
 struct Screen(Terminal<CrosstermBackend<Stderr>>);
 
 impl Screen {
@@ -45,7 +45,7 @@ impl Screen {
             restore();
             told(panic);
         }));
-        // From here on a failure drops the screen, which restores.
+        // From here on a failure drops the screen, which restores the terminal.
         let screen = Screen(Terminal::new(CrosstermBackend::new(std::io::stderr()))?);
         terminal::enable_raw_mode()?;
         execute!(std::io::stderr(), terminal::EnterAlternateScreen, cursor::Hide)?;
@@ -75,20 +75,20 @@ impl Screen {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        // Twice would put the cursor back to before what the panic has told.
+        // A second restore would move the cursor back above the panic message.
         if !std::thread::panicking() {
             restore();
         }
     }
 }
 
-/// As far as it goes: there is nobody left to tell.
+/// Restores the terminal, ignoring errors: there is no way to report them.
 fn restore() {
     let _ = terminal::disable_raw_mode();
     let _ = execute!(std::io::stderr(), terminal::LeaveAlternateScreen, cursor::Show);
 }
 
-/// What a key asks for.
+/// Returns the command of a key.
 fn command(key: KeyEvent) -> Option<Command> {
     if key.kind == KeyEventKind::Release {
         return None;

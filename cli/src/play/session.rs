@@ -1,4 +1,4 @@
-//! A session of play: who plays, what has been played, and what a command changes. No terminal, no clock.
+//! A session of play: the player, the episode, and the effects of commands. No terminal, no clock.
 
 use super::history::History;
 use agents::{Budget, Planner};
@@ -6,31 +6,31 @@ use engine::{Action, Episode, Game, Level, Seed, State};
 
 /// The most ticks a second.
 pub(crate) const MAX_PACE: u16 = 60;
-/// Lines that a page of the rules moves.
+/// The lines that Page Up and Page Down scroll the rules.
 const PAGE: u16 = 8;
 
-/// Who chooses the actions.
+/// The player that chooses the actions.
 pub(crate) enum Player {
-    /// Whoever sits at the keyboard.
+    /// The user at the keyboard.
     Person,
     /// A planner.
     Planner { name: String, planner: Box<dyn Planner + Send>, budget: Budget },
-    /// Nobody: these have been chosen before.
+    /// A recording, whose actions are already known.
     Recording(Vec<Action>),
 }
 
-/// What a key asks for.
+/// The command of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Command {
     /// Choose this action.
     Act(Action),
-    /// Hold the clock, or let it run.
+    /// Pause the clock, or let it run.
     Pause,
-    /// One tick, then hold the clock.
+    /// Play one tick, then pause the clock.
     Step,
-    /// Back to the start.
+    /// Return to the start.
     Restart,
-    /// Take back a tick.
+    /// Undo a tick.
     Undo,
     /// More ticks a second.
     Faster,
@@ -38,11 +38,11 @@ pub(crate) enum Command {
     Slower,
     /// Wait for keys, or let the clock run.
     TurnBased,
-    /// Later lines of the rules.
+    /// Scroll the rules down.
     Down,
-    /// Earlier ones.
+    /// Scroll the rules up.
     Up,
-    /// Enough.
+    /// Quit.
     Quit,
 }
 
@@ -53,19 +53,19 @@ pub(crate) struct Session {
     seed: Seed,
     player: Player,
     history: History,
-    /// A tick happens when a key chooses an action, and only then.
+    /// `true` if a tick happens only when a key chooses an action.
     turn_based: bool,
     paused: bool,
-    /// Ticks a second, if the clock decides.
+    /// Ticks a second, if the clock runs.
     pace: u16,
-    /// What the next tick will do: the last key since the tick before.
+    /// The action of the next tick: the last key since the tick before.
     chosen: Option<Action>,
     scroll: u16,
     over: bool,
 }
 
 impl Session {
-    /// At the start of an episode. Only a person can play turn by turn.
+    /// Begins a session at the start of an episode. Only a person can play turn by turn.
     pub(crate) fn begin(
         (game, level): (Game, Level),
         seed: Seed,
@@ -104,22 +104,22 @@ impl Session {
         self.pace
     }
 
-    /// Lines of the rules that are scrolled past.
+    /// Returns the number of rules lines scrolled past.
     pub(crate) fn scroll(&self) -> u16 {
         self.scroll
     }
 
-    /// Whether the person at the keyboard has had enough.
+    /// Returns `true` once the user has quit.
     pub(crate) fn is_over(&self) -> bool {
         self.over
     }
 
-    /// Whether the next tick comes with the clock rather than with a key.
+    /// Returns `true` if the next tick comes from the clock and not from a key.
     pub(crate) fn runs(&self) -> bool {
         !self.paused && !self.turn_based && !self.is_at_end()
     }
 
-    /// Whether no tick can follow.
+    /// Returns `true` if no tick can follow.
     pub(crate) fn is_at_end(&self) -> bool {
         let recorded = match &self.player {
             Player::Recording(actions) => self.history.ticks() >= actions.len(),
@@ -128,7 +128,7 @@ impl Session {
         recorded || self.state().is_over()
     }
 
-    /// Carries out a command.
+    /// Executes a command.
     pub(crate) fn obey(&mut self, command: Command) {
         match command {
             Command::Act(action) if matches!(self.player, Player::Person) => {
@@ -150,7 +150,7 @@ impl Session {
             Command::Undo => {
                 self.history.take_back(&self.game);
                 self.chosen = None;
-                // Else the clock would play on at once.
+                // Otherwise the clock would go on at once.
                 self.paused = !self.turn_based;
             }
             Command::Faster => self.pace = (self.pace + self.pace.div_ceil(4)).min(MAX_PACE),
@@ -165,7 +165,7 @@ impl Session {
         }
     }
 
-    /// Plays a tick, if one can follow: with what was chosen, or nothing.
+    /// Plays a tick, if one can follow: with the chosen action, or none.
     pub(crate) fn tick(&mut self) {
         if self.is_at_end() {
             return;
@@ -257,7 +257,7 @@ BasicGame
         }
         whole.obey(Command::Undo);
         assert!(whole.episode().actions.is_empty() && whole.episode().hashes.is_empty());
-        // Forwards again: the same, and a record that replays.
+        // Forwards again: the same states, and a record that replays.
         (0..100).for_each(|tick| whole.obey(Command::Act(action(tick))));
         assert!(whole.episode().replay(&whole.game, &whole.level).is_ok());
     }

@@ -1,4 +1,4 @@
-//! What a session looks like: the board, beside it what is held, the legend and the rules, below it the keys.
+//! The screen of a session: the board, beside it the resources, the legend and the rules, below it the keys.
 
 use super::board::{self, Cell, GROUND, Signs};
 use super::session::{Player, Session};
@@ -10,18 +10,18 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph, Wrap};
 use render::{Glyph, Looks};
 
-/// The fewest columns and rows of a terminal in which anything can be played.
+/// The smallest terminal in which anything can be played, in columns and rows.
 pub(crate) const MIN_SIZE: (u16, u16) = (36, 10);
 /// The fewest and most columns of the panel beside the board.
 const PANEL: (u16, u16) = (32, 64);
 
-/// What does not change in a session.
+/// The parts of the screen that do not change in a session.
 pub(crate) struct View {
     pub(crate) looks: Looks,
     pub(crate) signs: Signs,
     /// Game and level.
     pub(crate) title: String,
-    /// The rules in plain English, a line each.
+    /// The rules in plain English, one line for each.
     pub(crate) rules: Vec<String>,
 }
 
@@ -46,7 +46,7 @@ impl View {
             self.board(session, frame, tall);
             self.panel(session, frame, right);
         } else {
-            // No room beside it: above it, as far as the board leaves some.
+            // No room beside the board: above it, as far as the board leaves some.
             let status = self.status(session);
             let lines = (status.len() as u16).min(main.height / 3);
             let [top, rest] = Layout::vertical([Constraint::Length(lines), Constraint::Min(1)]).areas(main);
@@ -61,7 +61,7 @@ impl View {
         frame.render_widget(Paragraph::new(keys_of(session)).style(help).wrap(Wrap { trim: true }), keys);
     }
 
-    /// The part of the board around the player that fits.
+    /// Draws the part of the board around the player that fits.
     fn board(&self, session: &Session, frame: &mut Frame<'_>, area: Rect) {
         let block = Block::bordered().title(format!(" {} ", self.title));
         let inner = block.inner(area);
@@ -87,7 +87,7 @@ impl View {
         frame.render_widget(Paragraph::new(lines.map(line).collect::<Vec<_>>()), inner);
     }
 
-    /// Status, legend and rules, one below the other.
+    /// Draws status, legend and rules, one below the other.
     fn panel(&self, session: &Session, frame: &mut Frame<'_>, area: Rect) {
         let (status, legend) = (self.status(session), self.legend());
         let heights = [
@@ -148,7 +148,7 @@ impl View {
     }
 }
 
-/// Columns and rows of the board.
+/// Returns the columns and rows of the board.
 fn size(session: &Session) -> (u16, u16) {
     let side = |length: i32| u16::try_from(length).unwrap_or(0);
     let (columns, rows) = session.state().size();
@@ -159,14 +159,14 @@ fn indented(area: Rect) -> Rect {
     Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area }
 }
 
-/// Headings stand out.
+/// Styles a line of the rules; headings are bold.
 fn rule(line: &str) -> Line<'_> {
     let heading = !line.starts_with(' ') && line.ends_with(':');
     let style = if heading { Style::new().add_modifier(Modifier::BOLD) } else { Style::new() };
     Line::styled(line, style)
 }
 
-/// Who plays, and when the next tick comes.
+/// Returns the player, and the timing of the next tick.
 fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
     let who = match session.player() {

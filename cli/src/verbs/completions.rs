@@ -1,4 +1,4 @@
-//! `arcade completions`: what a shell needs to complete commands of arcade.
+//! `arcade completions`: scripts that let a shell complete commands of arcade.
 
 use crate::console::Console;
 use crate::failure::Answer;

@@ -1,4 +1,4 @@
-//! `arcade conformance`: is this engine the same as the reference?
+//! `arcade conformance`: comparison of this engine with the reference.
 
 use crate::conformance::{Difference, Trace, compare};
 use crate::console::Console;
@@ -39,7 +39,7 @@ struct Report {
 #[derive(Serialize)]
 struct Episode {
     trace: String,
-    /// Why the episode could not be played at all.
+    /// The reason why the episode could not be played at all.
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -89,7 +89,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(report.identical == report.episodes)
 }
 
-/// Game and path of every trace, sorted.
+/// Returns game and path of every trace, sorted.
 fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
     let mut names = input::sorted_entries(&args.traces)?;
     names.retain(|path| path.is_dir());
@@ -121,7 +121,7 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
     Ok(traces)
 }
 
-/// The compiled game, or why it does not compile.
+/// Returns the compiled game, or the reason why it does not compile.
 fn load_game(games: &Path, name: &str) -> Result<Result<Game, String>, Failure> {
     let folder = games.join(name);
     let Some(path) = input::first_file(&folder, ["game.txt", "game.vgdl"])? else {
@@ -136,7 +136,7 @@ fn load_game(games: &Path, name: &str) -> Result<Result<Game, String>, Failure> 
     }))
 }
 
-/// Ticks played and, if the engine differs, the episode's entry in the report.
+/// Returns the ticks played and, if the engine differs, the episode's entry in the report.
 fn replay(
     args: &Args,
     game: &Result<Game, String>,
@@ -153,7 +153,7 @@ fn replay(
             format!("{}: a trace of `{}` in the folder of `{name}`", path.display(), trace.header.game);
         return Err(Failure::malformed(message));
     }
-    // What the reference could not load must not load here, or stop before it starts.
+    // A game that the reference could not load must not load here either, or must stop before it starts.
     let broken = trace.header.engine_error.is_some();
     let game = match game {
         Ok(game) => game,

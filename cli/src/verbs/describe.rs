@@ -1,4 +1,4 @@
-//! `arcade describe`: the rules of a game in plain English, what kind of game it is, and what is certain of a level.
+//! `arcade describe`: the rules of a game in plain English, its kind, and the provable properties of a level.
 
 use crate::console::Console;
 use crate::diagnostics;
@@ -9,8 +9,8 @@ use engine::{Analysis, Digest};
 use serde::Serialize;
 use serde_json::json;
 
-/// Says in plain English how a game is played, won and lost, what its sprites do, what happens when they meet, and what
-/// kind of game it is; and, of a level, how much of it you can get to and which goals are out of reach.
+/// Describes in plain English how a game is played, won and lost, what its sprites do, what happens when they meet,
+/// and what kind of game it is; with a level, also how much of it you can reach and which goals are out of reach.
 ///
 /// Example: arcade describe hailglass 0
 #[derive(clap::Args)]
@@ -26,7 +26,7 @@ pub(crate) struct Args {
     as_reference: bool,
 }
 
-/// What is certain of a level.
+/// The proved properties of a level.
 #[derive(Serialize)]
 struct Prospects {
     level: String,

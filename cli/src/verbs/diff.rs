@@ -1,4 +1,4 @@
-//! `arcade diff`: two snapshots side by side.
+//! `arcade diff`: a comparison of two snapshots.
 
 use crate::console::Console;
 use crate::counted::count;
@@ -12,8 +12,8 @@ use snapshots::released::Released;
 use snapshots::rungs::RungDifference;
 use std::path::PathBuf;
 
-/// Compares two snapshots, the earlier first: what is new, kept, changed and gone; how difficulties, kinds, mechanics and win
-/// rates differ; how far apart the games are.
+/// Compares two snapshots, the earlier first: new, kept, changed and removed items; differences of difficulties,
+/// kinds, mechanics and win rates; and the distance between the games.
 ///
 /// Every figure is explained in `arcade docs diff`. --json has all of them, item by item.
 ///
@@ -36,9 +36,9 @@ pub(crate) struct Args {
     jobs: Option<usize>,
 }
 
-/// Values of a distribution that are listed, the most frequent first.
+/// The most values of a distribution to list, the most frequent first.
 const LISTED: usize = 12;
-/// Kept and changed items that are listed.
+/// The most kept and changed items to list.
 const RETURNED: usize = 20;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -105,7 +105,7 @@ fn counts(changes: &Changes) -> String {
     format!("{new} new, {kept} kept, {changed} kept in another dress, {gone} gone")
 }
 
-/// How far apart, and whether that is chance.
+/// Describes a distance, and whether it may be due to chance.
 fn verdict(distance: Option<f64>, p: Option<f64>) -> String {
     match (distance, p) {
         (Some(distance), Some(p)) => format!("{distance:.2} apart, p = {p:.3}"),
@@ -152,7 +152,7 @@ fn number(shift: &NumberShift, console: &Console) {
     ));
 }
 
-/// A figure in three digits, or as many as stand before its point, without zeros that say nothing.
+/// Rounds a figure to three digits, or to all digits before its point, without trailing zeros.
 fn rounded(figure: f64) -> String {
     let decimals = match figure.abs() {
         size if size >= 100.0 => 1,

@@ -8,8 +8,8 @@ use std::fmt::Write;
 
 /// Prints a page of the manual, as text; without PAGE, lists the pages.
 ///
-/// The code of a diagnostic is a page (no-avatar), and so is every sprite class, effect and termination of VGDL (killSprite).
-/// Names in [brackets] in a page are pages themselves. --json has the page as Markdown.
+/// The code of a diagnostic is a page (no-avatar), and so is every sprite class, effect and termination of VGDL
+/// (killSprite). Names in [brackets] in a page are pages themselves. --json prints the page as Markdown.
 ///
 /// Example: arcade docs recipes
 #[derive(clap::Args)]
@@ -36,9 +36,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 /// The folders whose pages are known by their names, such as codes of diagnostics: they are listed without titles.
 const NAMED: [&str; 4] = ["diagnostics", "ontology/effects", "ontology/sprites", "ontology/terminations"];
-/// The folder whose pages come last of those with titles.
+/// The folder whose pages are the last of those with titles.
 const DECISIONS: &str = "decisions";
-/// Columns of a line of names.
+/// The columns of a line of names.
 const COLUMNS: usize = 100;
 
 fn list(pages: &[Page]) -> String {

@@ -1,4 +1,4 @@
-//! `arcade export`: a snapshot as a dataset, as folders of games, as one file.
+//! `arcade export`: a snapshot as a dataset, as folders of games, or as one file.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -13,12 +13,12 @@ use snapshots::twin::Twin;
 use snapshots::{Draft, SnapshotError};
 use std::path::PathBuf;
 
-/// Writes a snapshot for other tools: as a dataset, as folders of games, as one file.
+/// Writes a snapshot for other tools: as a dataset, as folders of games, or as one file.
 ///
-/// A dataset has one row a level, with rules, level, legend, kind, difficulty and digests; PATH gets README.md, the dataset card
-/// that hubs read, and one file of rows in data/. Rows hold no solutions unless asked for. The columns are explained in
-/// `arcade docs export`. With --twin, every game has another surface and the same mechanics (see `arcade docs twins`). The same snapshot
-/// gives the same bytes.
+/// A dataset has one row a level, with rules, level, legend, kind, difficulty and digests; PATH gets README.md, the
+/// dataset card that hubs read, and one file of rows in data/. Rows hold no solutions unless requested. The columns
+/// are explained in `arcade docs export`. With --twin, every game has a different surface and the same mechanics (see
+/// `arcade docs twins`). The same snapshot gives the same bytes.
 ///
 /// Exit status 0: written. 1: the snapshot does not verify, and nothing is written. 2: not a snapshot.
 ///
@@ -28,13 +28,13 @@ pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst
     #[arg(value_name = "SNAPSHOT")]
     snapshot: PathBuf,
-    /// What to write
+    /// The format to write
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: FormatName,
-    /// Folder to write, absent or empty; for an archive, a file that is not there
+    /// Folder to write, absent or empty; for an archive, a file that does not exist
     #[arg(long, value_name = "PATH")]
     out: PathBuf,
-    /// Not the games but their twins: masked, mirrored or renamed
+    /// Write the twins of the games instead: masked, mirrored or renamed
     #[arg(long, value_name = "TWIN")]
     twin: Option<Twin>,
     /// Add the actions that win each level
@@ -52,14 +52,14 @@ enum FormatName {
     /// Apache Parquet
     #[cfg(feature = "parquet")]
     Parquet,
-    /// A folder for each game, with game.vgdl and its levels: what `arcade evaluate` and `arcade run` take
+    /// A folder for each game, with game.vgdl and its levels, as `arcade evaluate` and `arcade run` take them
     Games,
     /// The release itself as one .tar.zst, which `arcade verify` takes
     Archive,
 }
 
 impl FormatName {
-    /// None for what is no excerpt.
+    /// Returns the export format; none for an archive.
     fn of_export(self) -> Option<Format> {
         match self {
             FormatName::Jsonl => Some(Format::JsonLines),
@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             "folders of games hold no solutions: leave --solutions away, or choose --format jsonl",
         ));
     }
-    // Who names a folder that is taken learns it before the work.
+    // A folder that is taken is reported before the work.
     let draft = Draft::create(&args.out).map_err(verify::failure)?;
     let released = match in_pool(args.jobs, || Released::read(&args.snapshot))? {
         Ok(released) => released,
@@ -119,7 +119,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// The release itself, as one file.
+/// Writes the release itself, as one file.
 fn archive(args: &Args, console: &Console) -> Answer {
     if args.twin.is_some() || args.solutions {
         return Err(Failure::malformed(
@@ -144,7 +144,7 @@ fn archive(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// A snapshot that does not verify is an answer, with all that is wrong with it.
+/// Reports a snapshot that does not verify: that is an answer, with all its problems.
 pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
     match error {
         ReleasedError::Unsound(verification) => {

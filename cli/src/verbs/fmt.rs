@@ -6,7 +6,7 @@ use crate::{diagnostics, input};
 use engine::{Diagnostics, syntax};
 use serde_json::json;
 
-/// Prints a game in canonical form: sections in order, four blanks an indent, comments kept.
+/// Prints a game in canonical form: sections in order, an indent of four blanks, comments kept.
 ///
 /// Example: arcade fmt my-game.vgdl > tidy.vgdl
 #[derive(clap::Args)]
@@ -23,7 +23,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let source = input::game(&args.game)?.source;
     let (description, problems) = syntax::parse(&source.text);
     if Diagnostics::has_errors(&problems) {
-        // A line that cannot be read has no canonical form: printing the rest would lose it.
+        // A line that cannot be parsed has no canonical form: printing the rest would lose it.
         return Err(diagnostics::failure(&source, &problems));
     }
     let text = syntax::print(&description);

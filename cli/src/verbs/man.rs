@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// The pages with the names of their files; that of arcade itself comes first.
+/// Returns the pages with the names of their files; that of arcade itself comes first.
 fn pages() -> Result<Vec<(String, String)>, Failure> {
     let mut command = usage::command().disable_help_subcommand(true);
     command.build();
@@ -46,7 +46,7 @@ fn pages() -> Result<Vec<(String, String)>, Failure> {
 }
 
 fn add(command: &Command, pages: &mut Vec<(String, String)>) -> Result<(), Failure> {
-    // A built subcommand is called by its whole path, such as `arcade-recipes-show`.
+    // A built subcommand has its whole path as its name, such as `arcade-recipes-show`.
     let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
     let mut page = Vec::new();
     let man = Man::new(command.clone()).date("").manual("Infinite Arcade");

@@ -1,4 +1,4 @@
-//! `arcade merge`: shards of a release, joined.
+//! `arcade merge`: joins the shards of a release.
 
 use crate::console::Console;
 use crate::embedded;
@@ -9,7 +9,7 @@ use crate::verbs::verify::failure;
 use snapshots::mint::{MergeError, Plan, Shards};
 use std::path::PathBuf;
 
-/// Joins the shards of a release: the same snapshot, bit for bit, as minting it in one piece.
+/// Joins the shards of a release: the result is bit for bit the snapshot of a mint in one piece.
 ///
 /// Example: arcade merge shard1 shard2 shard3 shard4 --out releases/medium
 #[derive(clap::Args)]

@@ -1,4 +1,4 @@
-//! One file per verb: its flags, what it does, what it prints.
+//! The verbs, one file each: flags, behaviour and output.
 
 pub(crate) mod clean;
 pub(crate) mod completions;

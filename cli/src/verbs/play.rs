@@ -14,11 +14,12 @@ use render::{Looks, Symbols};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// Plays a level in the terminal: by hand, or by a planner that you watch, or a recorded episode again.
+/// Plays a level in the terminal: by hand, by a planner that you watch, or as a replay of a recorded episode.
 ///
-/// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` takes one back, `r` restarts, `+`
-/// and `-` change the pace, `t` changes between turn by turn and real time, Page Up and Page Down scroll the rules, `q`
-/// quits. A game in which nothing happens unless you act waits for you; in the others the clock runs.
+/// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` takes one back, `r`
+/// restarts, `+` and `-` change the pace, `t` changes between turn by turn and real time, Page Up and Page Down
+/// scroll the rules, `q` quits. A game in which nothing happens unless you act waits for you; in the others the clock
+/// runs.
 ///
 /// Example: arcade play quiet-jars 0 --record win.json
 #[derive(clap::Args)]
@@ -26,30 +27,30 @@ pub(crate) struct Args {
     /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
-    /// A level file, or the number of one of the game's own levels; the recording's level, or the first, if none is named
+    /// A level file, or the number of one of the game's own levels; by default the recording's level, or the first
     #[arg(value_name = "LEVEL")]
     level: Option<String>,
     #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls of one of the planner's decisions, unless it is named with its own: `mcts:500`
+    /// Forward-model calls of a decision, for a planner without a number of its own such as `mcts:500`
     #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
     budget: u64,
-    /// Text that the seeds of chance and planner come from
+    /// Text to derive the seeds of the game and the planner from
     #[arg(long, value_name = "TEXT", default_value = "play")]
     seed: String,
-    /// Write what was played to this file when you quit; `arcade render --episode` shows it
+    /// Write the episode to this file when you quit; `arcade render --episode` shows it
     #[arg(long, value_name = "FILE", conflicts_with = "replay")]
     record: Option<PathBuf>,
     /// Watch a recorded episode
     #[arg(long, value_name = "FILE", conflicts_with = "planner")]
     replay: Option<PathBuf>,
-    /// Ticks a second, where the clock runs
+    /// Ticks a second, if the clock runs
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_PACE)))]
     fps: u16,
     /// Wait for a key before each tick
     #[arg(long, conflicts_with_all = ["real_time", "planner", "replay"])]
     turn_based: bool,
-    /// Let the clock run, whatever the game
+    /// Let the clock run in any game
     #[arg(long)]
     real_time: bool,
     /// Use no symbols beyond ASCII
@@ -118,7 +119,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// The game and the file of the level, without the folders that lead there.
+/// Returns the game and the file of the level, without their folders.
 fn title(game: &str, level: &str) -> String {
     let file = |name: &str| {
         Path::new(name).file_name().map_or(name.to_owned(), |n| n.to_string_lossy().into_owned())

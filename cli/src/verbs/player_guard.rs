@@ -1,4 +1,4 @@
-//! `arcade player-guard`: stands between `arcade evaluate` and a player's program. Not for people.
+//! `arcade player-guard`: supervises a player's program for `arcade evaluate`. Not for people.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 #[command(hide = true)]
 pub(crate) struct Args {
-    /// The folder in which the program runs, removed in the end
+    /// The folder in which the program runs, removed at the end
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
     /// The program and its arguments
@@ -15,7 +15,7 @@ pub(crate) struct Args {
     command: Vec<OsString>,
 }
 
-/// The command of a guard: this very program, even if its file is replaced meanwhile. Empty where there is none.
+/// Returns the command of a guard: this very program, even if its file is replaced meanwhile. Empty if there is none.
 pub(crate) fn command() -> Vec<OsString> {
     let own = PathBuf::from("/proc/self/exe");
     let program = if own.exists() { Some(own) } else { std::env::current_exe().ok() };

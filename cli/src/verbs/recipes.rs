@@ -6,7 +6,7 @@ use crate::failure::{Answer, Failure};
 use serde_json::json;
 use snapshots::Recipe;
 
-/// Lists the recipes that come with arcade, or prints one as it is written: the start of one of your own.
+/// Lists the recipes that come with arcade, or prints one unchanged: a starting point for your own.
 ///
 /// Example: arcade recipes show starter > mine.toml
 #[derive(clap::Args)]
@@ -17,7 +17,7 @@ pub(crate) struct Args {
 
 #[derive(clap::Subcommand)]
 enum What {
-    /// Prints a recipe: TOML, byte for byte as it is minted from
+    /// Prints a recipe: the exact TOML that is minted
     ///
     /// Example: arcade recipes show starter > mine.toml
     Show {

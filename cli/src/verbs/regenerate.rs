@@ -1,4 +1,4 @@
-//! `arcade regenerate`: does the seed give these bytes?
+//! `arcade regenerate`: a check that the recipe reproduces a snapshot.
 
 use crate::console::Console;
 use crate::counted::count;
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
 ///
-/// Exit status 0: identical. 1: not, with every differing file named. 2: this arcade cannot mint it.
+/// Exit status 0: identical. 1: not identical, with every differing file named. 2: this arcade cannot mint it.
 ///
 /// Example: arcade regenerate releases/starter
 #[derive(clap::Args)]
@@ -28,7 +28,7 @@ pub(crate) struct Args {
     /// Also write the new snapshot to this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Go on where an interrupted run with the same --out stopped
+    /// Resume an interrupted run with the same --out
     #[arg(long, requires = "out")]
     resume: bool,
     /// Threads; all cores if not given
@@ -37,7 +37,7 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    /// The command that goes on after an interruption.
+    /// Returns the command that resumes after an interruption.
     fn resumed(&self, out: &Path) -> String {
         let [verb, to, resume] = ["regenerate", "--out", "--resume"].map(OsStr::new);
         shell::command([verb, self.snapshot.as_os_str(), to, out.as_os_str(), resume])

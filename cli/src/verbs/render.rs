@@ -9,13 +9,13 @@ use render::{Animation, Looks, RenderError, Style, Symbols};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// The most pixels of a GIF's longer side, where the user names no scale.
+/// The most pixels of a GIF's longer side, if the user gives no scale.
 const GIF_SIDE: u32 = 480;
 
-/// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the ending of the file's name.
+/// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the extension of the file.
 ///
-/// Shape says what a thing is for: spikes, teeth and angry eyes harm, a star wins, bricks block, the figure in the bright
-/// ring is the player. Colour is the game's own.
+/// The shape shows the role of a sprite: spikes, teeth and angry eyes harm, a star wins, bricks block, the figure in
+/// the bright ring is the player. The colour is the game's own.
 ///
 /// Example: arcade render hailglass 0 --planner mcts --budget 500 -o hailglass.gif
 #[derive(clap::Args)]
@@ -23,24 +23,25 @@ pub(crate) struct Args {
     /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
-    /// A level file, or the number of one of the game's own levels; the episode's level, or the first, if none is named
+    /// A level file, or the number of one of the game's own levels; by default the episode's level, or the first
     #[arg(value_name = "LEVEL")]
     level: Option<String>,
-    /// Show this recorded episode: what `arcade validate --witness` or `arcade play --record` wrote, or a snapshot's witness
+    /// Show this recorded episode: a file of `arcade validate --witness` or `arcade play --record`, or a snapshot's
+    /// witness
     #[arg(long, value_name = "FILE", conflicts_with = "planner")]
     episode: Option<PathBuf>,
     #[arg(long, value_name = "NAME", help = format!("Let this planner play the episode: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls of one of the planner's decisions, unless it is named with its own: `mcts:500`
+    /// Forward-model calls of a decision, for a planner without a number of its own such as `mcts:500`
     #[arg(long, value_name = "CALLS", default_value_t = 1000)]
     budget: u64,
-    /// Text that the seeds of chance and planner come from
+    /// Text to derive the seeds of the game and the planner from
     #[arg(long, value_name = "TEXT", default_value = "render")]
     seed: String,
-    /// Ticks that the planner plays at most
+    /// The most ticks that the planner plays
     #[arg(long, value_name = "N", default_value_t = 2000)]
     max_ticks: usize,
-    /// The state after so many ticks of the episode; of a GIF, its end. The episode's last state if left out
+    /// Show the state after this tick of the episode; of a GIF, its end. By default the episode's last state
     #[arg(long, value_name = "N")]
     tick: Option<usize>,
     /// Pixels of a cell
@@ -52,13 +53,13 @@ pub(crate) struct Args {
     /// Add the sprite types of the game with their names
     #[arg(long)]
     legend: bool,
-    /// Leave out the caption: tick, score, what the avatar holds, outcome
+    /// Leave out the caption: tick, score, resources of the avatar, outcome
     #[arg(long)]
     bare: bool,
     /// Load the game as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
-    /// Where to: a name ending in .png, .svg, .gif or .txt; `-` for text on standard output
+    /// The file to write, ending in .png, .svg, .gif or .txt; `-` for text on standard output
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
 }
@@ -99,13 +100,13 @@ impl Format {
     }
 }
 
-/// What is drawn.
+/// The subject of the picture.
 struct Subject<'a> {
     looks: Looks,
     symbols: Symbols,
     game: &'a Game,
     level: &'a Level,
-    /// The episode, if there is one, as long as it is shown.
+    /// The actions of the episode, if there is one, up to the end of the picture.
     actions: &'a [engine::Action],
     seed: Seed,
 }
@@ -173,14 +174,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 fn played(args: &Args, spec: &PlannerSpec, game: &Game, level: &Level, seed: Seed) -> Episode {
     let budget = spec.budget().unwrap_or(Budget(args.budget));
-    // No more is played than is shown.
+    // Play no further than the tick to show.
     let ticks = args.tick.map_or(args.max_ticks, |tick| tick.min(args.max_ticks));
     let limits = Limits { ticks, ..Limits::default() };
     let mut planner = spec.player(seed.child("planner", 0));
     play(game, level, &mut planner, budget, seed.child("chance", 0), limits).episode
 }
 
-/// The actions up to the tick that is shown.
+/// Returns the actions up to the tick that is shown.
 fn shown<'a>(
     args: &Args,
     format: Format,
@@ -234,7 +235,7 @@ impl Subject<'_> {
     fn gif(&self, args: &Args, console: &Console) -> Result<Vec<u8>, Failure> {
         let mut state = self.start();
         let draw = |state: &State| self.picture(args, Format::Gif, state);
-        // With the legend, so that the palette has the colours of what appears later.
+        // Includes the legend, so that the palette has the colours of types that appear later.
         let style = Style { legend: true, ..self.style(args, Format::Gif) };
         let legend = render::picture(&self.looks, &state, &style).map_err(failed)?;
         let specimens = [draw(&state)?, draw(&self.last())?, legend];
@@ -251,7 +252,7 @@ impl Subject<'_> {
     }
 }
 
-/// Wrong sizes are the user's to correct.
+/// A wrong size is an error of the user.
 fn failed(error: RenderError) -> Failure {
     let help = "--scale sets the pixels of a cell";
     match error {

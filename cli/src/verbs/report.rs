@@ -1,4 +1,4 @@
-//! `arcade report`: what do the results of evaluations say?
+//! `arcade report`: a comparison of evaluation results.
 
 use crate::console::Console;
 use crate::evaluation_report::{Results, write_evaluation_report};
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// Compares the results of evaluations: tables, plots and one page.
 ///
-/// Every number is computed again from the logs, whose episodes are played again. DIR gets report.html (one file, for any
+/// Every number is recomputed from the logs, whose episodes are replayed. DIR gets report.html (one file, for any
 /// browser), report.md, report.json, and every table as tables/*.csv and tables/*.tex.
 ///
 /// Example: arcade report results/random results/mcts-100 --out report
@@ -25,7 +25,7 @@ pub(crate) struct Args {
     /// Folder for the report, absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Levels of which the page shows each player's first episode step by step; 0 for none
+    /// The number of levels for which the page shows each player's first episode step by step; 0 for none
     #[arg(long, value_name = "N", default_value_t = 4)]
     replays: usize,
     /// Threads; all cores if not given. Changes no byte
@@ -34,7 +34,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    // Who names a folder that is taken learns it before the work.
+    // A folder that is taken is reported before the work.
     let draft = protected::draft(&args.out)?;
     let open = |folder: &PathBuf| Evaluation::open(folder);
     let evaluations = args.results.iter().map(open).collect::<Result<Vec<_>, EvaluationError>>();

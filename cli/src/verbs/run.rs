@@ -1,4 +1,4 @@
-//! `arcade run`: how often do planners win?
+//! `arcade run`: win rates of planners.
 
 use crate::console::{Console, Stopwatch};
 use crate::diagnostics;
@@ -24,7 +24,7 @@ pub(crate) struct Args {
     /// Games, or folders of games; corpus games by name
     #[arg(value_name = "GAMES", required = true)]
     games: Vec<String>,
-    /// Planners, each perhaps with its own budget: `mcts,olets:500` (see `arcade docs planners`)
+    /// Planners, each optionally with its own budget: `mcts,olets:500` (see `arcade docs planners`)
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "mcts")]
     planner: Vec<String>,
     /// Forward-model calls of one decision
@@ -33,19 +33,19 @@ pub(crate) struct Args {
     /// Episodes of each planner on each level
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     runs: u64,
-    /// Ticks of an episode at most
+    /// The most ticks of an episode
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     max_ticks: u64,
-    /// Text that all seeds come from
+    /// Text to derive all seeds from
     #[arg(long, value_name = "TEXT", default_value = "run")]
     seed: String,
-    /// Also a row for each level
+    /// Add a row for each level
     #[arg(long)]
     by_level: bool,
     /// Load games as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
-    /// Also write one line an episode to this file
+    /// Also write one line for each episode to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Threads; all cores if not given. Changes no figure
@@ -67,7 +67,7 @@ struct Entry<'a> {
     run: u64,
 }
 
-/// An episode that was played: a line of `--csv`.
+/// A played episode: a line of `--csv`.
 #[derive(Serialize)]
 struct Line<'a> {
     game: &'a str,
@@ -83,7 +83,7 @@ struct Line<'a> {
     seconds: f64,
 }
 
-/// The answer in `--json`, as the page `run` of the docs describes it.
+/// The `--json` answer, as the page `run` of the docs describes it.
 #[derive(Serialize)]
 struct Report<'a> {
     semantics: u32,
@@ -94,12 +94,12 @@ struct Report<'a> {
     rows: Vec<Row<'a>>,
 }
 
-/// How some episodes of one planner went.
+/// The results of some episodes of one planner.
 #[derive(Serialize)]
 struct Row<'a> {
-    /// None: all games together.
+    /// None for all games together.
     game: Option<&'a str>,
-    /// None: all levels together.
+    /// None for all levels together.
     level: Option<usize>,
     planner: &'a str,
     budget: u64,
@@ -148,7 +148,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         as_reference: args.as_reference,
         rows: rows(args, &subjects, &planners, &entries, &lines),
     };
-    // First of all the answer: it is not lost where the file cannot be written.
+    // Print the answer first: it is not lost if the file cannot be written.
     console.document(&report)?;
     console.say(table(&report.rows).trim_end());
     if let Some(path) = &args.csv {
@@ -172,7 +172,7 @@ fn refuse_twice(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses a place for the table where no file can be, before anything is played.
+/// Refuses an impossible path for the table before anything is played.
 fn check_place(path: &Path) -> Result<(), Failure> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let problem = match (path.is_dir(), folder.is_dir()) {
@@ -203,7 +203,8 @@ fn level(game: &Game, text: &Named) -> Result<Level, Failure> {
     game.level(&text.text).map_err(|problems| diagnostics::failure(text, &problems.0))
 }
 
-/// Seeds hang on game, level, planner and run only: adding a game or a planner changes no other episode.
+/// Plays an episode. Its seed depends only on game, level, planner and run: adding a game or a planner changes no
+/// other episode.
 fn play_entry<'a>(args: &Args, entry: &Entry<'a>) -> Line<'a> {
     let Entry { subject, level, planner, run } = *entry;
     let seed = Seed::from_text(&args.seed)
@@ -240,7 +241,7 @@ fn budget(args: &Args, planner: &PlannerSpec) -> u64 {
     planner.budget().map_or(args.budget, |Budget(calls)| calls)
 }
 
-/// Says how fast it went: for each planner, calls in a second of one thread.
+/// Reports the speed of each planner: calls in a second of one thread.
 fn speeds(
     console: &Console,
     planners: &[PlannerSpec],

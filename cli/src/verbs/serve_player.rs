@@ -1,13 +1,13 @@
-//! `arcade serve-player`: a player of known strength behind chat completions, for this machine only.
+//! `arcade serve-player`: a player of known strength behind a chat completions API, for this machine only.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use evaluation::serve::{PromptPlayer, Server};
 use serde_json::json;
 
-/// Answers OpenAI-compatible chat completions on 127.0.0.1 with a player that knows nothing but the prompt, until it is
-/// killed: `random`, `reflex` (the shortest way, by the board and the rules of the prompt) or `planner:NAME[:CALLS]` (on the
-/// position that the prompt shows, if that is all there is to know). The first line that it prints has the base URL.
+/// Answers OpenAI-compatible chat completions on 127.0.0.1, until it is killed, with a player that knows only the
+/// prompt: `random`, `reflex` (the shortest way, by the board and the rules of the prompt) or `planner:NAME[:CALLS]`
+/// (on the position that the prompt shows, if the prompt is complete). The first line of output has the base URL.
 ///
 /// Example: arcade serve-player --player reflex --port 8090
 #[derive(clap::Args)]

@@ -77,7 +77,7 @@ impl Trace {
         Trace { lines: plain.lines().map(|line| serde_json::from_str(line).unwrap()).collect() }
     }
 
-    /// The first tick, from `from` on, that fulfils a condition.
+    /// Returns the first tick, from `from` on, that fulfils a condition.
     fn tick(&self, from: usize, condition: impl Fn(&Value) -> bool) -> usize {
         let found = self.lines[from + 2..].iter().position(condition);
         from + found.expect("the trace has such a tick")
@@ -87,7 +87,7 @@ impl Trace {
         &mut self.lines[tick + 2]
     }
 
-    /// Alters one thing at a tick and expects it to be reported there, first and by that name.
+    /// Alters one field at a tick and expects it to be reported there, first and by that name.
     #[track_caller]
     fn check(&self, reference: &Path, tick: usize, field: &str, alter: impl FnOnce(&mut Value)) {
         let mut altered = Trace { lines: self.lines.clone() };
@@ -180,7 +180,7 @@ fn the_sign_of_zero_counts() {
     trace.check(&reference, tick, "orientation.x", |line| line["mod"][0][6] = json!(-0.0));
 }
 
-/// A game with counters of our own, one that the reference dies of, and one that it ends because of its messages.
+/// A game with its own counters, one that crashes the reference, and one that it ends because of its messages.
 #[test]
 fn counters_notes_and_errors_of_the_reference_are_compared() {
     let folder = tempfile::tempdir().unwrap();

@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-/// A model without a will of its own: the same prompt, the same answer, and now and then none.
+/// A deterministic model: the same prompt gives the same answer, sometimes an unusable one.
 fn answer(_: usize, asked: &Asked) -> Act {
     let messages = &asked.json()["messages"];
     let draw = Digest::of(messages.to_string().as_bytes()).to_string().as_bytes()[0] % 6;
@@ -21,7 +21,7 @@ fn answer(_: usize, asked: &Asked) -> Act {
     Act::completion(words[usize::from(draw)])
 }
 
-/// The logs of a results folder, without times.
+/// Returns the logs of a results folder, without times.
 fn logs(folder: &Path) -> BTreeMap<String, Vec<Event>> {
     let names = files(&folder.join("episodes")).into_keys();
     let timeless = |name: &String| {
@@ -37,7 +37,7 @@ fn json(output: &std::process::Output) -> Value {
 
 const STEPS: &str = "12";
 
-/// The arguments of an evaluation of a model on two small levels.
+/// Returns the arguments of an evaluation of a model on two small levels.
 fn asking<'a>(url: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let mut args = vec!["--json", "evaluate", "hailglass", "--levels", "0,1", "--model", "scripted"];
     args.extend(["--base-url", url, "--max-steps", STEPS, "--out", "results"]);
@@ -64,7 +64,7 @@ fn players_that_come_with_the_suite() {
     assert_eq!(logs(&home.path().join("one")), logs(&home.path().join("two")));
 }
 
-/// Someone at a terminal sees what a model is shown, and may leave in the middle.
+/// A person at a terminal sees the prompts of a model, and may leave in the middle.
 #[test]
 fn people_play_and_come_back() {
     use std::io::Write;
@@ -128,8 +128,8 @@ fn what_a_model_says_is_recorded_and_counted() {
     }
 }
 
-/// Killed at many moments and resumed: the logs are those of a run that nobody disturbed, and no answer that was recorded is
-/// asked for again.
+/// Killed at many moments and resumed: the logs equal those of an undisturbed run, and no recorded answer is
+/// requested again.
 #[test]
 fn killed_evaluations_lose_nothing() {
     let slow = |number: usize, asked: &Asked| {
@@ -149,7 +149,7 @@ fn killed_evaluations_lose_nothing() {
     let kills = 20;
     for kill in 0..kills {
         let mut command = arcade(&broken);
-        // Nothing can be resumed before there is something.
+        // Nothing can be resumed before the folder exists.
         command
             .args(asking(&url, &more))
             .args((kill > 0).then_some("--resume"))
@@ -157,7 +157,7 @@ fn killed_evaluations_lose_nothing() {
             .stderr(Stdio::null());
         let mut child = command.spawn().unwrap();
         let answered = server.asked().len();
-        // The moment is chosen by what has happened, so that slow machines are killed in the same places.
+        // The moment depends on progress, so that slow machines are killed in the same places.
         while server.asked().len() < answered + 1 + kill % 7 && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(1));
         }
@@ -168,12 +168,12 @@ fn killed_evaluations_lose_nothing() {
     let done = json(&run(&broken, &asking(&url, &[&more[..], &["--resume"]].concat()), 0));
     assert_eq!(logs(&broken.join("results")), logs(&whole.join("results")));
     assert_eq!(done["spent"], spent);
-    // What was under way at a kill was asked for again, and nothing else.
+    // Only the requests in progress at a kill were repeated.
     let (asked, needed) = (server.asked().len(), undisturbed.asked().len());
     assert!(asked <= needed + 2 * kills, "{asked} requests for {needed} answers");
 }
 
-/// What servers do is never the model's doing: the episode stays open, no step is lost, and --resume goes on.
+/// Server failures are not the model's fault: the episode stays open, no step is lost, and --resume goes on.
 #[test]
 fn failing_servers_leave_episodes_open() {
     let bad: [fn() -> Act; 5] = [
@@ -197,7 +197,8 @@ fn failing_servers_leave_episodes_open() {
             .filter(|event| matches!(event, Event::Halt { reason, .. } if reason == "infrastructure"));
         assert!(halts.count() >= 1, "{kind}");
         drop(failing);
-        // The server is back, at another port: where it is has no part in the answers of a model on this machine.
+        // The server is back, at another port: its address has no influence on the answers of a model on this
+        // machine.
         let server = Server::start(answer);
         let url = server.base_url();
         let again = [&once[..], &["--resume"]].concat();
@@ -223,7 +224,7 @@ fn caps_hold_and_can_be_raised() {
     let capped = json(&run(home.path(), &asking(&url, &["--max-requests", "7"]), 1));
     assert_eq!(capped["spent"]["requests"], 7);
     assert_eq!(server.asked().len(), 7);
-    // Every count of them is the same, also where several episodes meet the cap at once.
+    // All counts of them agree, even if several episodes reach the cap at once.
     assert_eq!(capped["tally"]["halted"], "the next request would exceed --max-requests 7");
     let told = json(&run(home.path(), &["--json", "report", "results", "--out", "capped"], 0));
     let player = &told["players"][0];
@@ -311,13 +312,13 @@ fn malformed_questions_are_told() {
     std::fs::write(home.path().join("full/mine"), "").unwrap();
     let full = refusal(&["hailglass", "--player", "random", "--out", "full"]);
     assert!(full.contains("not empty") && !full.contains("--resume goes on"), "{full}");
-    // Nothing is written before a key is there.
+    // Nothing is written before there is a key.
     let mut keyless = arcade(home.path());
     keyless.args(["evaluate", "hailglass", "--model", "openai:m", "--out", "k"]).env_remove("OPENAI_API_KEY");
     let told = keyless.output().unwrap();
     assert_eq!(told.status.code(), Some(2));
     assert!(text(&told.stderr).contains("OPENAI_API_KEY is not set") && !home.path().join("k").exists());
-    // Another question than the one that the folder holds.
+    // A question other than the one that the folder holds.
     run(home.path(), &["evaluate", "hailglass", "--levels", "0", "--player", "random", "--out", "r"], 0);
     let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];
     assert!(refusal(&other).contains("another player, model, prompt or decoding"));
@@ -354,7 +355,7 @@ fn edited_logs_are_not_certified() {
     assert_eq!(logs(&home.path().join("r")).len(), 2);
 }
 
-/// A server's count that no request can have neither meets a cap nor breaks a sum.
+/// An impossible token count from a server neither exhausts a cap nor corrupts a sum.
 #[test]
 fn counts_of_tokens_that_cannot_be_are_not_believed() {
     let body = r#"{"choices":[{"message":{"content":"ACTION: left"},"finish_reason":"stop"}],
@@ -364,7 +365,7 @@ fn counts_of_tokens_that_cannot_be_are_not_believed() {
     let played = json(&run(home.path(), &asking(&server.base_url(), &["--max-tokens", "1000000"]), 0));
     assert!(played["spent"]["tokens"].as_u64().unwrap() < 1_000_000, "{played}");
     assert_eq!(played["spent"]["cost"], Value::Null, "its price is not known");
-    // Results of before hold such counts.
+    // Older results may hold such counts.
     let log = home.path().join("results/episodes/hailglass-lvl0-run0.jsonl");
     let before = std::fs::read_to_string(&log).unwrap();
     let huge = before.replace("\"input_tokens\":null", "\"input_tokens\":18446744073709551615");
@@ -373,7 +374,7 @@ fn counts_of_tokens_that_cannot_be_are_not_believed() {
     run(home.path(), &["report", "results", "--out", "told"], 0);
 }
 
-/// Whoever compares planners names each once, and a table that cannot be written does not cost the answer.
+/// Each planner may be named only once, and a table that cannot be written does not lose the answer.
 #[test]
 fn runs_are_refused_before_they_are_played() {
     let home = tempfile::tempdir().unwrap();
@@ -391,7 +392,7 @@ fn runs_are_refused_before_they_are_played() {
     assert!(told.contains("its folder does not exist") && !told.contains("episodes"), "{told}");
 }
 
-/// More episodes at a time than there are: said, and not tried.
+/// A request for more concurrent episodes than there are is reported and reduced.
 #[test]
 fn no_more_at_a_time_than_there_are() {
     let home = tempfile::tempdir().unwrap();
@@ -427,7 +428,7 @@ fn archives_are_played_as_folders_are() {
     }
 }
 
-/// A folder may be called anything.
+/// A folder may have any name.
 #[cfg(target_os = "linux")]
 #[test]
 fn results_and_reports_in_folders_that_are_no_text() {
@@ -457,8 +458,8 @@ fn results_and_reports_in_folders_that_are_no_text() {
     }
 }
 
-/// A disk that is full, as far as a program can tell: the limit of a file's size stands for it. It is a failure of the environment, and
-/// with room again the episode goes on where it was.
+/// A full disk, simulated by a limit on the size of files. It is an environment failure, and with room again the
+/// episode continues.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_stops_and_loses_nothing() {
@@ -481,7 +482,7 @@ fn a_full_disk_stops_and_loses_nothing() {
     let undisturbed = tempfile::tempdir().unwrap();
     run(undisturbed.path(), &asking(&url, &more), 0);
     assert_eq!(logs(&home.path().join("results")), logs(&undisturbed.path().join("results")));
-    // Where not even the settings fit, there is nothing that looks like an evaluation.
+    // If not even the settings fit, nothing that looks like an evaluation is left.
     let other = tempfile::tempdir().unwrap();
     let script = "trap '' XFSZ; ulimit -f 0; exec \"$@\"";
     let mut command = std::process::Command::new("sh");

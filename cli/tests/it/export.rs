@@ -1,4 +1,4 @@
-//! Snapshots as datasets: what users get of `tiny`.
+//! Snapshots as datasets: the exports of `tiny`.
 
 use crate::arcade::{TINY, files, run, text};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// The files of an export.
+/// Returns the files of an export.
 fn export(out: &str, flags: &[&str]) -> BTreeMap<String, Vec<u8>> {
     let folder = TINY.path();
     run(folder, &[&["export", "tiny", "--out", out], flags].concat(), 0);
@@ -38,7 +38,7 @@ fn every_level_is_a_row_that_says_what_the_release_says() {
         }
         assert_eq!((&row["game_digest"], &row["level_digest"]), (&card["digest"], &level["digest"]));
         assert_eq!(row["witness_ticks"], level["witness_ticks"]);
-        // The legend knows every character of the board but blanks.
+        // The legend has every character of the board except blanks.
         let legend = row["legend"].as_array().unwrap();
         let known = |symbol: char| legend.iter().any(|line| line["symbol"] == symbol.to_string());
         let board = row["level_text"].as_str().unwrap();
@@ -49,7 +49,7 @@ fn every_level_is_a_row_that_says_what_the_release_says() {
     assert!(card.contains(rows[0]["release_root"].as_str().unwrap()), "{card}");
 }
 
-/// The page has all columns, in their order, with their types.
+/// The page documents all columns, in their order, with their types.
 #[test]
 fn the_page_tells_every_column() {
     let page = include_str!("../../../docs/export.md");
@@ -66,7 +66,7 @@ fn the_page_tells_every_column() {
     let kinds: Vec<(&str, &str)> = kinds.iter().map(|(name, kind)| (*name, kind.as_str())).collect();
     assert_eq!(told, kinds);
     let rows = rows(&export("columns", &["--format", "jsonl", "--solutions"]));
-    // serde_json's objects are sorted by key.
+    // Objects of serde_json are sorted by key.
     let mut names: Vec<&str> = told.iter().map(|(name, _)| *name).collect();
     names.sort_unstable();
     assert_eq!(rows[0].as_object().unwrap().keys().collect::<Vec<_>>(), names);
@@ -80,7 +80,7 @@ fn solutions_are_there_only_if_asked_for() {
         assert_eq!(actions.len() as u64, row["witness_ticks"].as_u64().unwrap());
         assert!(row["solution_seed"].is_string());
     }
-    // Nothing of any witness file is in a plain export: neither seed nor hashes, nor the actions under any name.
+    // A plain export holds nothing of any witness file: neither seed nor hashes, nor the actions under any name.
     for (out, format) in [
         ("plain", "jsonl"),
         #[cfg(feature = "parquet")]

@@ -1,11 +1,11 @@
-//! `arcade generate levels`: the same bytes on any number of threads, levels that keep what was asked, and clear refusals.
+//! `arcade generate levels`: the same bytes on any number of threads, levels that meet the request, and clear errors.
 
 use crate::arcade::{files, run, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Generates levels of a corpus game, or of one in the folder; the answer as JSON.
+/// Generates levels of a corpus game, or of one in the folder; returns the answer as JSON.
 #[track_caller]
 fn generate(folder: &Path, game: &str, out: &str, more: &[&str], status: i32) -> Value {
     let args = ["--json", "generate", "levels", "--game", game, "--out", out];
@@ -24,7 +24,7 @@ fn same_bytes(method: &str, game: &str) {
     assert_eq!(made.keys().filter(|name| name.starts_with("lvl")).count(), 2);
     assert_eq!(asked["levels"].as_array().unwrap().len(), 2);
     assert_ne!(made["lvl0.txt"], made["lvl1.txt"]);
-    // What was made is a game with levels; a win replays on its level.
+    // The result is a game with levels; a win replays on its level.
     if let Some(witness) = made.keys().find(|name| name.starts_with("witness/")) {
         let picture = ["render", "one", "0", "--episode", &format!("one/{witness}"), "-o", "-"];
         assert!(text(&run(home.path(), &picture, 0).stdout).contains("won"));
@@ -67,7 +67,7 @@ fn levels_keep_what_was_asked() {
     assert!(home.path().join("report/report.html").exists() && home.path().join("report/sheet.png").exists());
 }
 
-/// More than fits beside the rest: every draw fails, and the answer says so.
+/// A request for more sprites than fit: every draw fails, and the answer says so.
 #[test]
 fn what_does_not_fit_is_no_level_and_no_endless_work() {
     let home = tempfile::tempdir().unwrap();

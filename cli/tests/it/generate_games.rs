@@ -1,11 +1,11 @@
-//! `arcade generate games`: the same bytes on any number of threads, games that validate and play, and clear refusals.
+//! `arcade generate games`: the same bytes on any number of threads, games that validate and play, and clear errors.
 
 use crate::arcade::{files, run, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Generates games; the answer as JSON.
+/// Generates games; returns the answer as JSON.
 #[track_caller]
 fn generate(folder: &Path, out: &str, more: &[&str], status: i32) -> Value {
     let args = ["--json", "generate", "games", "--out", out];

@@ -1,4 +1,4 @@
-//! `arcade render` and `arcade play` as users call them, a terminal apart.
+//! `arcade render` and `arcade play` as users run them, without a terminal.
 
 use crate::arcade::{run, text};
 use serde_json::Value;
@@ -10,7 +10,7 @@ fn a_witness_becomes_pictures_in_every_format() {
     run(folder.path(), &["validate", "foxglove-round", "0", "--witness", "win.json"], 0);
     let episode: engine::Episode =
         serde_json::from_slice(&fs::read(folder.path().join("win.json")).unwrap()).unwrap();
-    // The level is found by the episode.
+    // The level is found from the episode.
     let draw = |out: &str, tick: &[&str]| {
         let args = ["--json", "render", "foxglove-round", "--episode", "win.json", "-o", out];
         let output = run(folder.path(), &[&args, tick].concat(), 0);
@@ -30,7 +30,7 @@ fn a_witness_becomes_pictures_in_every_format() {
     let shown = draw("-", &[]);
     assert_eq!(shown["text"], fs::read_to_string(folder.path().join("end.txt")).unwrap());
     assert!(!folder.path().join("-").exists());
-    // As a snapshot keeps it.
+    // In the form that a snapshot stores.
     let witness = serde_json::json!({ "canary": "none", "episode": episode });
     fs::write(folder.path().join("witness.json"), witness.to_string()).unwrap();
     run(folder.path(), &["render", "foxglove-round", "--episode", "witness.json", "-o", "-"], 0);

@@ -1,4 +1,4 @@
-//! Minting, verifying and minting again: what a release promises.
+//! Minting, verifying and minting again: the guarantees of a release.
 
 use crate::arcade::{TINY, arcade, copy_tree, files, run, text};
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use tempfile::TempDir;
 
-/// A copy of the shared mint, to be tampered with.
+/// Returns a copy of the shared mint, to tamper with.
 fn copy() -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path().join("tiny");
@@ -14,7 +14,7 @@ fn copy() -> (TempDir, PathBuf) {
     (folder, root)
 }
 
-/// A folder with a name that is not Unicode, where there are such.
+/// Returns a folder with a name that is not Unicode, on systems that allow one.
 fn unusual() -> PathBuf {
     #[cfg(target_os = "linux")]
     {
@@ -26,7 +26,7 @@ fn unusual() -> PathBuf {
     }
 }
 
-/// Every answer that names a place can be given, whatever the place is called.
+/// Answers that name a path work for any name of the folder.
 #[test]
 fn places_may_be_called_anything() {
     let home = tempfile::tempdir().unwrap();
@@ -63,7 +63,7 @@ fn the_number_of_threads_changes_no_byte() {
     assert_eq!(files(&folder.path().join(out)), files(&TINY.path().join("tiny")));
 }
 
-/// If this digest moves without a change of `seeds/tiny.toml`, GENERATION (or SEMANTICS) must be bumped.
+/// A changed digest without a change of `seeds/tiny.toml` means that GENERATION (or SEMANTICS) must be raised.
 #[test]
 fn the_root_of_tiny_is_the_one_in_the_repository() {
     let output = run(TINY.path(), &["--json", "verify", "tiny"], 0);
@@ -86,7 +86,7 @@ fn the_version_tells_what_it_mints_and_replays() {
     assert!(manifest.contains(&expect), "{manifest}");
 }
 
-/// A release of another generation names the version that mints it, and the commands that install that.
+/// The answer for a release of another generation names the version that mints it, and the commands to install it.
 #[test]
 fn an_old_release_names_the_version_that_regenerates_it() {
     let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/suite/snapshots/format-1");
@@ -105,7 +105,7 @@ fn the_starter_is_minted_and_verifies() {
     run(folder.path(), &["verify", "releases/starter"], 0);
 }
 
-/// The same seed gives the same candidates, most of which the parent has.
+/// The same seed gives the same candidates, most of which the parent already has.
 #[test]
 fn what_a_release_before_has_is_not_minted_again() {
     let folder = TINY.path();
@@ -116,7 +116,7 @@ fn what_a_release_before_has_is_not_minted_again() {
     assert!(said.contains("can be taken") && said.contains("in a release before"), "{said}");
     let output = run(folder, &["release", "tiny", "--parent", "tiny", "--out", "next"], 2);
     assert!(text(&output.stderr).contains("a release needs a name of its own"), "{}", text(&output.stderr));
-    // Another seed gives others; what it knows is what the parent holds.
+    // Another seed gives other candidates; the parent's items are known.
     let recipe = fs::read_to_string(folder.join("next.toml")).unwrap().replacen("a coin", "another coin", 1);
     fs::write(folder.join("next.toml"), recipe).unwrap();
     run(folder, &["release", "next.toml", "--parent", "tiny", "--out", "later"], 0);
@@ -170,7 +170,7 @@ fn a_file_removed_added_or_linked_is_named() {
     assert!(text(&output.stdout).contains("games/stowaway.txt"), "{}", text(&output.stdout));
 }
 
-/// Papers of a release may be changed and added to; nothing else may.
+/// Papers of a release may be changed and added; nothing else may.
 #[test]
 fn papers_go_along_with_a_release() {
     let (folder, root) = copy();
@@ -193,7 +193,7 @@ fn papers_go_along_with_a_release() {
     assert!(text(&run(folder.path(), &["regenerate", "tiny"], 0).stdout).starts_with("identical"));
     let chained = run(folder.path(), &["verify", "tiny", "--chain", "."], 0);
     assert!(text(&chained.stdout).contains("is the first release"), "{}", text(&chained.stdout));
-    // The same release gives the same archive, whatever goes along with it.
+    // The archive of a release does not depend on its papers.
     assert_eq!(digest("after.tar.zst"), before);
 
     fs::write(root.join("games/.DS_Store"), "x").unwrap();
@@ -216,13 +216,13 @@ fn a_place_that_is_taken_is_refused_before_minting() {
     let output = run(folder.path(), &["release", "tiny", "--out", "mine"], 2);
     assert!(text(&output.stderr).contains("choose another --out"), "{}", text(&output.stderr));
     assert_eq!(fs::read(folder.path().join("mine/thesis.txt")).unwrap(), b"x");
-    // A plan writes nothing.
+    // A dry run writes nothing.
     let output = run(folder.path(), &["release", "tiny", "--out", "mine", "--dry-run"], 0);
     let said = text(&output.stdout);
     assert!(said.contains("would mint 2 new games") && said.contains("which is taken"), "{said}");
 }
 
-/// A job array that is run again has nothing to do, and did nothing wrong.
+/// A repeated job of a job array has nothing to do, and succeeds.
 #[test]
 fn a_finished_mint_is_complete() {
     let (folder, _) = copy();
@@ -237,7 +237,7 @@ fn a_finished_mint_is_complete() {
     run(folder.path(), &resumed, 2);
 }
 
-/// Whatever is written into a release keeps it from verifying; papers alone go along with it.
+/// Any file written into a release breaks its verification, except papers.
 #[test]
 fn nothing_is_written_into_a_release() {
     let (folder, root) = copy();
@@ -266,7 +266,7 @@ fn nothing_is_written_into_a_release() {
     assert!(said.contains("hold no solutions"), "{said}");
 }
 
-/// No version minted it, so that none can be installed to mint it again.
+/// No version minted it, so none can be installed to mint it again.
 #[test]
 fn a_changed_version_is_damage() {
     let (folder, root) = copy();
@@ -288,7 +288,7 @@ fn more_shards_than_lots_are_told() {
     assert!(text(&output.stdout).contains("in 0 to 0 seconds"), "{}", text(&output.stdout));
 }
 
-/// A file that was there before is nobody's to remove.
+/// An existing file is never removed.
 #[test]
 fn a_file_in_the_way_is_told() {
     let folder = tempfile::tempdir().unwrap();
@@ -303,7 +303,7 @@ fn a_file_in_the_way_is_told() {
     assert!(long.contains("is not the secret of a sealed release"), "{long}");
 }
 
-/// Killed at any moment, a mint leaves nothing that verifies.
+/// A mint that is killed at any moment leaves nothing that verifies.
 #[cfg(unix)]
 #[test]
 fn a_killed_mint_leaves_nothing_that_verifies() {
@@ -326,7 +326,7 @@ fn a_killed_mint_leaves_nothing_that_verifies() {
     }
 }
 
-/// A folder that is complete but was never published is no release.
+/// A folder that is complete but was never published is not a release.
 #[test]
 fn an_unpublished_tree_does_not_verify() {
     let (folder, root) = copy();
@@ -356,12 +356,12 @@ fn bad_recipes_are_named() {
     assert!(!folder.path().join("releases").exists());
 }
 
-/// A release as it is kept in the repository.
+/// Returns a release that the repository holds.
 fn kept(name: &str) -> String {
     format!("{}/../tests/suite/snapshots/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Nothing shows that its levels can be won: that is a no, unless somebody says that it is enough.
+/// Without replays nothing shows that its levels can be won: the answer is no, unless the user accepts that.
 #[test]
 fn what_was_not_replayed_is_not_verified() {
     let folder = tempfile::tempdir().unwrap();
@@ -373,7 +373,7 @@ fn what_was_not_replayed_is_not_verified() {
     let said = text(&run(folder.path(), &["verify", &place, "--accept-unreplayed"], 0).stdout);
     assert!(said.contains("accepted without the replay of its witnesses"), "{said}");
     assert!(!said.contains("verified"), "{said}");
-    // What never was is no other semantics.
+    // A version that never existed does not count as other semantics.
     let forged = folder.path().join("forged");
     copy_tree(Path::new(&place), &forged);
     let path = forged.join("MANIFEST.json");
@@ -386,7 +386,7 @@ fn what_was_not_replayed_is_not_verified() {
     assert!(said.contains("GENERATION 1 never had SEMANTICS 0"), "{said}");
 }
 
-/// Without a root from elsewhere nothing shows which release it is, and the answer says so.
+/// Without a root from another source nothing shows which release it is, and the answer says so.
 #[test]
 fn only_the_published_root_shows_which_release_it_is() {
     let folder = tempfile::tempdir().unwrap();
@@ -438,7 +438,7 @@ fn what_is_no_snapshot_is_named() {
     assert!(said.contains("`nowhere` does not exist"), "{said}");
 }
 
-/// The replay of witnesses is bounded, and the bound is the user's to set.
+/// The replay of witnesses is bounded, and the user can change the bound.
 #[test]
 fn replays_take_no_more_than_is_allowed() {
     let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100"], 1).stdout);
@@ -446,7 +446,7 @@ fn replays_take_no_more_than_is_allowed() {
     run(TINY.path(), &["verify", "tiny", "--max-work", "100000000"], 0);
 }
 
-/// A name that is no Unicode is a name like any.
+/// A name that is not Unicode is valid.
 #[cfg(target_os = "linux")]
 #[test]
 fn exports_to_any_name() {

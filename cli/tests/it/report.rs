@@ -1,5 +1,5 @@
-//! `arcade report`: files that need nothing else, the same bytes for the same results, what is said of models and of failures,
-//! and clear refusals.
+//! `arcade report`: self-contained files, the same bytes for the same results, statements about models and failures,
+//! and clear errors.
 
 use crate::arcade::{files, run, text};
 use engine::Action;
@@ -25,7 +25,7 @@ fn game(id: &str) -> Subject {
     Subject::read(id, GAME, &levels, facts).unwrap()
 }
 
-/// A model that goes right and says so; every fourth answer says nothing that can be read.
+/// A model that goes right and says so; every fourth answer is unreadable.
 struct Talker {
     /// Halts before this decision.
     halt: Option<u64>,
@@ -80,7 +80,7 @@ impl Progress for Silent {
     fn episode(&self, _: &Task<'_>, _: &Left) {}
 }
 
-/// Results of [`Talker`] on a game, two runs of each level.
+/// Records results of [`Talker`] on a game, two runs of each level.
 fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
     let subjects = vec![game(id)];
     let entrant = Entrant {
@@ -108,7 +108,7 @@ fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
     evaluation.run(contestant, &Silent).unwrap();
 }
 
-/// Results of a player that comes with the suite, on the same game.
+/// Records results of a player that comes with the suite, on the same game.
 fn play(home: &Path, player: &str, out: &str) {
     let folder = home.join("lanterns");
     fs::create_dir_all(&folder).unwrap();
@@ -169,7 +169,7 @@ fn a_page_tables_and_numbers_that_need_nothing_else() {
     assert!(file("tables/leaderboard.tex").contains("\\begin{tabular}"));
 }
 
-/// A player that does nothing on levels where nothing happens: nearly all is missing, and said to be.
+/// A player that does nothing on levels where nothing happens: nearly all values are missing, and reported as such.
 #[test]
 fn little_is_told_of_little() {
     let home = tempfile::tempdir().unwrap();
@@ -188,11 +188,11 @@ fn what_cannot_be_reported_is_refused_with_the_next_move() {
     let at = |name: &str| home.path().join(name);
     play(home.path(), "random", "random");
     talk(&at("zero"), "lanterns", "zero-shot", None);
-    // The same name, other rules.
+    // The same name with different rules.
     let other = GAME.replace("scoreChange=1", "scoreChange=2");
     fs::write(at("lanterns/game.vgdl"), &other).unwrap();
     run(home.path(), &["evaluate", "lanterns", "--player", "nil", "--max-steps", "3", "--out", "other"], 0);
-    // A log that is none, and one whose episode leads elsewhere.
+    // An invalid log, and one whose episode does not replay.
     for (name, from, to) in
         [("damaged", "\"event\"", "\"evnt\""), ("elsewhere", "\"score\":1.0", "\"score\":7.0")]
     {
@@ -226,7 +226,7 @@ fn what_cannot_be_reported_is_refused_with_the_next_move() {
     assert_eq!(fs::read(at("taken/mine.txt")).unwrap(), b"mine");
 }
 
-/// Results of random play, with one file changed.
+/// Records results of random play, with one file changed.
 fn tampered(home: &Path, name: &str, file: &str, change: impl FnOnce(Vec<u8>) -> Vec<u8>) {
     play(home, "random", name);
     let path = home.join(name).join(file);
@@ -234,13 +234,14 @@ fn tampered(home: &Path, name: &str, file: &str, change: impl FnOnce(Vec<u8>) ->
     fs::write(&path, change(content)).unwrap();
 }
 
-/// The words of the report on these results.
+/// Returns the summary of the report on these results.
 fn summary(home: &Path, results: &str) -> Value {
     let _ = fs::remove_dir_all(home.join("report"));
     serde_json::from_slice(&run(home, &["--json", "report", results, "--out", "report"], 0).stdout).unwrap()
 }
 
-/// A results folder can say anything: what is too much is refused before memory is taken for it, and what is no text is malformed.
+/// A results folder can claim anything: excessive values are refused before memory is allocated, and invalid text is
+/// malformed.
 #[test]
 fn what_a_results_folder_says_is_bounded() {
     let home = tempfile::tempdir().unwrap();
@@ -291,7 +292,7 @@ fn what_a_results_folder_says_is_bounded() {
     }
 }
 
-/// Statements of a log that follow from its steps, or from what was asked, are compared, not believed.
+/// Statements of a log that follow from its steps, or from the settings, are checked.
 #[test]
 fn logs_are_compared_with_what_follows() {
     let home = tempfile::tempdir().unwrap();
@@ -318,7 +319,7 @@ fn logs_are_compared_with_what_follows() {
         let (before, end) = text.trim_end().rsplit_once('\n').unwrap();
         format!("{before}\n{step}\n{end}\n").into_bytes()
     });
-    // Fewer runs than were played: the others would be passed over.
+    // Fewer runs than were played: the others would be ignored.
     tampered(home.path(), "fewer", "evaluation.json", |content| {
         String::from_utf8(content).unwrap().replacen("\"runs\": 2", "\"runs\": 1", 1).into_bytes()
     });
@@ -348,8 +349,8 @@ fn logs_are_compared_with_what_follows() {
     }
 }
 
-/// Without its last line an episode counts as before: the steps say how it ended. Without its last steps it counts nowhere, and that is
-/// told.
+/// An episode without its last line counts as before: the steps show how it ended. Without its last steps it does not
+/// count, and the report says so.
 #[test]
 fn an_episode_without_an_end_is_not_passed_over() {
     let home = tempfile::tempdir().unwrap();
@@ -383,7 +384,7 @@ fn an_episode_without_an_end_is_not_passed_over() {
     assert!(page.contains("Left out of every number: 1 interrupted and not finished"), "{page}");
 }
 
-/// Names are words in every file of a report, and the page runs its own script and no other.
+/// Names are plain text in every file of a report, and the page runs its own script and no other.
 #[test]
 fn names_are_words_wherever_they_stand() {
     let home = tempfile::tempdir().unwrap();
@@ -423,7 +424,7 @@ fn names_are_words_wherever_they_stand() {
         nonce.len() == 64 && page.contains("default-src 'none'; img-src data:; style-src 'unsafe-inline'; ")
     );
     assert!(policy.starts_with("; base-uri 'none'; form-action 'none'\">"));
-    // All scripts of the page: the data of the boards, and the one that reads them.
+    // All scripts of the page: the data of the boards, and the reader.
     let scripts: Vec<&str> =
         page.match_indices("<script").map(|(at, _)| page[at..].split_once('>').unwrap().0).collect();
     let own = format!("<script nonce=\"{nonce}\"");

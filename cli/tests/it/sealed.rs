@@ -1,4 +1,4 @@
-//! Sealed releases: what is public gives nothing away, and what is revealed is what was committed to.
+//! Sealed releases: the public part reveals no secret, and the revealed part matches the commitment.
 
 use crate::arcade::{copy_tree, files, run, text};
 use engine::Digest;
@@ -6,7 +6,7 @@ use snapshots::Secret;
 use std::fs;
 use std::path::Path;
 
-/// One new game, one level.
+/// Returns a recipe with one new game and one level.
 fn recipe(commitment: &str) -> String {
     format!(
         "name = 'sealed'\ndescription = 'x'\ncommitment = '{commitment}'\n[generated]\ngames = 1\nlevels = 1\n\
@@ -14,7 +14,7 @@ fn recipe(commitment: &str) -> String {
     )
 }
 
-/// Commits and mints into `out`; the secret as JSON.
+/// Commits and mints into `out`; returns the secret as JSON.
 fn minted(folder: &Path) -> serde_json::Value {
     fs::write(folder.join("sealed.toml"), recipe(&"0".repeat(64))).unwrap();
     let output = run(folder, &["--json", "release", "sealed.toml", "--commit"], 0);
@@ -31,7 +31,7 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     let secret = minted(folder);
     let again = run(folder, &["release", "sealed.toml", "--commit"], 2);
     assert!(text(&again.stderr).contains("never overwritten"), "{}", text(&again.stderr));
-    // Nor may anything be changed that was committed to.
+    // Nothing covered by the commitment may be changed either.
     let committed = fs::read_to_string(folder.join("sealed.toml")).unwrap();
     fs::write(folder.join("changed.toml"), committed.replace("candidates = 2.0", "candidates = 3.0"))
         .unwrap();
@@ -43,7 +43,7 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     let without = run(folder, &["release", "sealed.toml", "--out", "x"], 2);
     assert!(text(&without.stderr).contains("--secret FILE"), "{}", text(&without.stderr));
 
-    // Nothing public tells the seed, the nonce, or how a level is won.
+    // Nothing public reveals the seed, the nonce, or how a level is won.
     let held = files(&folder.join("out/held"));
     let mut secrets: Vec<String> =
         ["seed", "nonce"].map(|key| secret[key].as_str().unwrap().to_owned()).into();
@@ -64,7 +64,7 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     assert!(text(&output.stdout).contains("held back"), "{}", text(&output.stdout));
     let output = run(folder, &["regenerate", "out/public"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
-    // The mistakes that are easily made are named.
+    // Common mistakes are named.
     for (arguments, words) in [
         (vec!["release", "--reveal", "out/held", "--out", "x"], "needs the public folder"),
         (vec!["release", "out", "--reveal", "out/held", "--out", "x"], "did you mean out/public?"),
@@ -78,7 +78,7 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     fs::write(folder.join("out/public/papers/doi.txt"), "10.5281/zenodo.0").unwrap();
     let output = run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "revealed"], 0);
     assert!(text(&output.stdout).contains("arcade regenerate revealed"), "{}", text(&output.stdout));
-    // The datasheet alone is another: it says that nothing is held back any more.
+    // The datasheet alone differs: it says that nothing is held back any more.
     let papers = |part: &str| {
         let mut papers = files(&folder.join(part).join("papers"));
         assert!(papers.remove("DATASHEET.md").is_some());
@@ -138,7 +138,7 @@ fn a_sealed_release_is_verified_revealed_and_minted_again() {
     assert!(text(&output.stdout).contains("missing"), "{}", text(&output.stdout));
 }
 
-/// A seed that somebody thought up can be guessed.
+/// A seed invented by a person can be guessed.
 #[test]
 fn a_secret_that_was_made_up_is_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -161,7 +161,7 @@ fn a_secret_that_was_made_up_is_refused() {
         other(&|secret| secret.nonce = secret.seed.parse().unwrap()),
     ] {
         fs::write(folder.join("my secret.json"), serde_json::to_vec(&made_up).unwrap()).unwrap();
-        // As `arcade` before this one took it.
+        // In the form that an older `arcade` accepted.
         fs::write(folder.join("sealed.toml"), recipe(&made_up.commitment().to_string())).unwrap();
         for verb in
             [vec!["release", "sealed.toml", "--out", "x"], vec!["release", "sealed.toml", "--dry-run"]]
@@ -175,7 +175,8 @@ fn a_secret_that_was_made_up_is_refused() {
     }
 }
 
-/// The command that `--commit` proposes works, also where names have blanks; what it cannot work for is refused at once.
+/// The command that `--commit` proposes works, even if names have blanks; cases where it cannot work are refused at
+/// once.
 #[test]
 fn what_commit_proposes_works() {
     let home = tempfile::tempdir().unwrap();
@@ -202,13 +203,13 @@ fn what_commit_proposes_works() {
     assert!(text(&output.stdout).contains("would mint 1 new game of"), "{}", text(&output.stdout));
     assert!(!text(&output.stdout).contains("corpus games"), "{}", text(&output.stdout));
 
-    // What the binary carries cannot be changed.
+    // A recipe of the binary cannot be changed.
     let said = text(&run(folder, &["release", "tiny", "--commit"], 0).stdout);
     assert!(said.contains("arcade recipes show tiny > tiny.toml"), "{said}");
     assert!(said.contains("arcade release tiny.toml --secret tiny.secret.json"), "{said}");
 }
 
-/// A shard holds winning episodes, as the part does that is held back.
+/// A shard holds winning episodes, as the held-back part does.
 #[cfg(unix)]
 #[test]
 fn shards_of_a_sealed_release_are_their_owners() {
@@ -240,7 +241,7 @@ fn shards_of_a_sealed_release_are_their_owners() {
     let resumed = ["release", "sealed.toml", "--out", "out", "--resume"];
     let said = text(&run(folder, &[&resumed[..], &secret].concat(), 0).stdout);
     assert!(said.contains("already complete"), "{said}");
-    // Where a folder may not be entered, or is a loop, nobody knows what is held.
+    // If a folder may not be entered, or is a loop, its content is unknown.
     std::os::unix::fs::symlink("loop", folder.join("loop")).unwrap();
     run(folder, &["release", "out/public", "--reveal", "loop", "--out", "x"], 3);
     run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "whole"], 0);
@@ -248,13 +249,13 @@ fn shards_of_a_sealed_release_are_their_owners() {
     assert!(datasheet("out/public").contains("held back until it is revealed"));
     let revealed = datasheet("whole");
     assert!(revealed.contains("sealed, and revealed") && !revealed.contains("held back"), "{revealed}");
-    // A commitment that was lost is in the secret.
+    // A lost commitment can be restored from the secret.
     fs::write(folder.join("lost.toml"), recipe("x").replace("commitment = 'x'\n", "")).unwrap();
     let lost = text(&run(folder, &[&["release", "lost.toml"][..], &secret].concat(), 2).stderr);
     assert!(lost.contains(answer["commitment"].as_str().unwrap()), "{lost}");
 }
 
-/// Else seed and witnesses would be published in the belief that they are held back.
+/// Otherwise seed and witnesses would be published in the belief that they are held back.
 #[test]
 fn a_secret_for_an_open_release_is_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -265,7 +266,7 @@ fn a_secret_for_an_open_release_is_refused() {
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
 }
 
-/// Hours of work are not to be lost to a wrong name on the command line.
+/// A wrong name on the command line must not destroy hours of work.
 #[test]
 fn another_recipe_does_not_go_on_with_the_lots_of_one() {
     let home = tempfile::tempdir().unwrap();

@@ -37,7 +37,7 @@ fn a_served_player_tells_where_it_is() {
     assert!(text(&unknown.stderr).contains("did you mean `reflex`?"), "{}", text(&unknown.stderr));
 }
 
-/// The lines of the only log in a results folder.
+/// Returns the lines of the only log in a results folder.
 fn log(results: &Path) -> Vec<Value> {
     let mut logs = fs::read_dir(results.join("episodes")).unwrap();
     let path = logs.next().unwrap().unwrap().path();
@@ -83,14 +83,14 @@ fn an_agent_of_somebody_else_plays_and_is_taken_up_again() {
     assert!(text(&malformed.stderr).contains("is no command line"), "{}", text(&malformed.stderr));
 }
 
-/// Answers three times, then waits for a file `go`; with children of its own, one of which leaves the group and the session, and deaf to
-/// what asks it to end.
+/// Answers three times, then waits for a file `go`; it has child processes, one of which leaves the group and the
+/// session, and ignores signals that ask it to end.
 #[cfg(target_os = "linux")]
 const STUBBORN: &str = "trap '' TERM HUP INT QUIT\nsetsid sleep 600 & echo $! > $1/setsid\nsleep 600 & echo $! > $1/child\n\
      pwd > $1/folder\nn=0\nwhile read line; do case $line in *'\"past\":true'*) n=$((n+1));; *'\"type\":\"turn\"'*) n=$((n+1))\n\
      [ $n -gt 3 ] && [ ! -e $1/go ] && { echo $$ > $1/shell; sleep 600; }\necho '{\"action\":\"left\"}';; esac; done\nexec sleep 600\n";
 
-/// Returns whether a signal does what it usually does: whoever starts the tests in the background may have it ignored.
+/// Returns `true` if a signal has its default effect: tests started in the background may ignore it.
 #[cfg(target_os = "linux")]
 fn is_heeded(signal: u32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap();
@@ -98,7 +98,7 @@ fn is_heeded(signal: u32) -> bool {
     u64::from_str_radix(mask.trim(), 16).unwrap() & (1 << (signal - 1)) == 0
 }
 
-/// Looks until something is so, for some twenty seconds.
+/// Waits until a condition holds, for about twenty seconds.
 #[cfg(target_os = "linux")]
 #[track_caller]
 fn wait_until(what: &str, is_so: impl Fn() -> bool) {
@@ -111,13 +111,13 @@ fn wait_until(what: &str, is_so: impl Fn() -> bool) {
     panic!("{what}: never");
 }
 
-/// Returns whether a process is gone, but for its entry in the table of processes.
+/// Returns `true` if a process has ended, even if it is still in the process table.
 #[cfg(target_os = "linux")]
 fn is_gone(pid: &str) -> bool {
     fs::read_to_string(format!("/proc/{pid}/stat")).map_or(true, |stat| stat.contains(") Z "))
 }
 
-/// However `arcade` ends: the player, all that it has started, and its folder are gone, and `--resume` goes on.
+/// However `arcade` ends, the player, its processes and its folder are removed, and `--resume` goes on.
 #[cfg(target_os = "linux")]
 #[test]
 fn players_end_with_arcade() {
@@ -161,7 +161,7 @@ fn players_end_with_arcade() {
     }
 }
 
-/// At the end of an episode nothing of its player is left either, whatever group it is in.
+/// At the end of an episode all processes of its player are gone, whatever their group.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_leaves_the_group_ends_with_the_episode() {
@@ -170,12 +170,12 @@ fn what_leaves_the_group_ends_with_the_episode() {
     fs::write(home.path().join("go"), "").unwrap();
     run(home.path(), &evaluate(&format!("cmd:sh agent.sh {}", home.path().display()), &[]), 0);
     let said = |name: &str| fs::read_to_string(home.path().join(name)).unwrap().trim().to_owned();
-    // The guard has gone before, and it goes last.
+    // The guard has ended already, and it ends last.
     assert!(is_gone(&said("setsid")) && is_gone(&said("child")));
     assert!(!Path::new(&said("folder")).exists());
 }
 
-/// A program that is not there is a malformed question, and leaves nothing in the way.
+/// A program that does not exist is a malformed question, and leaves no files.
 #[cfg(unix)]
 #[test]
 fn a_misspelt_program_is_told_before_anything_is_written() {
@@ -194,7 +194,7 @@ fn a_misspelt_program_is_told_before_anything_is_written() {
         }
         assert!(!home.path().join("results").exists());
     }
-    // What only the system can tell is told as before.
+    // A failure that only the system can detect is reported as before.
     fs::write(home.path().join("broken"), "\u{1}").unwrap();
     fs::set_permissions(home.path().join("broken"), fs::Permissions::from_mode(0o755)).unwrap();
     let told = text(&run(home.path(), &evaluate("cmd:./broken", &[]), 3).stderr);

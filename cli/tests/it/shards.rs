@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// Three lots, each within a second or two.
+/// Three jobs, each within a second or two.
 const RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'slices'\n[generated]\ngames = 1\nlevels = 1\n\
     candidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\n\
     depths = [10, 25]\nrandom_plays = 20\n";
@@ -21,7 +21,7 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     let folder = home.path();
     recipe(folder);
     let output = run(folder, &["release", "slices.toml", "--out", "the whole"], 0);
-    // What is proposed can be pasted.
+    // The proposed command can be pasted into a shell.
     assert!(text(&output.stdout).contains("arcade verify 'the whole'"), "{}", text(&output.stdout));
     fs::rename(folder.join("the whole"), folder.join("whole")).unwrap();
     for shard in ["3/3", "1/3", "2/3"] {
@@ -57,7 +57,7 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(said.contains(&lot) && said.contains("changed after it was made"), "{said}");
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
 
-    // `arcade clean` lists shards and removes them on request, but not one that somebody has put something into.
+    // `arcade clean` lists shards and removes them on request, but not one with a foreign file in it.
     fs::write(folder.join("shard2/notes.txt"), "mine").unwrap();
     let clean = |flags: &[&str]| {
         let output = arcade(folder).env("TMPDIR", folder).arg("clean").args(flags).output().unwrap();
@@ -71,8 +71,8 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(is_there("shard2/SHARD.json") && is_there("whole") && is_there("merged"));
 }
 
-/// Interrupts a mint into the folder `out`, kills it again and again, and goes on with it; what is made is not thrown away unless that is
-/// asked for.
+/// Interrupts a mint into the folder `out`, kills it repeatedly, and resumes it; finished work is kept unless its
+/// removal is requested.
 #[cfg(unix)]
 fn kill_and_resume(folder: &Path, mint: &[&str]) {
     let start = |resume: &[&str]| {
@@ -86,7 +86,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
         there.map_or(0, |there| there.flatten().filter(is_lot).count())
     };
     let mut child = start(&[]);
-    // Until a lot is there, however long that takes.
+    // Wait for the first job, however long that takes.
     while lots() == 0 && child.try_wait().unwrap().is_none() {
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -124,7 +124,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     assert!(!folder.join("out.partial").exists());
 }
 
-/// A mint that was interrupted gives the bytes of one that was left alone, and so does one that mints a release again.
+/// An interrupted mint gives the same bytes as an undisturbed one, and so does one that regenerates a release.
 #[cfg(unix)]
 #[test]
 fn a_killed_mint_goes_on() {
@@ -139,14 +139,14 @@ fn a_killed_mint_goes_on() {
     }
 }
 
-/// A disk without room ends a mint with the command that goes on with it.
+/// On a full disk a mint ends with the command to resume it.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_says_how_to_go_on() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     recipe(folder);
-    // Files of at most a kilobyte or so: no lot has room.
+    // Files of at most a kilobyte or so: no job has room.
     let script = "trap '' XFSZ; ulimit -f 2; exec \"$0\" release slices.toml --out 'my release'";
     let binary = env!("CARGO_BIN_EXE_arcade");
     let output = Command::new("sh").args(["-c", script, binary]).current_dir(folder).output().unwrap();
@@ -155,12 +155,12 @@ fn a_full_disk_says_how_to_go_on() {
     assert!(said.contains("go on with: arcade release slices.toml --out 'my release' --resume"), "{said}");
 }
 
-/// What is made is kept when only the choice is asked for otherwise.
+/// Finished jobs are kept if only the selection changes.
 #[test]
 fn more_candidates_go_on_from_those_that_were_made() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
-    // More games than there are candidates for: a kind that no game of one pattern set can fill twice over.
+    // More games than there are candidates for: a kind for which no single pattern set has two games.
     let greedy = format!("{RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
     fs::write(folder.join("slices.toml"), greedy).unwrap();
     let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);

@@ -1,5 +1,5 @@
-//! The behaviour that all verbs share: exit statuses, messages about files, JSON of failures; and the verbs that tell of arcade
-//! itself.
+//! The common behaviour of all verbs: exit statuses, messages about files, JSON of failures; and the verbs about
+//! arcade itself.
 
 use crate::arcade::{arcade, files, run, text};
 use serde_json::Value;
@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::Stdio;
 
-/// The failure on standard output of a run with `--json`: one document, while standard error has words.
+/// Returns the failure on standard output of a run with `--json`: one document, while standard error has text.
 #[track_caller]
 fn failure(folder: &Path, args: &[&str], status: i32) -> Value {
     let output = run(folder, args, status);
@@ -45,7 +45,7 @@ fn a_full_device_is_told() {
     says(home.path(), &["render", "hailglass", "-o", "/dev/full"], 2, &["the ending says the format"]);
 }
 
-/// The reader has left before anything is written: no message, and the status is the verb's own.
+/// A reader that leaves before anything is written causes no message, and the verb keeps its own exit status.
 #[test]
 fn a_reader_that_leaves_is_no_failure() {
     let home = tempfile::tempdir().unwrap();
@@ -61,7 +61,7 @@ fn a_reader_that_leaves_is_no_failure() {
     check(&["--json", "describe", "hailglass"], 0);
     check(&["--help"], 0);
     check(&["fmt", "loose.vgdl", "--check"], 1);
-    // The work is done all the same.
+    // The work is done anyway.
     check(&["--json", "render", "hailglass", "-o", "board.svg"], 0);
     assert!(home.path().join("board.svg").exists());
 }
@@ -220,7 +220,7 @@ fn recipes_are_listed_and_printed() {
     let listed: Value = serde_json::from_slice(&run(home.path(), &["--json", "recipes"], 0).stdout).unwrap();
     assert!(listed["recipes"].as_array().unwrap().iter().any(|recipe| recipe["name"] == "2026-12"));
     says(home.path(), &["recipes", "show", "startr"], 2, &["did you mean `starter`?"]);
-    // As it is printed, it is a recipe.
+    // The printed text is a valid recipe.
     fs::write(home.path().join("mine.toml"), shown).unwrap();
     run(home.path(), &["release", "mine.toml", "--out", "new", "--dry-run"], 0);
 }
@@ -240,7 +240,7 @@ fn the_manual_is_in_the_binary() {
     says(home.path(), &["docs", "promts"], 2, &["did you mean `prompts`?"]);
 }
 
-/// Puts a file where it belongs, with all folders above.
+/// Writes a file, with all folders above it.
 fn put(path: &Path, content: &str) {
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(path, content).unwrap();
@@ -251,7 +251,7 @@ fn leftovers_are_removed_and_what_only_looks_like_them_is_not() {
     let home = tempfile::tempdir().unwrap();
     let (work, temporary) = (home.path().join("work"), home.path().join("tmp"));
     fs::create_dir_all(&temporary).unwrap();
-    // As killed runs leave it.
+    // In the form that killed runs leave.
     let lock = "unfinished work of `arcade`, which replaces or removes it (infinite-arcade draft 1)\n";
     for name in ["new", "releases/deep/month"] {
         put(&work.join(format!("{name}.partial/.lock")), lock);
@@ -260,7 +260,7 @@ fn leftovers_are_removed_and_what_only_looks_like_them_is_not() {
     put(&work.join("mint.partial/.lock"), lock);
     put(&work.join("mint.partial/lots/game-1.json"), "{}");
     put(&work.join(".arcade-a1B2c3.partial"), "GIF8");
-    // Of others.
+    // Files of other programs.
     let foreign = [
         "results.partial/data.csv",
         "tree.partial/tree/a",

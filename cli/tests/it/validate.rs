@@ -31,7 +31,7 @@ BasicGame
 
 const LEVEL: &str = "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n";
 
-/// A folder with a game and a level.
+/// Makes a folder with a game and a level.
 fn folder(game: &str, level: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("game.vgdl"), game).unwrap();
@@ -39,7 +39,7 @@ fn folder(game: &str, level: &str) -> TempDir {
     folder
 }
 
-/// Expects exit status 2, and a message that names the file and line and says these words.
+/// Expects exit status 2, and a message with the file, the line and these words.
 #[track_caller]
 fn malformed(game: &str, level: &str, place: &str, words: &[&str]) {
     let folder = folder(game, level);
@@ -60,7 +60,7 @@ fn a_good_level_passes_and_its_witness_replays() {
     let game = engine::Game::from_source(GAME).unwrap();
     let level = game.level(LEVEL).unwrap();
     assert_eq!(witness.replay(&game, &level).unwrap().outcome(), engine::Outcome::Won);
-    // By file, too, and the same answer twice.
+    // Also by file, and the same answer twice.
     let args = ["--json", "validate", "game.vgdl", "lvl0.txt"];
     let (one, two) = (run(folder.path(), &args, 0), run(folder.path(), &args, 0));
     assert_eq!(one.stdout, two.stdout);
@@ -68,7 +68,7 @@ fn a_good_level_passes_and_its_witness_replays() {
     assert_eq!(document["passes"], true);
 }
 
-/// The judgement of the first level on a criterion.
+/// Returns the judgement of the first level on a criterion.
 fn judgement(document: &Value, criterion: &str) -> Value {
     let judgements = document["levels"][0]["judgements"].as_array().unwrap();
     judgements.iter().find(|judgement| judgement["criterion"] == criterion).unwrap().clone()
@@ -94,7 +94,7 @@ fn a_goal_walled_in_fails_with_its_line_and_cell() {
 
 #[test]
 fn a_win_that_is_not_found_is_unknown_with_the_budget() {
-    // Thorns all around the nectar, and a bee that makes it a game of chance.
+    // Thorns all around the nectar, and a bee that makes the game stochastic.
     let game = GAME
         .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
         .replace("        A > floor", "        b > floor bee\n        A > floor")
@@ -119,7 +119,7 @@ fn what_concerns_the_whole_game_is_asked_of_all_its_levels() {
     };
     let together: Vec<Value> = judgements(&["--json", "validate", "."], 1);
     assert_eq!(together, ["pass", "pass"]);
-    // The second level alone is won by random keys, and says nothing of the game.
+    // The second level alone is won by random keys, and does not judge the game.
     let alone: Vec<Value> = judgements(&["--json", "validate", ".", "1"], 1);
     assert!(alone.is_empty());
 }
@@ -294,7 +294,7 @@ fn planners_play_and_report() {
     let first = csv("one.csv");
     assert!(first.starts_with("game,planner,budget,level,run,outcome,score,ticks,calls\n"), "{first}");
     assert_eq!(first.lines().count(), 1 + 3 * 3, "{first}");
-    // Speeds are of this machine, so they are beside the answer.
+    // Speeds depend on this machine, so they are not part of the answer.
     assert!(text(&output.stderr).contains("olets:50: "), "{}", text(&output.stderr));
 
     let output = report(&["--csv", "two.csv", "--jobs", "2", "--json"]);
@@ -306,7 +306,7 @@ fn planners_play_and_report() {
     assert_eq!((&rows[2]["planner"], &rows[2]["budget"]), (&"olets".into(), &50.into()));
     assert_eq!((&rows[1]["plays"], &rows[1]["level"]), (&3.into(), &Value::Null));
 
-    // Another planner beside it changes nothing.
+    // The results do not depend on other planners in the run.
     let alone = run(folder.path(), &["run", ".", "--planner", "mcts:200", "--runs", "3", "--json"], 0);
     let alone: Value = serde_json::from_slice(&alone.stdout).unwrap();
     assert_eq!(alone["rows"][0], rows[1]);
@@ -344,14 +344,14 @@ fn a_level_that_cannot_be_won_is_explained_as_a_chain() {
         "- the exit opens for 2 lamps; ./game.vgdl:14 `exit avatar > killIfOtherHasMore resource=lamp limit=2`",
         "- 1 lamp exists; column 5, row 2; ./game.vgdl:13 `lamp avatar > collectResource`",
         "try: place 1 lamp more, or ask for 1",
-        // What cannot be asked of it.
+        // Criteria that do not apply to it.
         "-    length       not asked: the level cannot be won",
         "-    skill        not asked: the level cannot be won",
     ] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
     assert!(!said.contains("open a way") && !said.contains("pass skill"), "{said}");
-    // Programs find the same fields as before.
+    // The fields of the JSON document are unchanged.
     let output = run(folder.path(), &["--json", "validate", "."], 1);
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();
     let skill = judgement(&document, "skill");
@@ -372,7 +372,7 @@ fn a_swapped_rule_is_named_with_its_repair() {
 
 #[test]
 fn no_verdict_contradicts_another() {
-    // Won by search, and by nobody of the ladder: both are said, of whom they hold.
+    // Won by the search, and by no player of the ladder: both are reported.
     let folder = folder(GAME, LEVEL);
     let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
     assert!(said.contains("the witness wins in ") && said.contains("fewer ticks win: proved"), "{said}");
@@ -402,7 +402,7 @@ fn problems_of_the_game_hide_none_of_its_levels() {
         .collect();
     assert_eq!(codes, ["no-avatar", "undefined-character"]);
     assert_eq!(document["levels"][1]["problems"].as_array().unwrap().len(), 0);
-    // Of a sound game, too.
+    // Also of a sound game.
     malformed(
         GAME,
         &LEVEL.replace('A', "X"),
@@ -527,7 +527,7 @@ fn a_parameter_that_is_given_twice_is_told_of() {
 
 #[test]
 fn a_small_budget_is_a_small_piece_of_work() {
-    // Nobody is through in less than 300 ticks, and no player decides on fewer calls than it needs.
+    // No player needs less than 300 ticks, and no player decides on fewer calls than its minimum.
     let game = GAME
         .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
         .replace("        A > floor", "        b > floor bee\n        A > floor")

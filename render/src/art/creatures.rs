@@ -1,10 +1,10 @@
-//! What lives: the player, what hunts it, what it hunts, and what is merely there.
+//! Creatures: the player, its hunters, its prey, and bystanders.
 
 use super::{Art, RIM};
 use crate::colour::{Colour, INK, PAPER};
 use crate::shape::{Outline, Point, Segment};
 
-/// The ring around what the player steers: no other tile has it.
+/// The ring around the avatar: no other tile has it.
 const RING: Colour = Colour([0x1f, 0xb8, 0xff]);
 
 fn ring(art: &mut Art) {
@@ -13,7 +13,7 @@ fn ring(art: &mut Art) {
     art.fill(Outline::circle(0.5, 0.5, 0.4), RING.mixed(PAPER, 75));
 }
 
-/// A figure with a head, seen from the front; a pointer on the ring says where it faces.
+/// A figure with a head, seen from the front; a pointer on the ring shows its facing.
 pub(super) fn avatar(art: &mut Art, facing: Option<Point>) {
     ring(art);
     if let Some(direction) = facing {
@@ -29,7 +29,7 @@ pub(super) fn avatar(art: &mut Art, facing: Option<Point>) {
     art.solid(body, art.main());
     let skin = Colour([0xff, 0xe0, 0xbd]);
     art.solid(Outline::circle(0.5, 0.35, 0.19), skin);
-    // A cap of the figure's own colour.
+    // A cap in the figure's own colour.
     let cap = Outline(vec![
         Segment::Move([0.31, 0.33]),
         Segment::Cubic([0.31, 0.08], [0.69, 0.08], [0.69, 0.33]),
@@ -59,7 +59,7 @@ pub(super) fn craft(art: &mut Art, facing: Option<Point>) {
     }
 }
 
-/// Where the player died.
+/// The mark of the place where the player died.
 pub(super) fn fallen(art: &mut Art) {
     ring(art);
     art.solid(Outline::rounded(0.43, 0.18, 0.14, 0.66, 0.03), art.main());
@@ -205,7 +205,7 @@ pub(super) fn charger(art: &mut Art) {
     }
 }
 
-/// Wide eyes, an open mouth, and the star of what wins.
+/// Wide eyes, an open mouth, and the star of winning.
 pub(super) fn prey(art: &mut Art) {
     let main = art.main();
     for ear in [[[0.16, 0.46], [0.14, 0.14], [0.4, 0.3]], [[0.84, 0.46], [0.86, 0.14], [0.6, 0.3]]] {

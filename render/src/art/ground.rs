@@ -1,4 +1,4 @@
-//! What fills its cell: walls, soil, water, spikes.
+//! Tiles that fill their cells: walls, soil, water, spikes.
 
 use super::Art;
 use crate::colour::{Colour, GROUND, INK, PAPER};

@@ -1,7 +1,7 @@
 //! The drawing of every glyph: shapes in a unit square.
 //!
-//! What harms has points, teeth or angry eyes; what wins has a star; what blocks for good fills its cell; what the player
-//! steers stands in a bright ring. Colour only helps.
+//! Harmful things have points, teeth or angry eyes; winning things have a star; permanent obstacles fill their cells;
+//! the avatar stands in a bright ring. Colour is only a secondary cue.
 
 mod creatures;
 mod ground;
@@ -19,7 +19,7 @@ const GOLD: Colour = Colour([0xff, 0xd2, 0x3f]);
 /// The usual width of an outline, in tiles.
 const RIM: f32 = 0.045;
 
-/// The tile of a look whose front points along `facing`, of unit length; looks without a front ignore it.
+/// Returns the tile of a look whose front points along `facing`, of unit length; looks without a front ignore it.
 pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
     use Glyph as G;
     let mut art = Art { look, shapes: Vec::new() };
@@ -72,7 +72,7 @@ pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
     art.shapes
 }
 
-/// A tile in the making.
+/// A tile under construction.
 struct Art {
     look: Look,
     shapes: Vec<Shape>,
@@ -91,13 +91,13 @@ impl Art {
         self.shapes.push(Shape { outline, paint: Paint::Stroke(width), colour });
     }
 
-    /// Filled, with a dark rim: seen on any ground.
+    /// Fills an outline with a dark rim, visible on any ground.
     fn solid(&mut self, outline: Outline, colour: Colour) {
         self.fill(outline.clone(), colour);
         self.stroke(outline, INK, RIM);
     }
 
-    /// The gold star of everything that wins; white on gold.
+    /// The gold star of winning things; white on gold.
     fn star(&mut self, x: f32, y: f32, radius: f32) {
         let colour = if self.main().distance(GOLD) < 12_000 { PAPER } else { GOLD };
         self.solid(Outline::star(x, y, 5, radius, radius * 0.45), colour);
@@ -119,7 +119,7 @@ impl Art {
         }
     }
 
-    /// A round, square or pointed mark that a key shares with what it opens.
+    /// A round, square or pointed mark that a key shares with the gate that it opens.
     fn emblem(&self, x: f32, y: f32, radius: f32) -> Outline {
         match self.look.variant {
             0 => Outline::circle(x, y, radius),
@@ -136,7 +136,7 @@ impl Art {
         }
     }
 
-    /// Dots at the foot, for what form and colour do not tell apart.
+    /// Dots at the foot, for types that share form and colour.
     fn pips(&mut self) {
         let count = self.look.pips;
         for at in 0..count {

@@ -1,10 +1,10 @@
-//! Where things come from and go to: doors, gates, portals, nests, sockets.
+//! Passages: doors, gates, portals, nests, sockets.
 
 use super::Art;
 use crate::colour::{INK, PAPER};
 use crate::shape::{Outline, Segment};
 
-/// An arched leaf in a frame, with the star of what wins.
+/// An arched leaf in a frame, with the star of winning.
 pub(super) fn exit(art: &mut Art) {
     let main = art.main();
     art.solid(arch(0.1, 0.03, 0.8), main.shade());

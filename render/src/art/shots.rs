@@ -1,4 +1,4 @@
-//! What flies and strikes; drawn to the right.
+//! Shots and blades; drawn to the right.
 
 use super::Art;
 use crate::colour::{INK, PAPER};

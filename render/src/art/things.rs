@@ -1,4 +1,4 @@
-//! What lies about: to be taken, pushed, pressed, or kept safe.
+//! Things to be taken, pushed, pressed, or kept safe.
 
 use super::Art;
 use crate::colour::{Colour, INK, PAPER};

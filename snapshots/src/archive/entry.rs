@@ -1,16 +1,16 @@
-//! The inside of an archive: the one header that a file of a release has, and what is wrong with any other.
+//! The inside of an archive: the only header that a file of a release may have, and the diagnosis of any other.
 
 use crate::manifest::{Item, MANIFEST_FILE, Manifest};
 use crate::path::check_path;
 use crate::problem::{Flaw, Problem};
 use tar::{EntryType, Header};
 
-/// Bytes of a block: headers are one, contents are filled up to whole ones.
+/// The bytes of a block. A header takes one block; contents are padded to whole blocks.
 pub(super) const BLOCK: usize = 512;
-/// Bytes of zeros at the end.
+/// The zero bytes at the end.
 pub(super) const END: usize = 2 * BLOCK;
 
-/// The header of `item` in the release called `name`; none if its path is too long for one.
+/// The header of `item` in the release called `name`; `None` if its path is too long for a header.
 pub(super) fn header(name: &str, item: &Item) -> Option<[u8; BLOCK]> {
     let mut header = Header::new_ustar();
     header.set_path(format!("{name}/{}", item.path)).ok()?;
@@ -24,27 +24,27 @@ pub(super) fn header(name: &str, item: &Item) -> Option<[u8; BLOCK]> {
     Some(*header.as_bytes())
 }
 
-/// How many zeros follow a content of `size` bytes.
+/// The number of zero bytes that follow a content of `size` bytes.
 pub(super) fn padding(size: u64) -> usize {
     let rest = (size % BLOCK as u64) as usize;
     if rest == 0 { 0 } else { BLOCK - rest }
 }
 
-/// Uncompressed bytes of an archive of these files.
+/// The uncompressed bytes of an archive of these files.
 pub(super) fn total<'a>(items: impl Iterator<Item = &'a Item>) -> u64 {
     let sizes = items.map(|item| BLOCK as u64 + item.size + padding(item.size) as u64);
     sizes.sum::<u64>() + END as u64
 }
 
-/// Path and size as a header states them.
+/// The path and the size that a header states.
 pub(super) fn path_and_size(block: &[u8; BLOCK]) -> Result<(String, u64), String> {
     let header = Header::from_byte_slice(block);
     let size = header.size().map_err(|_| "its tar header is damaged".to_owned())?;
     Ok((path(header), size))
 }
 
-/// What is wrong with a header that is not the one of `expected`, or of anything if nothing is expected any more.
-/// The problem is at the entry's own path if it has a usable one.
+/// The problem with a header that differs from that of `expected`, or with any header if no further item is expected.
+/// The problem is reported at the entry's own path if that is usable.
 pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Option<&Item>) -> Problem {
     let header = Header::from_byte_slice(block);
     let full = path(header);
@@ -85,7 +85,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
     }
 }
 
-/// In which respect a header is not one of ours.
+/// Describes the respect in which a header is not one of ours.
 pub(super) fn oddity(block: &[u8; BLOCK]) -> String {
     let header = Header::from_byte_slice(block);
     let kind = header.entry_type();
@@ -108,12 +108,12 @@ pub(super) fn oddity(block: &[u8; BLOCK]) -> String {
     }
 }
 
-/// The path as stated, as nearly as Unicode can.
+/// The path that a header states, with invalid UTF-8 replaced.
 fn path(header: &Header) -> String {
     String::from_utf8_lossy(&header.path_bytes()).into_owned()
 }
 
-/// Whether a header's own checksum holds.
+/// Tests whether a header's own checksum is correct.
 fn sums(header: &Header) -> bool {
     let mut copy = header.clone();
     copy.set_cksum();

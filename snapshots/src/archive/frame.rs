@@ -1,8 +1,9 @@
-//! The outside of an archive: one zstd frame, bounded by its own header before anything is decompressed, and a seal.
+//! The outside of an archive: one zstd frame, whose size is bounded by its own header before decompression, and a
+//! seal.
 //!
-//! Some bits of compressed data mean nothing: flipped, they give the same content. So that no flipped bit of the file
-//! goes unnoticed, a skippable frame follows (RFC 8878 §3.1.2), which every reader of zstd passes over: the BLAKE3 of
-//! the bytes before it.
+//! Some bits of compressed data mean nothing: flipped, they give the same content. To detect every flipped bit, a
+//! skippable frame follows (RFC 8878 §3.1.2), which every zstd reader ignores. It holds the BLAKE3 hash of the bytes
+//! before it.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -12,14 +13,14 @@ use super::entry::BLOCK;
 use crate::error::SnapshotError;
 use engine::Digest;
 
-/// How a zstd file begins (RFC 8878 §3.1.1).
+/// The first bytes of a zstd file (RFC 8878 §3.1.1).
 const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
-/// The logarithm of how far back the compressor looks, in bytes: 8 MiB, which every reader grants.
+/// The base-2 logarithm of the compressor's window, in bytes: 8 MiB, which every reader accepts.
 const WINDOW_LOG: u8 = 23;
-/// Compression is done once, reading often.
+/// The compression level: high, because an archive is compressed once and read often.
 const LEVEL: i32 = 15;
 
-/// Whether the regular file at `path` begins as an archive does.
+/// Tests whether the regular file at `path` begins as an archive does.
 ///
 /// # Errors
 /// It cannot be read.
@@ -27,7 +28,7 @@ pub fn is_archive(path: &Path) -> Result<bool, SnapshotError> {
     Ok(head(path)?.starts_with(&MAGIC))
 }
 
-/// Whether the regular file at `path` has the head that an archive is packed with.
+/// Tests whether the regular file at `path` has the frame header that [`pack`](super::pack) writes.
 ///
 /// # Errors
 /// It cannot be read.
@@ -36,7 +37,7 @@ pub(super) fn begins_as_packed(path: &Path) -> Result<bool, SnapshotError> {
     Ok(head.starts_with(&MAGIC) && stated_size(&head).is_ok())
 }
 
-/// As many bytes as the longest head of a frame has: magic number, descriptor, window, size.
+/// Reads as many bytes as the longest frame header has: magic number, descriptor, window and size.
 fn head(path: &Path) -> Result<Vec<u8>, SnapshotError> {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(4 + 1 + 1 + 8).read_to_end(&mut head));
@@ -44,12 +45,12 @@ fn head(path: &Path) -> Result<Vec<u8>, SnapshotError> {
     Ok(head)
 }
 
-/// How the seal begins: a skippable frame's magic number, and that 32 bytes follow.
+/// The first bytes of the seal: the magic number of a skippable frame and its length, 32 bytes.
 const SEAL: [u8; 8] = [0x50, 0x2a, 0x4d, 0x18, 32, 0, 0, 0];
-/// How long the seal is.
+/// The length of the seal in bytes.
 const SEAL_LENGTH: usize = SEAL.len() + 32;
 
-/// Whether the regular file at `path` ends with a seal, be it the right one or not.
+/// Tests whether the regular file at `path` ends with a seal, valid or not.
 ///
 /// # Errors
 /// It cannot be read.
@@ -66,7 +67,8 @@ pub(super) fn is_sealed(path: &Path) -> Result<bool, SnapshotError> {
     Ok(end.len() == SEAL_LENGTH && end.starts_with(&SEAL))
 }
 
-/// The first block inside the regular file at `path`, whatever tool compressed it; none if there is no such thing.
+/// The first block inside the regular file at `path`, whatever tool compressed it; `None` if it cannot be
+/// decompressed.
 ///
 /// # Errors
 /// It cannot be opened.
@@ -109,7 +111,7 @@ impl<'a> Outside<'a> {
     }
 }
 
-/// Hashes what is written to it, or consumed from it.
+/// Hashes the bytes that are written to it or consumed from it.
 struct Hashed<T> {
     inner: T,
     hasher: blake3::Hasher,
@@ -146,7 +148,7 @@ impl BufRead for Hashed<BufReader<File>> {
     }
 }
 
-/// Why an archive cannot be read on.
+/// The reasons why reading an archive fails.
 #[derive(Debug)]
 pub(super) enum Unreadable {
     /// The file system refuses.
@@ -163,10 +165,10 @@ pub(super) struct Inside {
 }
 
 impl Inside {
-    /// Reads the head of the frame, and refuses one that holds more than `limit` bytes.
+    /// Reads the frame header, and rejects a frame that holds more than `limit` bytes.
     pub(super) fn enter(file: File, limit: u64) -> Result<Inside, Unreadable> {
         let mut file = Hashed { inner: BufReader::new(file), hasher: blake3::Hasher::new() };
-        // The longest head has 4 + 1 + 1 + 8 bytes, and a buffer that was just filled has more or all there is.
+        // The longest header has 4 + 1 + 1 + 8 bytes, and a freshly filled buffer holds more, or all there is.
         let left = stated_size(file.fill_buf().map_err(Unreadable::Io)?).map_err(Unreadable::Damaged)?;
         if left > limit {
             return Err(Unreadable::Damaged(format!(
@@ -178,7 +180,7 @@ impl Inside {
         Ok(Inside { decoder, hasher: blake3::Hasher::new(), left })
     }
 
-    /// The next block; none at the end.
+    /// The next block; `None` at the end.
     pub(super) fn block(&mut self) -> Result<Option<[u8; BLOCK]>, Unreadable> {
         if self.left == 0 {
             return Ok(None);
@@ -187,7 +189,7 @@ impl Inside {
         Ok(Some(bytes.try_into().expect("as many bytes as were asked for")))
     }
 
-    /// The next `size` bytes. Memory grows as they come, not as they are stated.
+    /// The next `size` bytes. Memory grows with the bytes read, not with the size stated.
     pub(super) fn content(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
         if size > self.left {
             return Err(Unreadable::Damaged("the archive is too short for it".into()));
@@ -202,18 +204,18 @@ impl Inside {
         Ok(bytes)
     }
 
-    /// Whether the next `size` bytes are zero.
+    /// Reads the next `size` bytes, and tests whether all of them are zero.
     pub(super) fn skip_padding(&mut self, size: usize) -> Result<bool, Unreadable> {
         Ok(self.content(size as u64)?.iter().all(|byte| *byte == 0))
     }
 
-    /// Whether this is the end of everything: of the stated bytes, of the frame and of the file.
+    /// Checks that the stated bytes, the frame and the file all end here.
     pub(super) fn leave(&mut self) -> Result<(), Unreadable> {
         let damaged = |what: &str| Err(Unreadable::Damaged(what.into()));
         if self.left > 0 || self.decoder.read(&mut [0]).map_err(unreadable)? > 0 {
             return damaged("there is more after its end");
         }
-        // Only now is the checksum compared.
+        // The checksum is compared only now.
         self.decoder.finish_frame().map_err(unreadable)?;
         let file = self.decoder.get_mut();
         let compressed = *file.hasher.finalize().as_bytes();
@@ -227,13 +229,13 @@ impl Inside {
         }
     }
 
-    /// Of what was read, and how much that is.
+    /// The digest of the bytes that were read, and their number.
     pub(super) fn digest(&self) -> (Digest, u64) {
         (Digest::from_bytes(*self.hasher.finalize().as_bytes()), self.hasher.count())
     }
 }
 
-/// The decompressor's own complaints have no number of the system's.
+/// Errors of the decompressor itself have no OS error number.
 fn unreadable(error: io::Error) -> Unreadable {
     match (error.raw_os_error(), error.kind()) {
         (Some(_), _) => Unreadable::Io(error),
@@ -242,7 +244,8 @@ fn unreadable(error: io::Error) -> Unreadable {
     }
 }
 
-/// The size that the head of a frame states (RFC 8878 §3.1.1.1), which must be as [`compressor`] makes it.
+/// The size that a frame header states (RFC 8878 §3.1.1.1). The header must have the form that [`Outside::begin`]
+/// writes.
 fn stated_size(head: &[u8]) -> Result<u64, String> {
     let cut_off = || "the archive is cut off in its head".to_owned();
     let odd = |what: &str| Err(format!("the head of its compressed data is not as packed: {what}"));
@@ -269,7 +272,7 @@ fn stated_size(head: &[u8]) -> Result<u64, String> {
     };
     let mut bytes = [0; 8];
     bytes[..length].copy_from_slice(rest.get(..length).ok_or_else(cut_off)?);
-    // Two bytes count from 256, because one would do below.
+    // Two bytes count from 256, because one byte would do for smaller sizes.
     let offset = if length == 2 { 256 } else { 0 };
     u64::from_le_bytes(bytes).checked_add(offset).ok_or_else(cut_off)
 }

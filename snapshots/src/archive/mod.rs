@@ -1,18 +1,18 @@
-//! A release as one file, `.tar.zst`: for mail, for archives of papers, for whoever wants one digest.
+//! A release as one file, `.tar.zst`: to send by mail, to attach to papers, or to have a single digest.
 //!
-//! The same folder gives the same file. Inside is a tar archive with nothing left open:
+//! The same folder gives the same file. Inside is a tar archive with every detail fixed:
 //!
 //! - `<name>/MANIFEST.json` first, so that a reader knows what to expect, then the items in the manifest's order;
 //! - each a regular file in a ustar header: mode 0644, owner, group and time 0, no names of owners; no folders, no
 //!   extensions; at the end two blocks of zeros;
-//! - around it one zstd frame with the size of its content, a checksum and no dictionary, and behind that a skippable
-//!   frame with the BLAKE3 of the compressed bytes, against accidents.
+//! - around it one zstd frame with the size of its content, a checksum and no dictionary, and after it a skippable
+//!   frame with the BLAKE3 hash of the compressed bytes, to detect accidental damage.
 //!
-//! [`Archive::open`] accepts these bytes and no others: whatever `tar` could say besides (links, devices, sparse
-//! files, extended headers, a name twice, other owners) differs from the header that is expected, and is named. The
-//! digest is over the *uncompressed* bytes: another version of zstd may compress them otherwise.
+//! [`Archive::open`] accepts these bytes and no others: everything else that tar can express (links, devices, sparse
+//! files, extended headers, duplicate names, other owners) differs from the expected header and is reported. The
+//! digest is over the *uncompressed* bytes, because another version of zstd may compress them differently.
 //!
-//! Any `tar` unpacks such a file; it makes one folder, called as the release.
+//! Any `tar` unpacks such a file; it makes one folder, named after the release.
 
 mod entry;
 mod frame;
@@ -35,18 +35,18 @@ use frame::{Inside, Outside, Unreadable};
 
 pub use frame::is_archive;
 
-/// How the name of an archive ends.
+/// The ending of an archive's name.
 pub const ARCHIVE_END: &str = ".tar.zst";
 
-/// The most that an archive may hold, in bytes: 512 MiB, because it is read in memory. A larger release is passed on
+/// The most that an archive may hold, in bytes: 512 MiB, because it is read into memory. Distribute a larger release
 /// as a folder.
 pub const MAX_UNPACKED: u64 = 512 << 20;
-/// What an archive may hold whatever its own size, in bytes: 16 MiB.
+/// The number of bytes that an archive may hold whatever its own size: 16 MiB.
 pub const FREE_UNPACKED: u64 = 16 << 20;
-/// Beyond [`FREE_UNPACKED`], how many bytes an archive may hold for each of its own. Releases stay below 30.
+/// The maximum ratio of unpacked to packed bytes, beyond [`FREE_UNPACKED`]. Releases stay below 30.
 pub const MAX_RATIO: u64 = 200;
 
-/// What [`pack`] wrote.
+/// The result of [`pack`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Packed {
     /// The release's root.
@@ -62,14 +62,15 @@ pub struct Packed {
 /// Packs the release folder `root` into the file `out`, which must not exist. The same release gives the same
 /// uncompressed bytes on every machine.
 ///
-/// `out` is complete or absent: until then the work lies in the folder `<out>.partial` of a [`Draft`], and a stale one is
-/// replaced.
+/// `out` is complete or absent: until then the work lies in the folder `<out>.partial` of a [`Draft`], which replaces
+/// a stale one.
 ///
 /// Cost: two passes over the files; memory for one of them.
 ///
 /// # Errors
 /// The folder is no release or does not hold what its manifest says; it is larger than an archive may be
-/// ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot hold; `out` is taken, or the file system refuses.
+/// ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot represent; `out` exists, or the file system
+/// refuses.
 pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     let integrity = check_integrity(root)?;
     if let Some(first) = integrity.problems.first() {
@@ -149,29 +150,30 @@ fn most(size: u64) -> u64 {
     FREE_UNPACKED.saturating_add(size.saturating_mul(MAX_RATIO)).min(MAX_UNPACKED)
 }
 
-/// An archive that was read: its manifest, its files, and all that is wrong.
+/// An archive that was read: its manifest, its files, and all problems found.
 #[derive(Debug, Clone)]
 pub struct Archive {
     /// The manifest, and the problems as [`check_integrity`] states them for a folder. After a fault in the archive's
-    /// own structure nothing that follows it was read.
+    /// own structure, nothing more is read.
     pub integrity: Integrity,
-    /// Digest of the uncompressed bytes that were read; of all of them if the archive is sound.
+    /// The digest of the uncompressed bytes that were read; of all of them if the archive is sound.
     pub digest: Digest,
-    /// Uncompressed bytes that were read.
+    /// The number of uncompressed bytes that were read.
     pub unpacked: u64,
     manifest_bytes: Vec<u8>,
     files: BTreeMap<String, Vec<u8>>,
 }
 
 impl Archive {
-    /// Reads an archive from someone else. Nothing is unpacked to disk; how much is read is bounded by the file's own
-    /// size ([`MAX_RATIO`]) before anything is decompressed.
+    /// Reads an untrusted archive. Nothing is unpacked to disk, and the file's own size bounds how much is read
+    /// ([`MAX_RATIO`]) before anything is decompressed.
     ///
     /// Cost: one pass; memory for what it holds, at most [`MAX_UNPACKED`] and a window of 8 MiB.
     ///
     /// # Errors
-    /// It is no zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot); with the name of an archive it is a damaged one),
-    /// is damaged before the end of the manifest ([`Archive`](SnapshotError::Archive)), has a manifest that is not sound in itself, or cannot be read.
+    /// It is no zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot), or a damaged archive if it has the name of
+    /// one), is damaged before the end of the manifest ([`Archive`](SnapshotError::Archive)), has a manifest that is
+    /// not sound in itself, or cannot be read.
     pub fn open(path: &Path) -> Result<Archive, SnapshotError> {
         Archive::read(path, true)
     }
@@ -181,16 +183,16 @@ impl Archive {
     /// Cost: one pass; memory for the manifest and one file.
     ///
     /// # Errors
-    /// As for [`Archive::open`].
+    /// See [`Archive::open`].
     pub fn check(path: &Path) -> Result<Integrity, SnapshotError> {
         Archive::read(path, false).map(|archive| archive.integrity)
     }
 
-    /// `keep`: with the content of its files.
+    /// Reads an archive, and keeps the content of its files if `keep` is set.
     fn read(path: &Path, keep: bool) -> Result<Archive, SnapshotError> {
         let io = |source| SnapshotError::io("read", path)(source);
         let broken = |message: String| SnapshotError::Archive { path: path.to_path_buf(), message };
-        // Looked at before it is opened: opening a pipe would wait for its other end.
+        // Checked before it is opened, because opening a pipe would wait for its other end.
         let found = fs::metadata(path).map_err(SnapshotError::io("examine", path))?;
         if !found.is_file() {
             return Err(SnapshotError::Kind { path: path.to_path_buf(), expected: "file" });
@@ -246,15 +248,15 @@ impl Archive {
         })
     }
 
-    /// The content of the item at `path`; none if there is no such item or the archive ends before it.
+    /// The content of the item at `path`; `None` if there is no such item or the archive ends before it.
     pub fn file(&self, path: &str) -> Option<&[u8]> {
         self.files.get(path).map(Vec::as_slice)
     }
 
-    /// Writes the release to the folder `out`, which is complete or absent, and must be absent or empty.
+    /// Writes the release to the folder `out`, which must be absent or empty and ends up complete or absent.
     ///
     /// # Errors
-    /// The archive is not sound, `out` is taken, or the file system refuses.
+    /// The archive is not sound, `out` is occupied, or the file system refuses.
     pub fn unpack(&self, out: &Path) -> Result<(), SnapshotError> {
         if let Some(first) = self.integrity.problems.first() {
             return Err(SnapshotError::Unsound {
@@ -272,13 +274,14 @@ impl Archive {
     }
 }
 
-/// Whether a path has the name of an archive, which tells nothing of what is there.
+/// Tests whether a path has the name of an archive, which says nothing about the content.
 pub(crate) fn is_called_archive(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ARCHIVE_END))
 }
 
-/// Whether the regular file at `path` is no archive of a release, not even a damaged one. It has no seal, and holds
-/// something else than a manifest first; what cannot be unpacked so far does not begin as an archive of ours either.
+/// Tests whether the regular file at `path` is no archive of a release, not even a damaged one. Such a file has no
+/// seal, and either its first entry is no manifest or it cannot be unpacked that far and does not begin as our
+/// archives do.
 ///
 /// # Errors
 /// It cannot be read.
@@ -315,10 +318,10 @@ fn read_manifest(inside: &mut Inside) -> Result<(String, Vec<u8>), Unreadable> {
     Ok((name.to_owned(), content))
 }
 
-/// The path of a problem of the archive as a whole, until its name is put there.
+/// The path of a problem of the archive as a whole, until it is replaced by the archive's name.
 const WHOLE: &str = ".";
 
-/// Why reading ends early.
+/// The reasons to stop reading early.
 enum Stop {
     Problem(Problem),
     Io(std::io::Error),

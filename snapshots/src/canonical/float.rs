@@ -1,11 +1,11 @@
-//! How a float is spelt.
+//! The spelling of floats.
 //!
-//! `serde_json` prints shortest digits too, but its layout has changed within its version 1 (`1e21` became
-//! `1e+21`), and printers differ where two shortest texts are equally close (824108109772659.25 is `….2` to one
-//! and `….3` to another). Here both are fixed, for snapshot format 1, as `serde_json` 1.0.154 has them.
+//! `serde_json` prints shortest digits too, but its layout has changed within its version 1 (`1e21` became `1e+21`),
+//! and printers differ if two shortest texts are equally close (824108109772659.25 is `….2` to one and `….3` to
+//! another). Here both are fixed for snapshot format 1, as in `serde_json` 1.0.154.
 
-/// The decimal text of fewest digits that reads back as the same bits; of several the closest, of two equally
-/// close the one with an even last digit. Plain from 0.00001 up to 10^16, with an exponent outside; always with a
+/// The decimal text of fewest digits that reads back as the same bits: of several the closest, and of two equally
+/// close ones the one with an even last digit. Plain from 0.00001 up to 10^16, with an exponent outside; always with a
 /// `.` or an exponent. `value` must be finite.
 pub(super) fn shortest(value: f64) -> String {
     let text = shortest_scientific(value);
@@ -31,11 +31,11 @@ pub(super) fn shortest(value: f64) -> String {
     }
 }
 
-/// As `-1.25e-7`, `5e-324`, `0e0`.
+/// The shortest text in scientific notation: `-1.25e-7`, `5e-324`, `0e0`.
 fn shortest_scientific(value: f64) -> String {
-    // Rust's shortest form leaves open which of two equally close texts it gives. Its exact form of as many
-    // digits is rounded correctly, half to even; but at a power of two, where numbers lie closer together below
-    // than above, that may be the text of a different number.
+    // Rust's shortest form does not specify which of two equally close texts it gives. Its exact form with the same
+    // number of digits is rounded correctly, half to even. But at a power of two, where numbers lie closer together
+    // below than above, that may be the text of a different number.
     let shortest = format!("{value:e}");
     let digits = shortest.bytes().take_while(|byte| *byte != b'e').filter(u8::is_ascii_digit).count();
     let rounded = format!("{value:.precision$e}", precision = digits - 1);
@@ -82,7 +82,7 @@ mod tests {
         }
     }
 
-    /// Over all exponents and many digits, from a small generator.
+    /// Covers all exponents and many digits, with a small generator.
     #[test]
     fn every_text_reads_back_as_the_same_bits() {
         let mut bits = 0x9e37_79b9_7f4a_7c15_u64;

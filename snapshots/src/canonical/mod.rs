@@ -1,4 +1,4 @@
-//! Canonical JSON: one text per value, so that digests and diffs of it mean something.
+//! Canonical JSON: one text per value, which makes digests and diffs meaningful.
 //!
 //! - object keys sorted by their UTF-8 bytes, at every depth, whatever order the type serialises them in;
 //! - two spaces of indentation, except that an array without arrays or objects inside stays on one line;
@@ -7,9 +7,9 @@
 //!   or an exponent (`1.0`, not `1`; `1e+16`); an `f32` is widened to `f64` first;
 //! - one line feed at the end.
 //!
-//! What JSON cannot hold exactly is an error and never written as something else: not-a-number and infinities,
-//! the same key twice, nesting that the reader would refuse. A `serde_json::Value` and the type it came from give
-//! the same text, and reading a canonical text and writing it again gives its bytes.
+//! A value that JSON cannot represent exactly is an error, and is never written as something else: NaN and infinities,
+//! a duplicate key, nesting that the reader would refuse. A `serde_json::Value` and the type it came from give the
+//! same text, and reading a canonical text and writing it again gives the same bytes.
 
 mod float;
 mod node;
@@ -21,26 +21,26 @@ use serde::Serialize;
 
 use node::{Node, ToNode};
 
-/// How deeply arrays and objects may be nested: as deep as `serde_json` reads.
+/// The maximum nesting depth of arrays and objects, which is the one that `serde_json` reads.
 pub const MAX_DEPTH: usize = 127;
 
 /// A value has no canonical JSON.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CanonicalError {
-    /// Where in the value, as keys and indices joined by dots; empty for the value itself.
+    /// The place in the value, as keys and indices joined by dots; empty for the value itself.
     pub at: String,
-    /// What is wrong there.
+    /// The fault at that place.
     pub fault: Fault,
 }
 
-/// What has no canonical JSON.
+/// The faults that prevent a canonical JSON text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A float is not a number or infinite.
+    /// A float is NaN or infinite.
     #[error("the number is not finite")]
     NotFinite,
-    /// An object key is neither a string nor an integer, a boolean or a unit variant, which have one spelling.
+    /// An object key is not of a type with a single spelling: a string, an integer, a boolean or a unit variant.
     #[error("the key is not a string")]
     Key,
     /// An object has this key twice, for example through `#[serde(flatten)]`.
@@ -78,7 +78,8 @@ pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, Can
     Ok(text)
 }
 
-/// Whether `bytes` are the canonical JSON of `value`. The text is not built: it ends where it differs.
+/// Tests whether `bytes` are the canonical JSON of `value`. The text is not built, and the comparison ends at the
+/// first difference.
 ///
 /// # Errors
 /// As for [`to_canonical_json`].
@@ -90,7 +91,7 @@ pub(crate) fn is_canonical_json<T: Serialize + ?Sized>(
     Ok(write_all(value, &mut rest)?.is_ok() && rest.0.is_empty())
 }
 
-/// The digest of the canonical JSON of `value`, without its text.
+/// The digest of the canonical JSON of `value`, computed without building the text.
 ///
 /// # Errors
 /// As for [`to_canonical_json`].
@@ -100,7 +101,7 @@ pub(crate) fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Diges
     Ok(Digest::from_bytes(*hashed.0.finalize().as_bytes()))
 }
 
-/// What is still to come of a text that another is compared with.
+/// The remaining part of a text that another is compared with.
 struct Rest<'a>(&'a [u8]);
 
 impl Write for Rest<'_> {
@@ -110,7 +111,7 @@ impl Write for Rest<'_> {
     }
 }
 
-/// A text of which only the digest is wanted.
+/// A text that is hashed, not kept.
 struct Hashed(blake3::Hasher);
 
 impl Write for Hashed {
@@ -120,7 +121,7 @@ impl Write for Hashed {
     }
 }
 
-/// Writes the canonical JSON to `out`, and says what `out` says.
+/// Writes the canonical JSON to `out`, and returns the result of `out`.
 fn write_all<T: Serialize + ?Sized>(value: &T, out: &mut impl Write) -> Result<fmt::Result, CanonicalError> {
     let node = value.serialize(ToNode::top())?;
     Ok(write_node(&node, 0, out).and_then(|()| out.write_str("\n")))
@@ -271,7 +272,7 @@ mod tests {
         numbered: BTreeMap<i32, u8>,
     }
 
-    /// Sorted as text (`10` before `9`), and the same as by way of a `Value`.
+    /// Keys are sorted as text (`10` before `9`), as they are in a `Value`.
     #[test]
     fn every_serde_shape() {
         let everything = Everything {

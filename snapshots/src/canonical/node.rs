@@ -1,7 +1,7 @@
 //! Any serialisable value as a JSON tree with sorted, distinct keys.
 //!
-//! `serde_json::to_value` will not do: it turns not-a-number into `null` and keeps the last of two equal keys
-//! without a word, and its maps lose their order if any crate of the build enables `preserve_order`.
+//! `serde_json::to_value` does not suffice: it turns NaN into `null`, silently keeps the last of two equal keys, and
+//! its maps are no longer sorted if any crate of the build enables `preserve_order`.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -14,9 +14,9 @@ use super::{CanonicalError, Fault, MAX_DEPTH};
 pub(super) enum Node {
     Null,
     Bool(bool),
-    /// Within the 64 bits of `i64` or `u64`.
+    /// An integer in the range of `i64` or `u64`.
     Integer(i128),
-    /// Finite.
+    /// A finite float.
     Float(f64),
     Text(String),
     Array(Vec<Node>),
@@ -29,7 +29,7 @@ impl Node {
     }
 }
 
-/// The serializer: what `depth` arrays and objects already enclose.
+/// The serializer of a value that `depth` arrays and objects enclose.
 #[derive(Clone, Copy)]
 pub(super) struct ToNode {
     depth: usize,
@@ -76,7 +76,7 @@ impl ser::Error for CanonicalError {
     }
 }
 
-/// An array in the making.
+/// An array under construction.
 pub(super) struct List {
     inside: ToNode,
     items: Vec<Node>,
@@ -96,7 +96,7 @@ impl List {
     }
 }
 
-/// An object in the making.
+/// An object under construction.
 pub(super) struct Fields {
     inside: ToNode,
     fields: BTreeMap<String, Node>,
@@ -237,7 +237,7 @@ impl Serializer for ToNode {
     fn serialize_map(self, _: Option<usize>) -> Result<Fields, CanonicalError> {
         self.fields()
     }
-    /// Names with `$` are how `serde_json` (arbitrary precision, raw values) and `toml` (dates) talk to themselves.
+    /// Names with `$` are private conventions of `serde_json` (arbitrary precision, raw values) and `toml` (dates).
     fn serialize_struct(self, name: &'static str, _: usize) -> Result<Fields, CanonicalError> {
         if name.starts_with('$') { Err(Fault::Private(name).into()) } else { self.fields() }
     }
@@ -297,7 +297,7 @@ impl ser::SerializeMap for Fields {
     type Ok = Node;
     type Error = CanonicalError;
 
-    /// Keys of one spelling become text, as in `serde_json`; floats have more than one and are refused.
+    /// Keys with a single spelling become text, as in `serde_json`; floats have several and are refused.
     fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), CanonicalError> {
         self.key = Some(match key.serialize(self.inside)? {
             Node::Text(text) => text,

@@ -1,4 +1,4 @@
-//! What is new, kept, changed and gone.
+//! The new, kept, changed and gone games and items.
 
 use super::Compared;
 use crate::released::ReleasedGame;
@@ -7,52 +7,52 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use validators::novelty::canonical_types;
 
-/// What became of a game or an item.
+/// The status of a game or an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// There is none like it in the earlier release.
+    /// There is no equal one in the earlier release.
     New,
-    /// It is in both, to the letter of its canonical text.
+    /// It is in both, with the same canonical text.
     Kept,
-    /// It is in both, but for names, looks, order and, of a level, characters and the side that it is seen from.
+    /// It is in both, but differs in names, looks, order or, for a level, in characters or orientation.
     Changed,
-    /// There is none like it in the later release.
+    /// There is no equal one in the later release.
     Gone,
 }
 
-/// What became of one of them.
+/// The change of one game or item.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// What became of it.
+    /// The status.
     pub status: Status,
-    /// Its place in the later release, or where it was if it is gone: `<game>` or `<game>/lvl<n>`.
+    /// Its place in the later release, or in the earlier one if it is gone: `<game>` or `<game>/lvl<n>`.
     pub id: String,
-    /// Where it was in the earlier one, if it is kept or changed.
+    /// Its place in the earlier release, if it is kept or changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
-    /// Whether the rules are a generator's. Corpus games return with new levels; generated ones should not.
+    /// `true` if the rules are generated. Corpus games return with new levels; generated ones should not.
     pub generated: bool,
 }
 
-/// What became of all.
+/// The changes of all games or items.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Changes {
-    /// How many are new.
+    /// The number of new ones.
     pub new: usize,
-    /// How many are kept.
+    /// The number of kept ones.
     pub kept: usize,
-    /// How many are changed.
+    /// The number of changed ones.
     pub changed: usize,
-    /// How many are gone.
+    /// The number of ones that are gone.
     pub gone: usize,
-    /// How many of the kept and changed have generated rules.
+    /// The number of kept and changed ones that have generated rules.
     pub returned_generated: usize,
-    /// The later release's in its order, then those that are gone.
+    /// The changes in the order of the later release, then those that are gone.
     pub each: Vec<Change>,
 }
 
-/// A game or an item: where it is, its text's digest, and the digest of what it is but for its dress.
+/// A game or an item: its place, the digest of its text, and a digest that is invariant under retheming.
 struct Thing {
     id: String,
     exact: Digest,
@@ -61,8 +61,8 @@ struct Thing {
 }
 
 impl Changes {
-    /// Pairs the things of two releases: first those that are the same to the letter, then those that are the same otherwise,
-    /// each with the first that is left.
+    /// Pairs the things of two releases: first those with equal texts, then those with equal forms, each with the
+    /// first one left.
     fn of(before: &[Thing], after: &[Thing]) -> Changes {
         let mut was: Vec<Option<(Status, usize)>> = vec![None; after.len()];
         let mut taken = vec![false; before.len()];
@@ -111,7 +111,7 @@ impl Changes {
     }
 }
 
-/// What became of the games.
+/// The changes of the games.
 pub(super) fn games(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes {
     let thing = |game: &Compared<'_>| Thing {
         id: game.released.card.id.clone(),
@@ -123,7 +123,7 @@ pub(super) fn games(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes 
     Changes::of(&before, &after)
 }
 
-/// What became of the items.
+/// The changes of the items.
 pub(super) fn items(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes {
     let of_game = |game: &Compared<'_>| {
         let ReleasedGame { card, game: rules, levels, .. } = game.released;
@@ -141,8 +141,8 @@ pub(super) fn items(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes 
     Changes::of(&before, &after)
 }
 
-/// By level of a game: a digest that levels share, in games with equal forms, that place the same types in the same cells when
-/// seen from some side. (Types that can be exchanged for each other may hide that; nothing else can.) Cost: as for a
+/// A digest for each level of a game. Levels of games with equal forms share it if they place the same types in the
+/// same cells up to a symmetry of the board. (Interchangeable types may hide that; nothing else can.) Cost: as for a
 /// [`GameForm`](validators::GameForm), and O(cells).
 pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
     let game = &released.game;
@@ -150,7 +150,7 @@ pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
     for (at, stype) in canonical_types(game).into_iter().enumerate() {
         place[stype.index()] = Some(at as u32);
     }
-    // By character: what it places, in an order that does not depend on names.
+    // The types that each character places, in an order that does not depend on names.
     let placed: Vec<Vec<u32>> = (0..=u8::MAX)
         .map(|symbol| {
             let mut places: Vec<u32> =

@@ -1,5 +1,5 @@
-//! Two releases side by side: what is new, kept, changed and gone, how their distributions differ, how far apart their games
-//! are ([what each figure means](../../../docs/diff.md)).
+//! A comparison of two releases: the new, kept, changed and gone games, the differences of their distributions, and
+//! the distances between their games ([the meaning of each figure](../../../docs/diff.md)).
 
 mod items;
 mod neighbours;
@@ -17,52 +17,52 @@ use rayon::prelude::*;
 use serde::Serialize;
 use validators::{GameForm, GameKind};
 
-/// A release in a line.
+/// A summary of a release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Side {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Its root digest.
+    /// The root digest.
     pub root: Digest,
-    /// Games.
+    /// The number of games.
     pub games: usize,
-    /// Those of them that a rule generator made.
+    /// The number of games made by a rule generator.
     pub generated: usize,
-    /// Levels.
+    /// The number of levels.
     pub levels: usize,
-    /// The engine's semantics that it was minted under.
+    /// The semantics of the engine that minted it.
     pub semantics: u32,
-    /// The generators' version that it was minted under.
+    /// The generation of the generators that minted it.
     pub generation: u32,
 }
 
-/// Two releases compared: the earlier and the later.
+/// The comparison of two releases, an earlier and a later one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Diff {
-    /// The earlier one.
+    /// The earlier release.
     pub before: Side,
-    /// The later one.
+    /// The later release.
     pub after: Side,
-    /// Games by their rules.
+    /// The changes of the games, compared by their rules.
     pub games: Changes,
-    /// Items: levels with the rules of their games.
+    /// The changes of the items: levels with the rules of their games.
     pub items: Changes,
-    /// Distributions of what there is one or more of for each game or level.
+    /// The distributions of labels: one or more for each game or level.
     pub shifts: Vec<Shift>,
-    /// Distributions of numbers.
+    /// The distributions of numbers.
     pub numbers: Vec<NumberShift>,
-    /// How each player of the ladders fares: later less earlier.
+    /// The change in the results of each player of the ladders: later minus earlier.
     pub rungs: Vec<RungDifference>,
-    /// How near the later games are to the earlier ones.
+    /// The distances from the later games to the earlier ones.
     pub neighbours: Neighbours,
 }
 
-/// A game with what is compared of it.
+/// A game with the data that is compared.
 struct Compared<'a> {
     released: &'a ReleasedGame,
     form: GameForm,
     kind: GameKind,
-    /// By level: the same for levels that are the same up to names, characters and symmetry.
+    /// A digest for each level, equal for levels that are the same up to names, characters and symmetry.
     levels: Vec<Digest>,
 }
 
@@ -82,8 +82,9 @@ impl<'a> Compared<'a> {
 }
 
 impl Diff {
-    /// Compares two releases; the `closest` nearest pairs of games are listed. Cost: an analysis of each game, its distance to
-    /// all others, and some thousand resamples of the games for each figure; seconds for hundreds of games.
+    /// Compares two releases, and lists the `closest` nearest pairs of games. Cost: an analysis of each game, its
+    /// distance to all others, and about a thousand resamples of the games for each figure; seconds for hundreds of
+    /// games.
     pub fn of(before: &Released, after: &Released, closest: usize) -> Diff {
         let [old, new] =
             [before, after].map(|side| side.games.par_iter().map(Compared::of).collect::<Vec<_>>());

@@ -1,4 +1,4 @@
-//! How near the games of one release are to those of another, by their rules.
+//! Distances between the games of one release and those of another, by their rules.
 
 use super::Compared;
 use crate::figures::Quantiles;
@@ -6,36 +6,37 @@ use rayon::prelude::*;
 use serde::Serialize;
 use validators::novelty::{NEAR, distance};
 
-/// Two games and how far apart their rules are.
+/// Two games and the distance between their rules.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pair {
-    /// The later one.
+    /// The later game.
     pub after: String,
-    /// The earlier one.
+    /// The earlier game.
     pub before: String,
     /// From 0 (the same rules) to 1 (nothing in common): [`validators::novelty::distance`].
     pub distance: f64,
 }
 
-/// Nearest neighbours across.
+/// The nearest neighbours across two releases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Neighbours {
-    /// Distances of the later games to their nearest earlier one.
+    /// The distances of the later games to their nearest earlier ones.
     pub across: Option<Quantiles>,
-    /// The same for generated games alone, of both releases: corpus games return by design.
+    /// The same for the generated games of both releases alone: corpus games return by design.
     pub across_generated: Option<Quantiles>,
-    /// For scale: distances of the later games to the nearest other later one.
+    /// For scale: the distances of the later games to the nearest other later ones.
     pub within: Option<Quantiles>,
-    /// Later games that are nearer to an earlier one than [`NEAR`]: the same rules with other numbers or in another fiction.
+    /// The number of later games nearer to an earlier one than [`NEAR`]: the same rules with other numbers or another
+    /// theme.
     pub near: usize,
-    /// Those of them that are generated, as is the other.
+    /// The number of such pairs in which both games are generated.
     pub near_generated: usize,
     /// The nearest pairs of all, the nearest first.
     pub closest: Vec<Pair>,
 }
 
 impl Neighbours {
-    /// Cost: O(rules) for each pair of games.
+    /// Finds the nearest neighbours. Cost: O(rules) for each pair of games.
     pub(super) fn of(before: &[Compared<'_>], after: &[Compared<'_>], closest: usize) -> Neighbours {
         let rows: Vec<Vec<f64>> = after
             .par_iter()

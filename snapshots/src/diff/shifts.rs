@@ -1,7 +1,7 @@
-//! How distributions of two releases differ, and whether chance would make them differ as much.
+//! The differences between the distributions of two releases, and permutation tests of their significance.
 //!
-//! Levels of one game are alike, so whether a difference is chance is asked of games: they are dealt to the two sides anew, as
-//! often as [`DEALS`] says, and the p-value is the share of deals, the one found among them, that differ at least as much (B.
+//! Levels of one game are alike, so games are permuted, not levels. A test deals the games to the two sides at random,
+//! [`DEALS`] times. The p-value is the share of deals, including the observed one, that differ at least as much (B.
 //! Phipson and G. K. Smyth, "Permutation p-values should never be zero", 2010).
 
 use super::Compared;
@@ -10,49 +10,50 @@ use engine::Seed;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Deals of a permutation test, the one found not counted.
+/// The deals of a permutation test, not counting the observed one.
 pub const DEALS: usize = 999;
 
-/// One of the values of a distribution.
+/// A value of a distribution, with its counts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
     /// The value.
     pub value: String,
-    /// How many in the earlier release.
+    /// The count in the earlier release.
     pub before: usize,
-    /// How many in the later one.
+    /// The count in the later release.
     pub after: usize,
 }
 
 /// A distribution in both releases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shift {
-    /// Of what.
+    /// The name of the distribution.
     pub name: &'static str,
-    /// How often each value occurs, by value.
+    /// The counts of each value, ordered by value.
     pub shares: Vec<Share>,
-    /// The total variation distance of the two, from 0 for the same shares to 1 for nothing in common; none if one is empty.
+    /// The total variation distance, from 0 for equal shares to 1 for nothing in common; `None` if a side is empty.
     pub distance: Option<f64>,
-    /// How often games dealt at random are at least as far apart.
+    /// The p-value: the share of random deals that are at least as far apart.
     pub p: Option<f64>,
 }
 
-/// Numbers in both releases.
+/// The distributions of a number in both releases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NumberShift {
-    /// Of what.
+    /// The name of the number.
     pub name: &'static str,
-    /// In the earlier release.
+    /// The quantiles in the earlier release.
     pub before: Option<Quantiles>,
-    /// In the later one.
+    /// The quantiles in the later release.
     pub after: Option<Quantiles>,
-    /// The Kolmogorov–Smirnov distance of the two: the most that the shares below any number differ; none if one is empty.
+    /// The Kolmogorov–Smirnov distance: the largest difference of the shares below any number; `None` if a side is
+    /// empty.
     pub distance: Option<f64>,
-    /// How often games dealt at random are at least as far apart.
+    /// The p-value: the share of random deals that are at least as far apart.
     pub p: Option<f64>,
 }
 
-/// What a game has of a distribution: one value, or one for each level, or several.
+/// The values of a game in a distribution: one, several, or one for each level.
 type Values = fn(&Compared<'_>) -> Vec<String>;
 
 const SHIFTS: &[(&str, Values)] = &[
@@ -117,7 +118,7 @@ pub(super) fn numbers(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Nu
 }
 
 impl Shift {
-    /// Of the values of each game.
+    /// The shift between the values of the games on each side.
     pub(super) fn of(name: &'static str, before: &[Vec<String>], after: &[Vec<String>]) -> Shift {
         let mut counts: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
         for (side, games) in [before, after].into_iter().enumerate() {
@@ -144,7 +145,7 @@ impl Shift {
 }
 
 impl NumberShift {
-    /// Of the numbers of each game.
+    /// The shift between the numbers of the games on each side.
     pub(super) fn of(name: &'static str, before: &[Vec<f64>], after: &[Vec<f64>]) -> NumberShift {
         let games = before.iter().chain(after).enumerate();
         let mut numbers: Vec<(f64, usize)> =
@@ -159,7 +160,7 @@ impl NumberShift {
             let (mut below, mut most) = ([0_u32; 2], 0.0_f64);
             for (at, (number, game)) in numbers.iter().enumerate() {
                 below[usize::from(sides[*game])] += 1;
-                // Of equal numbers only the last tells how many are below or equal.
+                // Of equal numbers, only the last has the count of those below or equal.
                 if numbers.get(at + 1).is_none_or(|(next, _)| next != number) {
                     let [one, other] = [0, 1].map(|side| f64::from(below[side]) / f64::from(all[side]));
                     most = most.max((one - other).abs());
@@ -173,7 +174,7 @@ impl NumberShift {
     }
 }
 
-/// Half of what the shares differ by; none if one side is empty.
+/// Half the sum of the differences of the shares; `None` if a side is empty.
 fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     let all = [0, 1].map(|side: usize| counts.iter().map(|count| count[side]).sum::<u32>());
     let share = |count: &[u32; 2], side: usize| f64::from(count[side]) / f64::from(all[side]);
@@ -181,7 +182,7 @@ fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     (!all.contains(&0)).then(|| counts.iter().map(apart).sum::<f64>() / 2.0)
 }
 
-/// A distance and its p-value: `distance` is asked with the side of each game, the earlier ones first.
+/// A distance and its p-value. `distance` is called with the side of each game, the earlier ones first.
 fn test(
     name: &str,
     (before, after): (usize, usize),
@@ -194,7 +195,7 @@ fn test(
     let mut as_far = 1;
     for _ in 0..DEALS {
         sampler.shuffle(&mut sides);
-        // Rounding aside; a deal that leaves one side without values is as far apart as can be.
+        // The tolerance allows for rounding; a deal that leaves a side without values counts as maximally far apart.
         as_far += usize::from(distance(&sides).is_none_or(|apart| apart >= found - 1e-12));
     }
     (Some(found), Some(as_far as f64 / (DEALS + 1) as f64))

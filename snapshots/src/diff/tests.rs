@@ -1,4 +1,4 @@
-//! Releases of a few games, whose differences are known.
+//! Releases of a few games whose differences are known.
 
 use super::*;
 use crate::card::Card;
@@ -7,7 +7,7 @@ use crate::released::ReleasedLevel;
 use crate::rungs::tests::card;
 use engine::Game;
 
-/// Fetch the gems. `names` are those of gem, foe and ground character.
+/// A game of fetching gems. `names` are those of the gem, the foe and the ground character.
 fn source(names: [&str; 3], foe: &str) -> String {
     let [gem, imp, ground] = names;
     format!(
@@ -40,7 +40,7 @@ const OTHER: &str = "wwwww\nwAg w\nw  fw\nwwwww\n";
 #[test]
 fn what_is_the_same_is_found_in_any_dress() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");
-    // Renamed, with another character, and the board turned by a quarter and mirrored.
+    // Renamed, with another character, and with the board rotated by a quarter turn and mirrored.
     let dressed = source(["orb", "elf", "e"], "RandomNPC");
     let turned = "wwww\nwA w\nw ew\nwg w\nwwww\n";
     let before = release(vec![
@@ -71,7 +71,7 @@ fn what_is_the_same_is_found_in_any_dress() {
     assert_eq!(diff.games.returned_generated, 0, "the one that returned is of the corpus now");
     let nearest = &diff.neighbours.closest[0];
     assert_eq!((nearest.after.as_str(), nearest.before.as_str(), nearest.distance), ("c", "a", 0.0));
-    // One class changed makes no new game: `d` is near `b`, and both are generated.
+    // One changed class does not make a new game: `d` is near `b`, and both are generated.
     assert_eq!((diff.neighbours.near, diff.neighbours.near_generated), (2, 1));
     assert!(diff.neighbours.across_generated.unwrap().min > 0.0);
 }
@@ -79,7 +79,7 @@ fn what_is_the_same_is_found_in_any_dress() {
 #[test]
 fn a_release_is_the_same_as_itself() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");
-    // The second level twice: each has a partner of its own.
+    // The second level occurs twice: each copy has a partner of its own.
     let release = release(vec![game("a", &plain, &[LEVEL, OTHER, OTHER], true)]);
     let diff = Diff::of(&release, &release, 9);
     assert_eq!((diff.games.kept, diff.games.each.len()), (1, 1));
@@ -111,7 +111,7 @@ fn shifts_are_told_from_chance_game_by_game() {
     assert!((found.distance.unwrap() - 1.0 / 3.0).abs() < 1e-12, "{found:?}");
     assert_eq!(found.p, Some(0.001));
     assert_eq!(found.shares[1], Share { value: "b".to_owned(), before: 20, after: 40 });
-    // Three games a side: only 1 of 10 deals tells as much apart, however many levels each has.
+    // Three games a side: only 1 of 10 deals differs as much, however many levels each game has.
     let few = Shift::of("t", &texts(&["a"; 50], 3), &texts(&["b"; 50], 3));
     assert_eq!(few.distance, Some(1.0));
     assert!((0.07..0.13).contains(&few.p.unwrap()), "{few:?}");

@@ -1,4 +1,4 @@
-//! Drafts that a killed run has left behind.
+//! Drafts left behind by killed runs.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
@@ -8,18 +8,19 @@ use super::lock::{self, LOCK, LOTS, TREE};
 use super::remove_tree;
 use crate::error::SnapshotError;
 
-/// A draft that no process works on any more. As long as this value lives, none can take it up.
+/// A draft that no process works on any more. While this value lives, no process can take it over.
 #[derive(Debug)]
 pub struct Abandoned {
     partial: PathBuf,
     lots: usize,
-    /// Closing it frees the lock.
+    /// Closing it releases the lock.
     _lock: File,
 }
 
 impl Abandoned {
-    /// The abandoned draft whose `.partial` folder this is; none if the folder is somebody's own, and none if a process works
-    /// on it. A folder counts as a draft's only if it holds a lock, work, and nothing else. Links are not followed.
+    /// Returns the abandoned draft whose `.partial` folder this is; `None` if the folder is not a draft's, or if a
+    /// process works on it. A folder counts as a draft's only if it holds a lock, work, and nothing else. Links are
+    /// not followed.
     ///
     /// # Errors
     /// The file system refuses.
@@ -42,7 +43,7 @@ impl Abandoned {
         Ok(Some(Abandoned { partial: partial.to_path_buf(), lots, _lock: lock }))
     }
 
-    /// The number of lots that an interrupted mint has finished, with which `--resume` goes on.
+    /// The number of jobs that an interrupted mint has finished and `--resume` can reuse.
     pub fn finished_lots(&self) -> usize {
         self.lots
     }
@@ -50,7 +51,7 @@ impl Abandoned {
     /// Removes the draft with all that it holds.
     ///
     /// # Errors
-    /// The file system refuses; then the lock is left, and the rest can be removed later.
+    /// The file system refuses; then the lock remains, and the rest can be removed later.
     pub fn remove(self) -> Result<(), SnapshotError> {
         let remove = || {
             remove_tree(&self.partial.join(TREE))?;
@@ -62,7 +63,7 @@ impl Abandoned {
     }
 }
 
-/// Returns whether the folder, itself no link, holds what a draft holds: its lock, and work.
+/// Tests whether the folder, itself no link, holds what a draft holds: its lock, and work.
 fn holds_work(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {
         return Ok(false);
@@ -71,7 +72,7 @@ fn holds_work(partial: &Path) -> io::Result<bool> {
     Ok((is_folder(TREE) || is_folder(LOTS)) && lock::is_ours(partial)?)
 }
 
-/// Files of finished lots in a folder.
+/// Counts the files of finished jobs in a folder.
 fn finished(lots: &Path) -> io::Result<usize> {
     let listed = match fs::read_dir(lots) {
         Err(source) if source.kind() == ErrorKind::NotFound => return Ok(0),
@@ -90,7 +91,7 @@ mod tests {
     use super::super::tests::{home, names};
     use super::*;
 
-    /// A draft as a killed run leaves it.
+    /// Leaves a draft as a killed run does.
     fn killed(out: &Path) -> PathBuf {
         let draft = Draft::create(out).expect("vacant");
         draft.write("games/a", b"one").expect("written");
@@ -107,7 +108,7 @@ mod tests {
         let partial = killed(&out);
         let abandoned = Abandoned::at(&partial).expect("examined").expect("abandoned");
         assert_eq!(abandoned.finished_lots(), 0);
-        // Nobody takes it up in between.
+        // No other draft can take it over in between.
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy { .. })));
         abandoned.remove().expect("removed");
         assert!(names(home.path()).is_empty());

@@ -1,4 +1,4 @@
-//! Whose `.partial` folder it is: the one process that holds the lock in it.
+//! The ownership of a `.partial` folder: it belongs to the process that holds the lock in it.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, Write};
@@ -7,21 +7,21 @@ use std::path::Path;
 use crate::error::SnapshotError;
 use crate::folder;
 
-/// The file that is locked. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder is ours.
+/// The lock file. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder is ours.
 pub(super) const LOCK: &str = ".lock";
-/// The content of [`LOCK`]. A file of that name that holds anything else is somebody's own.
+/// The content of [`LOCK`]. A file of that name with any other content is not ours.
 pub(super) const MARK: &str =
     "unfinished work of `arcade`, which replaces or removes it (infinite-arcade draft 1)\n";
-/// The folder with the work.
+/// The folder that holds the work.
 pub(super) const TREE: &str = "tree";
-/// The folder with what is kept when the work is interrupted.
+/// The folder whose content is kept if the work is interrupted.
 pub(super) const LOTS: &str = "lots";
 
 /// Creates `partial` or takes it over, and locks it.
 pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
     let busy = || SnapshotError::Busy { path: partial.to_path_buf() };
     let lock_path = partial.join(LOCK);
-    // A holder that finishes while we look removes the folder under our feet; then we start again.
+    // A holder that finishes meanwhile removes the folder; then we start again.
     for _ in 0..16 {
         match fs::create_dir(partial) {
             Err(source) if source.kind() != ErrorKind::AlreadyExists => {
@@ -57,7 +57,7 @@ pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
     Err(busy())
 }
 
-/// Writes [`MARK`], and waits until it is on disk: what comes after is known as ours by it.
+/// Writes [`MARK`], and waits until it is on disk, because it identifies everything written later as ours.
 fn mark(lock: &mut File) -> io::Result<()> {
     let mut content = Vec::new();
     Read::by_ref(lock).take(MARK.len() as u64 + 1).read_to_end(&mut content)?;
@@ -70,9 +70,9 @@ fn mark(lock: &mut File) -> io::Result<()> {
     lock.sync_all()
 }
 
-/// True if the folder is a draft's: it holds nothing but what a draft makes, and a lock with [`MARK`] unless it holds
-/// nothing at all that could be lost. Somebody's own `results.partial` is not to be deleted because `--out results` was
-/// asked for.
+/// Returns `true` if the folder is a draft's: it holds only what a draft makes, and a lock with [`MARK`] unless it
+/// holds nothing that could be lost. A user's own `results.partial` must not be deleted because `--out results` was
+/// requested.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
         return Ok(false);
@@ -91,14 +91,14 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     }
     Ok(match lock {
         Some(lock) if lock == MARK.as_bytes() => true,
-        // One that was killed, or is about to write it, has made nothing else yet.
+        // A run that was killed before it wrote the mark, or is about to write it, has made nothing else yet.
         Some(lock) => MARK.as_bytes().starts_with(&lock) && !work,
         None => !work,
     })
 }
 
-/// The first bytes of a lock's file, one more than [`MARK`] has; of one that may not be read while another holds it, as
-/// on Windows, the mark, because the attempt to lock it comes next.
+/// The first bytes of a lock file, one more than [`MARK`] has. If it cannot be read while another process holds it, as
+/// on Windows, returns the mark, because the attempt to lock it comes next.
 fn content(lock: &Path) -> io::Result<Vec<u8>> {
     let mut content = Vec::new();
     match File::open(lock)?.take(MARK.len() as u64 + 1).read_to_end(&mut content) {
@@ -127,7 +127,7 @@ mod tests {
         }
     }
 
-    /// A lock alone says nothing: only what is in it does.
+    /// A lock file alone proves nothing; its content does.
     #[test]
     fn a_lock_of_somebody_else_is_left_alone() {
         for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "lots/a.json"), ("precious", "")] {
@@ -149,7 +149,7 @@ mod tests {
         }
     }
 
-    /// Killed before the mark was written, or amid it: nothing else is there, and the next run goes on.
+    /// After a kill before or during the write of the mark, nothing else is there, and the next run takes over.
     #[test]
     fn a_lock_without_its_mark_is_taken_over() {
         for written in [0, 7, MARK.len()] {
@@ -177,7 +177,7 @@ mod tests {
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied { .. })));
     }
 
-    /// Many threads race for one place: each either gets it alone or is told why not.
+    /// Many threads race for one place: each either gets it alone or receives the reason why not.
     #[test]
     fn a_race_has_one_winner_at_a_time() {
         let (home, out) = home();

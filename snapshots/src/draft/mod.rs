@@ -1,16 +1,16 @@
-//! Writing a release folder that is complete or absent, whatever happens in between.
+//! Atomic writes of release folders: a release is complete or absent, even after a crash.
 //!
-//! The work lies beside its destination, so that one `rename` within one file system publishes it:
+//! The work lies beside its destination, and one `rename` within the file system publishes it:
 //!
 //! ```text
-//! releases/2026-12.partial/.lock    held from creation until after the rename; its content says whose it is
+//! releases/2026-12.partial/.lock    held from creation until after the rename; its content marks the folder as ours
 //! releases/2026-12.partial/tree/    becomes releases/2026-12
-//! releases/2026-12.partial/lots/    what is kept if the work is interrupted, for `Draft::resume`
+//! releases/2026-12.partial/lots/    finished jobs, kept after an interruption for `Draft::resume`
 //! ```
 //!
-//! The lock is the operating system's ([`File::try_lock`]): it dies with its process, so a `.partial` whose lock
-//! is free was left by a killed run and is replaced. The tree is one level below the lock because the lock must
-//! outlive the rename: were it inside the tree, it would be published, or let go too early.
+//! The lock is the operating system's ([`File::try_lock`]) and is released when its process dies, so a `.partial`
+//! folder whose lock is free was left by a killed run and is replaced. The tree is one level below the lock because
+//! the lock must outlive the rename: inside the tree, it would be published or released too early.
 
 mod abandoned;
 mod lock;
@@ -28,32 +28,31 @@ use crate::sealed::HELD;
 use lock::{LOCK, LOTS, TREE};
 use sync::{create_folder, sync_folder, sync_folders};
 
-/// Name of the file, in the tree, of a draft that is published as a file.
+/// The name of the file, in the tree, of a draft that is published as a file.
 const SINGLE: &str = "file";
 
 pub use abandoned::Abandoned;
 
-/// A release folder in the making. Dropping it uncommitted removes what was written, as far as possible.
+/// A release folder under construction. Dropping it uncommitted removes what was written, as far as possible.
 ///
 /// Writing takes `&self`: many threads may write different files.
 #[derive(Debug)]
 pub struct Draft {
     out: PathBuf,
     partial: PathBuf,
-    /// True if everything in it is for its owner alone, and stays so when it is published.
+    /// `true` if everything in it is readable by its owner alone, and stays so after publication.
     is_secret: bool,
-    /// Closing it frees the lock, after `drop` has removed the folder.
+    /// Closing it releases the lock, after `drop` has removed the folder.
     _lock: File,
 }
 
 impl Draft {
     /// Starts a draft of the folder `out`, which must be absent or empty; missing parents are created.
     ///
-    /// A stale `<out>.partial` is replaced, never adopted. A file system without locks is taken at its word:
-    /// there, two processes must not be given the same `out`.
+    /// A stale `<out>.partial` is replaced, never adopted. On a file system without locks, two processes must not be
+    /// given the same `out`.
     ///
-    /// # Errors
-    /// `out` is taken ([`Occupied`](SnapshotError::Occupied)), another process is writing it
+    /// `out` is occupied ([`Occupied`](SnapshotError::Occupied)), another process is writing it
     /// ([`Busy`](SnapshotError::Busy)), an interrupted one has left work
     /// ([`Interrupted`](SnapshotError::Interrupted)), `<out>.partial` is not ours to replace
     /// ([`Foreign`](SnapshotError::Foreign)), or the file system refuses.
@@ -65,10 +64,11 @@ impl Draft {
         }
     }
 
-    /// As [`create`](Draft::create), but what an interrupted draft has put into [`lots`](Draft::lots) is still there.
+    /// Starts a draft like [`create`](Draft::create), but keeps what an interrupted one has put into
+    /// [`lots`](Draft::lots).
     ///
     /// # Errors
-    /// As for `create`, but for what was interrupted.
+    /// See [`create`](Draft::create); interrupted work is no error.
     pub fn resume(out: &Path) -> Result<Draft, SnapshotError> {
         let partial = partial_of(out).ok_or_else(|| SnapshotError::Nameless { path: out.to_path_buf() })?;
         check_vacant(out)?;
@@ -77,7 +77,7 @@ impl Draft {
 
         let lock = lock::acquire(&partial)?;
         let draft = Draft { out: out.to_path_buf(), partial, is_secret: false, _lock: lock };
-        // Whoever held the lock before may have published in the meantime.
+        // The previous holder of the lock may have published in the meantime.
         check_vacant(out)?;
         let tree = draft.tree();
         remove_tree(&tree).map_err(SnapshotError::io("remove", &tree))?;
@@ -88,8 +88,8 @@ impl Draft {
     /// Writes the file at `relative`, creates its parents, and waits until the content is on disk.
     ///
     /// # Errors
-    /// The path is unsafe, the file is larger than a reader would accept, it was written before (also in other
-    /// capitals, where the file system does not tell them apart), or the file system refuses.
+    /// The path is unsafe, the file is larger than a reader would accept, it was written before (also in other case,
+    /// on a case-insensitive file system), or the file system refuses.
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), SnapshotError> {
         check_path(relative).map_err(|problem| SnapshotError::Path { path: relative.into(), problem })?;
         let path = folder::join(&self.tree(), relative);
@@ -114,12 +114,12 @@ impl Draft {
         write().map_err(SnapshotError::io("write", &path))
     }
 
-    /// Publishes the draft as `out` in one step, and waits until that is on disk. Files were waited for when
-    /// they were written; here it is the folders' turn.
+    /// Publishes the draft as `out` in one step, and waits until that is on disk. Files were synced when they were
+    /// written; this syncs the folders.
     ///
     /// # Errors
-    /// `out` is no longer absent or empty, or the file system refuses; then the draft is dropped. Only if waiting
-    /// for the parent folder fails is `out` there all the same, and complete.
+    /// `out` is no longer absent or empty, or the file system refuses; then the draft is dropped. Only if syncing the
+    /// parent folder fails does `out` exist nevertheless, and then it is complete.
     pub fn commit(self) -> Result<(), SnapshotError> {
         let tree = self.tree();
         sync_folders(&tree)?;
@@ -136,12 +136,12 @@ impl Draft {
         }
         fs::rename(&tree, &self.out).map_err(occupied)?;
         sync_folder(parent_of(&self.out))?;
-        // What cannot be removed is in nobody's way but that of the next draft, which says so.
+        // Leftovers affect only the next draft, which reports them.
         drop(remove_tree(&self.lots()));
         Ok(())
     }
 
-    /// The one file of a draft that is published as a file, created for writing; and its path, for messages.
+    /// Creates the file of a draft that is published as a file, and returns it with its path, for messages.
     ///
     /// # Errors
     /// It was created before, or the file system refuses.
@@ -151,25 +151,26 @@ impl Draft {
         Ok((file.map_err(SnapshotError::io("create", &path))?, path))
     }
 
-    /// Publishes the file of [`single`](Draft::single), whose content has been waited for, as `out` in one step, and
-    /// waits until its name is on disk. Nothing that has come there in the meantime is replaced.
+    /// Publishes the file of [`single`](Draft::single), whose content has been synced, as `out` in one step, and waits
+    /// until its name is on disk. A file that has been created there in the meantime is not replaced.
     ///
     /// # Errors
-    /// `out` is there ([`Taken`](SnapshotError::Taken)), or the file system refuses; then the draft is dropped.
+    /// `out` exists ([`Taken`](SnapshotError::Taken)), or the file system refuses; then the draft is dropped.
     pub(crate) fn commit_single(self) -> Result<(), SnapshotError> {
         let taken = || SnapshotError::Taken { path: self.out.clone() };
         let path = self.tree().join(SINGLE);
         match fs::hard_link(&path, &self.out) {
             Ok(()) => {}
             Err(source) if source.kind() == ErrorKind::AlreadyExists => return Err(taken()),
-            // Not every file system has links; a rename replaces what comes between this look and itself.
+            // Not every file system has links; a rename replaces a file created between this check and itself.
             Err(_) if fs::symlink_metadata(&self.out).is_ok() => return Err(taken()),
             Err(_) => fs::rename(&path, &self.out).map_err(SnapshotError::io("create", &self.out))?,
         }
         sync_folder(parent_of(&self.out))
     }
 
-    /// Keeps what is in the making to its owner: for sealed releases. What is held back stays so when it is published.
+    /// Restricts the unfinished work to its owner: for sealed releases. Withheld files stay restricted after
+    /// publication.
     ///
     /// # Errors
     /// The file system refuses.
@@ -182,7 +183,7 @@ impl Draft {
         Ok(())
     }
 
-    /// Keeps everything to its owner, in the making and when it is published: for shards of sealed releases. To be called
+    /// Restricts everything to its owner, before and after publication: for shards of sealed releases. Must be called
     /// before the first file is written.
     ///
     /// # Errors
@@ -198,13 +199,13 @@ impl Draft {
         Ok(())
     }
 
-    /// Where a draft of the folder `out` keeps its [`lots`](Draft::lots), whether or not there is one.
+    /// The path where a draft of the folder `out` keeps its [`lots`](Draft::lots), even if there is no draft.
     pub fn lots_of(out: &Path) -> Option<PathBuf> {
         Some(partial_of(out)?.join(LOTS))
     }
 
-    /// A folder beside the draft, not created yet, whose content outlives a draft that is dropped or killed, and is removed
-    /// with one that is committed.
+    /// The path of a folder beside the draft, not created yet. Its content outlives a draft that is dropped or killed,
+    /// and is removed when the draft is committed.
     pub fn lots(&self) -> PathBuf {
         self.partial.join(LOTS)
     }
@@ -218,26 +219,26 @@ impl Drop for Draft {
     /// After a commit only the lock is left to remove. The lock goes last, because it marks the folder as ours.
     fn drop(&mut self) {
         let removed = remove_tree(&self.tree());
-        // An empty folder is no work; one that is not stays, and the lock, which marks it as ours, with it.
+        // An empty folder holds no work. A folder with content stays, and so does the lock, which marks it as ours.
         if fs::remove_dir(self.lots()).is_err_and(|refused| refused.kind() != ErrorKind::NotFound) {
             return;
         }
         let removed = removed
             .and_then(|()| fs::remove_file(self.partial.join(LOCK)))
             .and_then(|()| fs::remove_dir(&self.partial));
-        // Nothing can be done here about a failure, and the next draft replaces what stays.
+        // A failure cannot be handled here, and the next draft replaces what is left.
         drop(removed);
     }
 }
 
-/// The folder of the work on the folder `out`; none if that has no name of its own.
+/// The folder for the work on the folder `out`; `None` if `out` has no name.
 fn partial_of(out: &Path) -> Option<PathBuf> {
     let mut name = OsString::from(out.file_name()?);
     name.push(".partial");
     Some(out.with_file_name(name))
 }
 
-/// With all folders above; those of secrets for their owner alone.
+/// Creates a folder and its missing parents; those of secrets are accessible to their owner alone.
 fn create_folders(folder: &Path, is_secret: bool) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);
@@ -248,10 +249,10 @@ fn create_folders(folder: &Path, is_secret: bool) -> io::Result<()> {
     builder.create(folder)
 }
 
-/// Whether a release can be written there, as far as can be told without trying.
+/// Checks that a release can be written to `out`, as far as possible without trying.
 ///
 /// # Errors
-/// Something is there that is not an empty folder, or the file system does not tell.
+/// There is something other than an empty folder, or the file system refuses.
 pub fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
     let occupied = || SnapshotError::Occupied { path: out.to_path_buf() };
     match fs::symlink_metadata(out) {
@@ -268,7 +269,7 @@ pub fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
     }
 }
 
-/// Removes a folder with all it holds, without following links; absent is fine.
+/// Removes a folder with its content, without following links. An absent folder is no error.
 fn remove_tree(tree: &Path) -> io::Result<()> {
     match fs::remove_dir_all(tree) {
         Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
@@ -429,7 +430,7 @@ pub(crate) mod tests {
         assert_eq!(names(home.path()), ["new"]);
     }
 
-    /// Everything of a secret draft is its owner's, from the first folder to what is published.
+    /// Everything of a secret draft, from the first folder to the published release, is accessible to its owner alone.
     #[cfg(unix)]
     #[test]
     fn secrets_are_for_their_owner() {
@@ -447,13 +448,13 @@ pub(crate) mod tests {
         );
     }
 
-    /// The process that [`a_killed_run`] kills. Run by itself it finds no orders in its folder, and is done.
+    /// The process that [`a_killed_run`] kills. Run by itself, it finds no orders in its folder and returns.
     #[test]
     fn victim() {
         if fs::read("orders").ok().as_deref() != Some(b"write until killed") {
             return;
         }
-        // Should the other test end without killing it, its input ends too, and it must not go on alone.
+        // If the other test ends without killing this process, its input ends too, and it must not keep running.
         thread::spawn(|| {
             io::copy(&mut io::stdin(), &mut io::sink()).expect("readable");
             std::process::exit(1);

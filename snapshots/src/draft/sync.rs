@@ -1,4 +1,5 @@
-//! Waiting until names are on disk: a rename, or a new folder, is safe only when the folder that holds the name is.
+//! Waiting until names are on disk: a rename or a new folder is durable only when the folder that holds the name is
+//! synced.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -17,8 +18,8 @@ pub(super) fn sync_folders(folder: &Path) -> Result<(), SnapshotError> {
     sync_folder(folder)
 }
 
-/// Waits until the names in `folder` are on disk. Only Unix lets a folder be opened and waited for; elsewhere the file
-/// system's journal has to do.
+/// Waits until the names in `folder` are on disk. Only Unix lets a folder be opened and synced; elsewhere the file
+/// system's journal must suffice.
 pub(crate) fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
     if cfg!(unix) {
         let sync = || File::open(folder)?.sync_all();
@@ -29,7 +30,7 @@ pub(crate) fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
     Ok(())
 }
 
-/// Creates `folder` and all above that are missing, and waits until their names are on disk.
+/// Creates `folder` and its missing parents, and waits until their names are on disk.
 pub(crate) fn create_folder(folder: &Path) -> Result<(), SnapshotError> {
     let is_missing = |above: &&Path| !above.as_os_str().is_empty() && !above.exists();
     let missing: Vec<&Path> = folder.ancestors().take_while(is_missing).collect();
@@ -47,7 +48,7 @@ pub(crate) mod record {
         pub(super) static SYNCED: RefCell<Vec<PathBuf>> = const { RefCell::new(Vec::new()) };
     }
 
-    /// Those since the last call.
+    /// The folders synced since the last call.
     pub(crate) fn synced() -> Vec<PathBuf> {
         SYNCED.with_borrow_mut(std::mem::take)
     }
@@ -59,7 +60,7 @@ mod tests {
     use super::super::tests::home;
     use super::record::synced;
 
-    /// A published release is waited for, with the names of all folders above that are new.
+    /// A published release is synced, with the names of all new folders above it.
     #[test]
     fn new_names_are_waited_for() {
         let (home, _) = home();

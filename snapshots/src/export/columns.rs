@@ -1,35 +1,35 @@
-//! The columns of an export: what each is called, what it holds and where that comes from. All formats, the dataset card and
-//! the page (`docs/export.md`) follow this table.
+//! The columns of an export: their names, their types and the sources of their values. All formats, the dataset card
+//! and the page (`docs/export.md`) follow this table.
 
 use super::item::Item;
 use crate::card::{LevelCard, Origin};
 use validators::{Fared, Rate};
 
-/// What a column holds.
+/// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A text, never missing.
+    /// A text, never null.
     Text,
-    /// A text, or missing.
+    /// A text, or null.
     MaybeText,
-    /// A 64-bit whole number, never missing.
+    /// A 64-bit integer, never null.
     Integer,
-    /// A 64-bit whole number, or missing.
+    /// A 64-bit integer, or null.
     MaybeInteger,
-    /// A 64-bit float, never missing.
+    /// A 64-bit float, never null.
     Number,
-    /// A 64-bit float, or missing.
+    /// A 64-bit float, or null.
     MaybeNumber,
-    /// Yes or no, never missing.
+    /// A boolean, never null.
     Flag,
-    /// Texts, perhaps none.
+    /// A list of texts, possibly empty.
     Texts,
-    /// Records, perhaps none: the fields with what they hold, none of which is a list.
+    /// A list of records, possibly empty: the fields with their types, none of which is a list.
     Records(&'static [(&'static str, Kind)]),
 }
 
 impl Kind {
-    /// As `docs/export.md` calls it.
+    /// The name of the type in `docs/export.md`.
     pub fn name(self) -> String {
         let fields = |fields: &[(&str, Kind)]| {
             let told: Vec<String> =
@@ -50,31 +50,31 @@ impl Kind {
     }
 }
 
-/// What a row has in a column.
+/// The value of a row in a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// Nothing is known.
+    /// Null.
     Missing,
-    /// Of [`Kind::Text`] or [`Kind::MaybeText`].
+    /// A value of [`Kind::Text`] or [`Kind::MaybeText`].
     Text(String),
-    /// Of [`Kind::Integer`] or [`Kind::MaybeInteger`].
+    /// A value of [`Kind::Integer`] or [`Kind::MaybeInteger`].
     Integer(i64),
-    /// Of [`Kind::Number`] or [`Kind::MaybeNumber`].
+    /// A value of [`Kind::Number`] or [`Kind::MaybeNumber`].
     Number(f64),
-    /// Of [`Kind::Flag`].
+    /// A value of [`Kind::Flag`].
     Flag(bool),
-    /// Of [`Kind::Texts`]: each a text.
+    /// A value of [`Kind::Texts`]: each element is a text.
     Texts(Vec<Value>),
-    /// Of [`Kind::Records`]: the fields in their order.
+    /// A value of [`Kind::Records`]: the fields in their order.
     Records(Vec<Vec<Value>>),
 }
 
 /// A column.
 #[derive(Clone, Copy)]
 pub struct Column {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
-    /// What it holds.
+    /// The type of its values.
     pub kind: Kind,
     of: fn(&Item<'_>) -> Value,
 }
@@ -84,7 +84,7 @@ impl Column {
         Column { name, kind, of }
     }
 
-    /// What an item has in it.
+    /// The value of an item in this column.
     pub(super) fn value(&self, item: &Item<'_>) -> Value {
         (self.of)(item)
     }
@@ -102,7 +102,7 @@ const LADDER: &[(&str, Kind)] = &[
     ("reward", Kind::MaybeNumber),
 ];
 
-/// Of every export.
+/// The columns of every export.
 const PLAIN: &[Column] = &[
     Column::new("item_id", Kind::Text, |item| text(item.id())),
     Column::new("release", Kind::Text, |item| text(&item.manifest.name)),
@@ -168,7 +168,7 @@ const PLAIN: &[Column] = &[
     Column::new("canary", Kind::Text, |item| text(&item.manifest.canary)),
 ];
 
-/// Of an export with solutions, after the others.
+/// The additional columns of an export with solutions, after the others.
 const SOLUTIONS: &[Column] = &[
     Column::new("solution", Kind::Texts, |item| {
         let actions = item.worn().witness.iter().flat_map(|episode| &episode.actions);
@@ -179,7 +179,7 @@ const SOLUTIONS: &[Column] = &[
     }),
 ];
 
-/// The columns of an export, in their order.
+/// The columns of an export, in order.
 pub fn columns(solutions: bool) -> Vec<Column> {
     PLAIN.iter().chain(if solutions { SOLUTIONS } else { &[] }).copied().collect()
 }

@@ -1,4 +1,4 @@
-//! What a row of an export is made from: a level with its game, in the game's own fiction or in that of a twin.
+//! The source of a row of an export: a level with its game, under the game's own theme or as a twin.
 
 use crate::card::{Card, LevelCard};
 use crate::manifest::Manifest;
@@ -8,7 +8,7 @@ use engine::{Analysis, Digest, Episode, Game};
 use std::borrow::Cow;
 use validators::{GameForm, GameKind};
 
-/// A game as it is shown.
+/// A game as exported: under its own theme or as a twin.
 pub(super) struct Dress<'a> {
     pub(super) title: String,
     pub(super) description: String,
@@ -18,15 +18,15 @@ pub(super) struct Dress<'a> {
     pub(super) source: String,
     pub(super) game: Game,
     pub(super) levels: Cow<'a, [ReleasedLevel]>,
-    /// By character: the types that it places, by name.
+    /// The names of the types that each character places, ordered by character.
     pub(super) legend: Vec<(char, String)>,
     pub(super) kind: GameKind,
-    /// Digest of the rules without names and order.
+    /// The digest of the rules without names and order.
     pub(super) form: Digest,
 }
 
 impl<'a> Dress<'a> {
-    /// As it was released.
+    /// The game as released.
     pub(super) fn own(released: &'a ReleasedGame) -> Dress<'a> {
         let ReleasedGame { card, source, game, levels } = released;
         Dress {
@@ -43,7 +43,7 @@ impl<'a> Dress<'a> {
         }
     }
 
-    /// As its twin.
+    /// The game as its twin.
     pub(super) fn of_twin(twin: TwinGame) -> Result<Dress<'a>, TwinError> {
         let game = Game::from_source(&twin.text).map_err(TwinError::Game)?;
         let level = |(number, (text, witness)): (usize, (String, Option<Episode>))| {
@@ -67,7 +67,7 @@ impl<'a> Dress<'a> {
     }
 }
 
-/// What each character of the LevelMapping places, by character.
+/// The names of the types that each character of the LevelMapping places, ordered by character.
 pub(super) fn legend(game: &Game) -> Vec<(char, String)> {
     let line = |symbol: u8| {
         let names: Vec<&str> = game.places(symbol).iter().map(|&stype| game.name(stype)).collect();
@@ -76,19 +76,19 @@ pub(super) fn legend(game: &Game) -> Vec<(char, String)> {
     (0..128).filter_map(line).collect()
 }
 
-/// A row in the making.
+/// The source of a row.
 pub(super) struct Item<'a> {
     pub(super) manifest: &'a Manifest,
     pub(super) card: &'a Card,
     pub(super) dress: &'a Dress<'a>,
-    /// Of the level, from 0.
+    /// The number of the level, from 0.
     pub(super) number: usize,
-    /// Which twin is shown, if it is one.
+    /// The twin that is exported; `None` for the game itself.
     pub(super) twin: Option<Twin>,
 }
 
 impl Item<'_> {
-    /// Unique among all items of all releases and their twins.
+    /// The ID of the item, unique among all items of all releases and their twins.
     pub(super) fn id(&self) -> String {
         let twin = self.twin.map(|twin| format!("+{twin}")).unwrap_or_default();
         format!("{}/{}/lvl{}{twin}", self.manifest.name, self.card.id, self.number)
@@ -98,7 +98,7 @@ impl Item<'_> {
         &self.card.levels[self.number]
     }
 
-    /// The level as it is shown.
+    /// The level as exported.
     pub(super) fn worn(&self) -> &ReleasedLevel {
         &self.dress.levels[self.number]
     }

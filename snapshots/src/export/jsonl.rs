@@ -1,9 +1,10 @@
-//! JSON Lines: an object a row, its keys in the order of the columns.
+//! JSON Lines: one object per row, with its keys in the order of the columns.
 
 use super::columns::{Column, Kind, Value};
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
-/// The rows as JSON Lines, in UTF-8. Floats are printed as the shortest text that reads back as the same number.
+/// Writes the rows as JSON Lines, in UTF-8. Floats are printed as the shortest text that reads back as the same
+/// number.
 pub(super) fn write(columns: &[Column], rows: &[Vec<Value>]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for row in rows {

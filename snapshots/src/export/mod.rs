@@ -1,7 +1,7 @@
-//! A release for other tools: a dataset with one row a level, as JSON Lines or Parquet, with a dataset card that hubs read; or
-//! plain folders of games.
+//! Exports of a release for other tools: a dataset with one row per level, as JSON Lines or Parquet, with a dataset
+//! card for dataset hubs; or plain folders of games.
 //!
-//! The same release gives the same bytes. Solutions are left out unless asked for.
+//! The same release gives the same bytes. Solutions are left out by default.
 
 mod columns;
 mod item;
@@ -20,14 +20,14 @@ use page::Rows;
 use rayon::prelude::*;
 use std::fmt;
 
-/// The one split. A release is there to evaluate with, and all of it: tools that find no split named take everything for
-/// training data, and a division (by origin, by difficulty) is a column that whoever wants it filters by.
+/// The only split. A release is for evaluation, all of it. Tools that find no named split take everything as training
+/// data. To divide a release (by origin, by difficulty), filter by a column.
 pub const SPLIT: &str = "test";
 
-/// What the rows are written as.
+/// The format of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// An object a line.
+    /// One JSON object per line.
     JsonLines,
     /// Apache Parquet.
     #[cfg(feature = "parquet")]
@@ -37,7 +37,7 @@ pub enum Format {
 }
 
 impl fmt::Display for Format {
-    /// As on the command line.
+    /// Writes the name that the command line uses.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Format::JsonLines => "jsonl",
@@ -48,41 +48,41 @@ impl fmt::Display for Format {
     }
 }
 
-/// What is exported.
+/// The options of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Export {
-    /// As what.
+    /// The format.
     pub format: Format,
-    /// With an episode that wins each level.
+    /// `true` to include an episode that wins each level.
     pub solutions: bool,
-    /// Which twin, if not the games themselves.
+    /// The twin to export; `None` for the games themselves.
     pub twin: Option<Twin>,
 }
 
-/// What an export consists of.
+/// The result of an export.
 #[derive(Debug)]
 pub struct Exported {
     /// The files by path.
     pub files: Vec<(String, Vec<u8>)>,
-    /// Games that are in it.
+    /// The number of exported games.
     pub games: usize,
-    /// Levels of these.
+    /// The number of their levels.
     pub levels: usize,
-    /// The folders of the games that have no such twin, and why.
+    /// The folders of the games that have no such twin, with the reasons.
     pub left_out: Vec<(String, TwinError)>,
 }
 
-/// Why there is no export.
+/// The reasons why a release cannot be exported.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// The library that writes Parquet refuses.
+    /// The Parquet library failed.
     #[cfg(feature = "parquet")]
     #[error("the table cannot be written as Parquet: export it as jsonl")]
     Parquet(#[from] parquet::errors::ParquetError),
     /// No game has such a twin.
     #[error("no game of the release has such a twin: {}", .0.first().map_or_else(String::new, |(_, why)| why.to_string()))]
     NoTwin(Vec<(String, TwinError)>),
-    /// Solutions are asked for, and the release has none to give.
+    /// Solutions were requested, but the release withholds them.
     #[error(
         "`{0}` is sealed, and its solutions are held back: leave --solutions away, or reveal it first, as with `arcade release \
          PUBLIC --reveal HELD --out DIR`"
@@ -90,8 +90,8 @@ pub enum ExportError {
     Held(String),
 }
 
-/// Makes an export: rows with a dataset card, or folders of games. Cost: an analysis of each game; of a twin that of making it
-/// ([`twin::of_game`](crate::twin::of_game)).
+/// Exports a release as rows with a dataset card, or as folders of games. Cost: an analysis of each game; for twins,
+/// also the cost of making them ([`twin::of_game`](crate::twin::of_game)).
 ///
 /// # Errors
 /// See [`ExportError`].
@@ -146,7 +146,7 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
     Ok(Exported { files, games, levels, left_out })
 }
 
-/// A game as players and other tools take it: rules and levels in a folder of their own.
+/// The files of a game as players and other tools read it: rules and levels in a folder of their own.
 fn folder(card: &Card, dress: &Dress<'_>) -> Vec<(String, Vec<u8>)> {
     let file = |name: String, text: &str| (format!("{}/{name}", card.id), text.as_bytes().to_vec());
     let levels = dress.levels.iter().enumerate();

@@ -1,5 +1,5 @@
-//! `README.md` of an export: the dataset card, in the form that dataset hubs read, which is YAML between two lines of `---`
-//! and then Markdown.
+//! The `README.md` of an export: the dataset card in the form that dataset hubs read, YAML between two lines of `---`,
+//! then Markdown.
 
 use super::columns::{Column, Kind};
 use super::item::Dress;
@@ -8,26 +8,26 @@ use crate::card::{Card, Origin};
 use crate::released::Released;
 use std::fmt::Write;
 
-/// The rows that a card is about.
+/// The rows that a card describes.
 pub(super) struct Rows<'a> {
-    /// Where they lie.
+    /// The path of their file.
     pub(super) file: &'a str,
-    /// How many bytes they have.
+    /// The size of the file in bytes.
     pub(super) bytes: usize,
-    /// The games that they show.
+    /// The exported games.
     pub(super) games: &'a [(&'a Card, Dress<'a>)],
-    /// How many levels of these, and so rows.
+    /// The number of levels, which is the number of rows.
     pub(super) levels: usize,
 }
 
-/// The card of an export.
+/// The dataset card of an export.
 pub(super) fn page(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'_>) -> String {
     let mut text = front(released, export, columns, rows);
     text += &body(released, export, rows);
     text
 }
 
-/// A YAML text in double quotes: JSON's quoting is YAML's.
+/// Quotes a text for YAML, with JSON's quoting, which YAML accepts.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

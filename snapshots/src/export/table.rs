@@ -1,7 +1,7 @@
-//! Parquet: the same rows in columns.
+//! Parquet: the same rows, stored by column.
 //!
-//! Plain format 1.0 without compression, one row group, nothing in the footer that tells time or machine: the same rows are the
-//! same bytes. Repeated texts cost little all the same, since columns have dictionaries.
+//! Plain format 1.0 without compression, with one row group and without time or machine in the footer: the same rows
+//! give the same bytes. Dictionaries of the columns keep repeated texts cheap.
 
 use super::columns::{Column, Kind, Value};
 use parquet::basic::Compression;
@@ -15,13 +15,13 @@ use parquet::schema::parser::parse_message_type;
 use std::fmt::Write;
 use std::sync::Arc;
 
-/// Who wrote the file: a fixed text, whatever the version of the library.
+/// The author stated in the file, a fixed text that does not depend on the library's version.
 const CREATED_BY: &str = "infinite-arcade";
 
-/// The rows as a Parquet file, with the canary among its metadata too.
+/// Writes the rows as a Parquet file, with the canary in its metadata too.
 ///
 /// # Errors
-/// The library refuses, which it has no cause for.
+/// The library fails, which is not expected.
 pub(super) fn write(columns: &[Column], rows: &[Vec<Value>], canary: &str) -> Result<Vec<u8>, ParquetError> {
     let properties = WriterProperties::builder()
         .set_created_by(CREATED_BY.to_owned())
@@ -47,7 +47,7 @@ pub(super) fn write(columns: &[Column], rows: &[Vec<Value>], canary: &str) -> Re
     Ok(bytes)
 }
 
-/// The schema in Parquet's own notation; lists in the form of three levels that its format prescribes.
+/// The schema in Parquet's own notation, with lists in the three-level form that the format prescribes.
 fn schema(columns: &[Column]) -> String {
     let mut text = "message item {\n".to_owned();
     for Column { name, kind, .. } in columns {
@@ -82,8 +82,8 @@ fn leaf(name: &str, kind: Kind) -> String {
     }
 }
 
-/// A column of the file: values with the levels at which they are there and repeated (S. Melnik et al., "Dremel: interactive
-/// analysis of web-scale datasets", 2010).
+/// A leaf column of the file: values with their definition and repetition levels (S. Melnik et al., "Dremel:
+/// interactive analysis of web-scale datasets", 2010).
 #[derive(Default)]
 struct Leaf<'a> {
     values: Vec<&'a Value>,
@@ -92,7 +92,7 @@ struct Leaf<'a> {
 }
 
 impl<'a> Leaf<'a> {
-    /// A value, or none, `base` levels deep.
+    /// Adds a value or null, `base` levels deep.
     fn put(&mut self, kind: Kind, value: &'a Value, base: i16, repeated: i16) {
         let optional = matches!(kind, Kind::MaybeText | Kind::MaybeInteger | Kind::MaybeNumber);
         let missing = *value == Value::Missing;
@@ -103,7 +103,7 @@ impl<'a> Leaf<'a> {
         }
     }
 
-    /// An empty list.
+    /// Adds an empty list.
     fn none(&mut self) {
         self.there.push(0);
         self.repeated.push(0);
@@ -229,7 +229,7 @@ mod tests {
         vec![full.clone(), nothing, full]
     }
 
-    /// Read back, lists begin and end where they did, and what was missing is.
+    /// After reading back, lists begin and end where they did, and nulls are null.
     #[test]
     fn rows_are_read_back() {
         let bytes = write(&columns(), &rows(), "the canary").unwrap();

@@ -1,27 +1,27 @@
-//! Reading a recipe: any JSON, but no more of it than memory is to be spent on.
+//! Reading a recipe: any JSON, within bounds on its memory.
 //!
-//! A manifest comes from anybody, and its root is compared only when all of it was read. What a few bytes can be made to
-//! cost is bounded by how deep they nest, because the canonical text indents every level, and by how many values they
-//! hold, because each takes up much more than the two bytes that it can be written in.
+//! A manifest is untrusted input, and its root can be compared only after all of it was read. Two limits bound the
+//! memory that a few bytes can cost: on the nesting depth, because the canonical text indents every level, and on the
+//! number of values, because each takes much more than the two bytes in which it can be written.
 
 use std::cell::Cell;
 
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 
-/// How deeply a recipe's arrays and objects may be nested, itself counted. Ours have 4 levels.
+/// The maximum nesting depth of a recipe's arrays and objects, including itself. Ours have 4 levels.
 pub(super) const MAX_NESTING: usize = 16;
-/// How many values a recipe may hold, an object counted as [`OBJECT`] of them.
+/// The maximum number of values in a recipe; an object counts as [`OBJECT`] of them.
 pub(super) const MAX_VALUES: usize = 1 << 20;
-/// How many values an object takes the room of.
+/// The number of values that an object counts for.
 const OBJECT: usize = 16;
 
-/// A value of at most [`MAX_NESTING`] levels and [`MAX_VALUES`] values: what goes beyond is refused before it is kept.
+/// Reads a value with at most [`MAX_NESTING`] levels and [`MAX_VALUES`] values; refuses any excess before storing it.
 pub(super) fn bounded<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Value, D::Error> {
     Bounded { levels: MAX_NESTING, values: &Cell::new(MAX_VALUES) }.deserialize(deserializer)
 }
 
-/// What may still come: levels below here, and values anywhere.
+/// The remaining budget: levels below here, and values anywhere.
 #[derive(Clone, Copy)]
 struct Bounded<'a> {
     levels: usize,
@@ -39,7 +39,7 @@ impl Bounded<'_> {
         left.map(|left| self.values.set(left))
     }
 
-    /// For what is inside an array or object.
+    /// The budget inside an array or object.
     fn inside<E: Error>(self) -> Result<Self, E> {
         let levels = self.levels.checked_sub(1);
         let levels = levels
@@ -138,7 +138,7 @@ mod tests {
         assert!(read(&nested(MAX_NESTING)).is_ok());
         refuse(&nested(MAX_NESTING + 1), "nested deeper than 16 levels");
         refuse(&"{\"a\":".repeat(MAX_NESTING + 1), "nested deeper than 16 levels");
-        // Brackets in a string are none.
+        // Brackets in a string do not count.
         assert!(read(&format!("\"{}\"", nested(99))).is_ok());
     }
 
@@ -150,7 +150,7 @@ mod tests {
         refuse(&list("{}", MAX_VALUES / OBJECT), "more than 1048576 values");
     }
 
-    /// Of the releases that are kept as they were minted: far from the bounds.
+    /// The releases that are kept as they were minted are far from the bounds.
     #[test]
     fn our_recipes_are_flat() {
         fn levels(value: &Value) -> usize {

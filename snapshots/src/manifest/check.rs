@@ -1,4 +1,4 @@
-//! Whether a manifest is sound in itself: everything but the syntax, the root and the files.
+//! The soundness of a manifest in itself: everything but the syntax, the root and the files.
 
 use super::{FORMAT, HEADER_LEAF, Item, Kind, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, OLDEST_FORMAT};
 use crate::canary::is_canary;
@@ -7,7 +7,7 @@ use crate::folder::Limits;
 use crate::path::check_path;
 use crate::version::is_version_number;
 
-/// The first thing that is wrong. Cost: O(n log n) in the items.
+/// Returns the first fault as an error. Cost: O(n log n) in the items.
 pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_format(manifest)?;
     let name = &manifest.name;
@@ -28,7 +28,7 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_items(&manifest.items, &Limits::SNAPSHOT)
 }
 
-/// From format 2 on a manifest names the version that minted it.
+/// From format 2 on, a manifest names the version that minted it.
 fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
     let shape = if manifest.version.is_some() { FORMAT } else { OLDEST_FORMAT };
     if manifest.format != shape {
@@ -46,13 +46,13 @@ fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
     }
 }
 
-/// A [`SnapshotError::Manifest`] that does not know its place yet.
+/// A [`SnapshotError::Manifest`] with a provisional path.
 pub(super) fn unsound(message: String) -> SnapshotError {
     SnapshotError::Manifest { path: MANIFEST_FILE.into(), message }
 }
 
 fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
-    // One file and up to `MANIFEST_LIMIT` bytes are the manifest's own.
+    // One file and up to `MANIFEST_LIMIT` bytes are reserved for the manifest.
     if items.len() as u64 >= limits.files {
         return Err(unsound(format!(
             "{} items are too many (the limit is {})",
@@ -86,11 +86,11 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     check_tree(items, limits)
 }
 
-/// Whether the items are the files of one folder tree on any file system: no file is also a folder, and no two
-/// names differ in capitals only.
+/// Checks that the items form one folder tree on any file system: no file is also a folder, and no two names differ in
+/// case only.
 ///
-/// Each item is compared with the one before it in the order of a folder tree, so that nothing is kept of the paths:
-/// memory is two words an item, and the walk ends with the first folder beyond the limit.
+/// Each item is compared with its predecessor in tree order, so no paths are stored: memory is two words per item, and
+/// the walk ends at the first folder beyond the limit.
 fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     let mut paths: Vec<&str> = items.iter().map(|item| item.path.as_str()).collect();
     paths.sort_unstable_by(|a, b| tree_order(a).cmp(tree_order(b)));
@@ -108,13 +108,13 @@ fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     Ok(())
 }
 
-/// The bytes by which a path is sorted so that everything in a folder stands together, whatever its capitals: no
-/// character of a path comes before the separator.
+/// The bytes by which a path is sorted so that all entries of a folder are adjacent, ignoring case: the separator
+/// sorts before every other character.
 fn tree_order(path: &str) -> impl Iterator<Item = u8> {
     path.bytes().map(|byte| if byte == b'/' { 0 } else { byte.to_ascii_lowercase() })
 }
 
-/// The number of leading components that two paths, neighbours in the order of the tree, have in common.
+/// The number of leading components that two paths, adjacent in tree order, have in common.
 fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
     let (mut shared, mut ends) = (0, (0, 0));
     for (one, two) in before.split('/').zip(path.split('/')).take_while(|(a, b)| a.eq_ignore_ascii_case(b)) {
@@ -130,7 +130,7 @@ fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
         ends = (ends.0 + 1, ends.1 + 1);
         shared += 1;
     }
-    // The file before is a folder here: the other way about, it would come after what is in the folder.
+    // The previous file is a folder here. In the opposite case, the file would come after the content of the folder.
     if shared > 0 && before.split('/').count() == shared {
         return Err(unsound(format!("`{before}` is both a file and a folder")));
     }
@@ -210,7 +210,8 @@ mod tests {
         items
     }
 
-    /// Half a megabyte in an archive that took three gigabytes: 99,999 items in as many folders, each 124 deep.
+    /// A regression: half a megabyte in an archive took three gigabytes, with 99,999 items in as many folders, each
+    /// 124 deep.
     #[test]
     fn deep_paths_are_refused_before_anything_is_kept_of_them() {
         let deep = items_at((0..99_999).map(|n| format!("g{n:05}{}", "/a".repeat(124))));
@@ -221,7 +222,7 @@ mod tests {
         assert!(memory.bytes_max < 65_536, "{memory:?}");
     }
 
-    /// As deep as may be: the folders are counted, not kept, and not further than the limit.
+    /// At the maximum depth, folders are counted but not stored, and only up to the limit.
     #[test]
     fn folders_are_counted_in_small_memory() {
         let wide = items_at((0..99_999).map(|n| format!("g{n:05}{}", "/a".repeat(15))));
@@ -234,7 +235,7 @@ mod tests {
         assert!(check_items(&shared, &Limits::SNAPSHOT).is_ok());
     }
 
-    /// The answer of a tree of names, kept whole, for the same paths.
+    /// The result for the same paths from a tree of names that is stored as a whole.
     fn by_names(items: &[Item], limit: usize) -> bool {
         let mut names = std::collections::BTreeMap::new();
         let mut folders = std::collections::BTreeSet::new();

@@ -1,4 +1,4 @@
-//! `MANIFEST.json`: what a release is, what it holds, and the root that commits to both.
+//! `MANIFEST.json`: the description of a release, the list of its files, and the root that commits to both.
 //!
 //! # What the root covers
 //! The root is that of the [`merkle`] tree over
@@ -9,9 +9,9 @@
 //!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format 2
 //!   on, `version`, with `null` where there is no parent or no commitment.
 //!
-//! Not under the root are `items` (the tree is built from them), their sizes (a digest fixes the size), `root`
-//! itself and `lockfile`: the last is provenance only, since two builds with the same semantics mint the same
-//! release. `checksum` guards sizes and lock file against accidents, not against intent: it must not be relied on.
+//! The root does not cover `items` (the tree is built from them), their sizes (a digest fixes the size), `root` itself
+//! and `lockfile`, which is provenance only: two builds with the same semantics mint the same release. `checksum`
+//! protects sizes and lock file against accidents, not against attackers, and must not be relied on.
 
 mod bounded;
 mod check;
@@ -36,45 +36,46 @@ pub const HEADER_LEAF: &str = "MANIFEST";
 /// The largest manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
 
-/// What a release is and holds. The module's text says which fields its root covers.
+/// The description and the content of a release. The module's documentation lists the fields that the root covers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
-    /// Version of the folder's layout: [`FORMAT`].
+    /// The version of the folder's layout: [`FORMAT`].
     pub format: u32,
-    /// Name of the release, such as `2026-12`: one path component.
+    /// The name of the release, such as `2026-12`: one path component.
     pub name: String,
-    /// Whether the seed is public from the start.
+    /// The kind of release: its seed is public from the start, or revealed later.
     pub kind: Kind,
-    /// The engine's `SEMANTICS` when this was minted: witnesses replay under the same.
+    /// The engine's `SEMANTICS` when the release was minted: witnesses replay under the same semantics.
     pub semantics: u32,
-    /// The generators' `GENERATION` when this was minted: the recipe gives the same bytes under the same.
+    /// The generators' `GENERATION` when the release was minted: the same generation gives the same bytes from the
+    /// recipe.
     pub generation: u32,
-    /// The [version](crate::version) that minted this, such as `0.12.0`: the first of its generation, whichever fixed it since.
-    /// None in format 1.
+    /// The [version](crate::version) that minted the release, such as `0.12.0`: the first version of its generation,
+    /// even if a later one was used. `None` in format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
-    /// Root of the release before, or none for the first.
+    /// The root of the previous release; `None` for the first.
     pub parent: Option<Digest>,
     /// The GUID in every file that can carry one: see [`canary`](crate::canary()).
     pub canary: String,
-    /// BLAKE3(seed ‖ nonce) of a sealed release; none for an open one.
+    /// BLAKE3(seed ‖ nonce) of a sealed release; `None` for an open one.
     pub commitment: Option<Digest>,
-    /// Digest of the `Cargo.lock` of the binary that minted. Provenance only: not under the root.
+    /// The digest of the `Cargo.lock` of the minting binary. Provenance only: not under the root.
     pub lockfile: Digest,
     /// The recipe in full.
     #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
-    /// Every file but `MANIFEST.json`, sorted by the bytes of the path.
+    /// Every file except `MANIFEST.json`, sorted by the bytes of the path.
     pub items: Vec<Item>,
-    /// Root of the tree over the items and the header.
+    /// The root of the tree over the items and the header.
     pub root: Digest,
-    /// BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, so that no
-    /// byte of the manifest changes unnoticed.
+    /// BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, to detect a
+    /// change of any byte of the manifest.
     pub checksum: Digest,
 }
 
-/// Whether the seed of a release is public.
+/// The kind of a release, by the publication of its seed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -88,16 +89,16 @@ pub enum Kind {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Item {
-    /// Relative path, as [`check_path`](crate::check_path) allows.
+    /// The relative path, as [`check_path`](crate::check_path) allows.
     pub path: String,
-    /// Size in bytes.
+    /// The size in bytes.
     pub size: u64,
-    /// Digest of the content.
+    /// The digest of the content.
     pub digest: Digest,
 }
 
 impl Item {
-    /// The item for a file with this content. Cost: one pass over it.
+    /// The item of a file with this content. Cost: one pass over it.
     pub fn of(path: impl Into<String>, content: &[u8]) -> Item {
         Item { path: path.into(), size: content.len() as u64, digest: Digest::of(content) }
     }
@@ -125,7 +126,7 @@ impl Manifest {
         MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
     }
 
-    /// The leaves of the tree, by the bytes of their paths: the items and the header, for [`merkle::root`] and
+    /// The leaves of the tree, sorted by the bytes of their paths: the items and the header, for [`merkle::root`] and
     /// [`merkle::prove`].
     ///
     /// # Errors
@@ -150,8 +151,8 @@ impl Manifest {
         Ok(leaves)
     }
 
-    /// Sorts the items, and sets the root from them and the header, and the checksum. Call it last: any later change of
-    /// a field makes one of the two wrong.
+    /// Sorts the items, and computes the root and the checksum. Call it last: a later change of any field invalidates
+    /// one of the two.
     ///
     /// # Errors
     /// Two items have the same path, one has the path [`HEADER_LEAF`], or the recipe has no canonical JSON.
@@ -162,7 +163,7 @@ impl Manifest {
         Ok(())
     }
 
-    /// The checksum that root, lock file and sizes give, whatever the manifest states.
+    /// The checksum computed from root, lock file and sizes, which may differ from the stated one.
     pub(crate) fn computed_checksum(&self) -> Digest {
         let mut text = format!("{}\n{}\n", self.root, self.lockfile);
         for item in &self.items {
@@ -171,28 +172,27 @@ impl Manifest {
         Digest::of(text.as_bytes())
     }
 
-    /// The root that the header and the items give, whatever the manifest states.
+    /// The root computed from the header and the items, which may differ from the stated one.
     ///
     /// # Errors
-    /// As for [`Manifest::seal_root`].
+    /// See [`Manifest::seal_root`].
     pub fn computed_root(&self) -> Result<Digest, SnapshotError> {
         Ok(merkle::root(&self.leaves()?)?)
     }
 
-    /// Reads a manifest and checks all of it that can be checked without the files, except that its root is the
-    /// right one: [`check_integrity`](crate::check_integrity) reports that beside what is wrong with the files.
+    /// Reads a manifest and checks everything that can be checked without the files, except its root:
+    /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems of the files.
     ///
     /// # Errors
-    /// It is too large, of another format, no JSON of this shape, has items that are unsorted, listed twice,
-    /// reserved, too large, too many, indistinguishable where capitals do not count, or with unsafe paths, has a
-    /// malformed name or canary, or a commitment exactly when it should not, or a recipe that nests too deeply or holds
-    /// too many values.
+    /// The manifest is too large, of another format, or not JSON of this shape; its items are unsorted, duplicate,
+    /// reserved, too large, too many, equal but for case, or have unsafe paths; its name or canary is malformed; a
+    /// commitment is missing or unexpected; or its recipe nests too deeply or holds too many values.
     pub fn parse(bytes: &[u8]) -> Result<Manifest, SnapshotError> {
         if bytes.len() as u64 > MANIFEST_LIMIT {
             return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
         }
         let syntax = |source| SnapshotError::Syntax { path: MANIFEST_FILE.into(), source };
-        // The version first: what a newer format has besides is not this one's to judge.
+        // The version first: additions of a newer format must not be judged by this one.
         let version: Version = serde_json::from_slice(bytes).map_err(syntax)?;
         if version.format > u64::from(FORMAT) && !commits_to_this_format(bytes) {
             return Err(SnapshotError::Format { found: version.format, known: FORMAT });
@@ -205,7 +205,7 @@ impl Manifest {
     /// The bytes of `MANIFEST.json`: canonical JSON, which [`Manifest::parse`] reads back as the same manifest.
     ///
     /// # Errors
-    /// Whatever `parse` would refuse, and a root that is not the one the header and the items give.
+    /// Anything that `parse` would refuse, or a root that differs from the computed one.
     pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
         check::check(self)?;
         bounded::bounded(&self.recipe).map_err(|error| check::unsound(error.to_string()))?;
@@ -224,7 +224,7 @@ impl Manifest {
         Ok(bytes)
     }
 
-    /// Whether these bytes are the text that this manifest has in this format. No other text is built.
+    /// Tests whether these bytes are the text of this manifest in this format, without building another text.
     ///
     /// # Errors
     /// The recipe has no canonical JSON.
@@ -232,21 +232,21 @@ impl Manifest {
         Ok(is_canonical_json(self, bytes)?)
     }
 
-    /// The text that this manifest has in this format, sound or not.
+    /// The text of this manifest in this format, sound or not.
     pub(crate) fn text(&self) -> Result<String, SnapshotError> {
         Ok(to_canonical_json(self)?)
     }
 }
 
-/// Whether a manifest is of this format whatever version it states: the root covers the version, so that no release of
-/// another format has the root that this one gives.
+/// Tests whether a manifest is of this format whatever version it states. The root covers the version, so no release
+/// of another format has the root that this one gives.
 fn commits_to_this_format(bytes: &[u8]) -> bool {
     let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
     manifest.format = FORMAT;
     manifest.computed_root().is_ok_and(|root| root == manifest.root)
 }
 
-/// All that any format is sure to have.
+/// The fields that every format has.
 #[derive(Deserialize)]
 struct Version {
     format: u64,
@@ -284,7 +284,7 @@ pub(crate) mod tests {
         example(&[("games/x/lvl0.txt", b"w"), ("README.md", b"read me")])
     }
 
-    /// Computed by an independent implementation: these texts and these roots are what the formats mean.
+    /// Computed by an independent implementation: these texts and roots define the formats.
     #[test]
     fn golden() {
         #[track_caller]
@@ -345,7 +345,7 @@ pub(crate) mod tests {
         for (n, change) in changes.iter().enumerate() {
             assert_ne!(root_after(change), sealed.root, "change {n}");
         }
-        // Provenance and the root itself are not, and a size follows from the digest.
+        // Provenance and the root itself are not covered, and a size follows from the digest.
         assert_eq!(root_after(&|m| m.lockfile = Digest::of(b"")), sealed.root);
         assert_eq!(root_after(&|m| m.root = Digest::of(b"")), sealed.root);
         assert_eq!(root_after(&|m| m.items[0].size += 1), sealed.root);

@@ -1,4 +1,4 @@
-//! `CARD.json` of a release: what was planned and what came of it, how the ladder fares, how new it is, what it is made of.
+//! The `CARD.json` of a release: planned and achieved figures, the results of the ladder, novelty, and composition.
 
 use super::select::{Bin, Contender, bins, is_new};
 use super::{Plan, Tally};
@@ -10,39 +10,40 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use validators::GameForm;
 
-/// What a release is like as a whole.
+/// A summary of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReleaseCard {
-    /// The release's mark.
+    /// The release's canary.
     pub canary: String,
-    /// Games.
+    /// The number of games.
     pub games: u64,
-    /// Levels of all games.
+    /// The number of levels of all games.
     pub levels: u64,
-    /// Games from generators.
+    /// The number of games from generators.
     pub new_games: u64,
-    /// What the recipe asks for, beside what there is: difficulties in levels (one more or less is let pass), quotas in games.
+    /// The requested and the achieved figures: difficulties in levels (a deviation of one is allowed), quotas in
+    /// games.
     pub planned: Vec<Bin>,
-    /// Levels of each difficulty, if it was measured.
+    /// The number of levels of each difficulty, if it was measured.
     pub difficulty: BTreeMap<String, u64>,
-    /// Games of each goal.
+    /// The number of games with each goal.
     pub goals: BTreeMap<String, u64>,
-    /// Games of each avatar.
+    /// The number of games with each avatar.
     pub avatars: BTreeMap<String, u64>,
-    /// Games from each generator, and from the corpus.
+    /// The number of games from each generator, and from the corpus.
     pub generators: BTreeMap<String, u64>,
-    /// How the players of the ladder fare, all games together, if they played.
+    /// The results of the players of the ladder over all games; empty if they did not play.
     pub ladder: Vec<Rung>,
-    /// How new the games are.
+    /// The novelty of the games.
     pub novelty: Novelty,
-    /// New games in which each pattern of mechanics is found.
+    /// The number of new games that contain each pattern of mechanics.
     pub patterns: BTreeMap<String, u64>,
-    /// Rules of a game.
+    /// The number of rules of a game.
     pub rules: Option<Quantiles>,
-    /// Ticks of the witnesses.
+    /// The ticks of the witnesses.
     pub witness_ticks: Option<Quantiles>,
-    /// What was tried, and why candidates failed.
+    /// The candidates that were tried, and the reasons why some failed.
     pub tally: Tally,
 }
 
@@ -50,38 +51,40 @@ pub struct ReleaseCard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rung {
-    /// How it fares.
+    /// The win rate.
     pub rate: RungRate,
-    /// The difference of win rates that two releases of this size would show: at 5 %, seen in 80 of 100 cases.
+    /// The detectable difference between the win rates of two releases of this size: at the 5 % level, with 80 %
+    /// power.
     pub detectable: Option<f64>,
-    /// The same of two releases with [`MONTH`] games like these.
+    /// The same for two releases with [`MONTH`] games like these.
     pub detectable_month: Option<f64>,
 }
 
-/// Games of a release of full size.
+/// The number of games of a release of full size.
 const MONTH: u64 = 120;
 
-/// How new the games of a release are.
+/// The novelty of the games of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Novelty {
-    /// The releases before, the oldest first.
+    /// The previous releases, the oldest first.
     pub ancestors: Vec<String>,
-    /// New games that they hold.
+    /// The number of new games that they hold.
     pub known_games: u64,
-    /// Canonical items of corpus games that they hold.
+    /// The number of canonical items of corpus games that they hold.
     pub known_items: u64,
-    /// From each new game to the most alike in the release: 0 is the same rules, 1 nothing in common.
+    /// The distances from each new game to the nearest other one of the release: 0 is the same rules, 1 nothing in
+    /// common.
     pub nearest: Option<Quantiles>,
-    /// From each new game to the most alike of the corpus.
+    /// The distances from each new game to the nearest one of the corpus.
     pub nearest_corpus: Option<Quantiles>,
-    /// From each new game to the most alike of the releases before. None is nearer than
-    /// [`NEAR`](validators::novelty::NEAR), and no item of a corpus game is there already, by how games are taken.
+    /// The distances from each new game to the nearest one of the previous releases. The selection ensures that none
+    /// is below [`NEAR`](validators::novelty::NEAR), and that no item of a corpus game is repeated.
     pub nearest_known: Option<Quantiles>,
 }
 
 impl ReleaseCard {
-    /// Of the games that are taken. Cost: new games², and some thousand resamples for each player.
+    /// The card of the selected games. Cost: new games², and some thousand resamples for each player.
     pub(super) fn of(
         plan: &Plan<'_>,
         contenders: &[Contender],
@@ -144,7 +147,7 @@ impl ReleaseCard {
         }
     }
 
-    /// For people, as Markdown: what was planned and achieved, and how the ladder fares.
+    /// The card as Markdown, for people: planned and achieved figures, and the results of the ladder.
     pub(super) fn in_words(&self) -> String {
         let mut text = String::new();
         if !self.planned.is_empty() {

@@ -1,4 +1,4 @@
-//! From the games that are taken to files and a manifest.
+//! Turning the selected games into files and a manifest.
 
 use super::card::ReleaseCard;
 use super::lot::FrozenGame;
@@ -14,13 +14,13 @@ use crate::{Digest, SnapshotError};
 use engine::syntax;
 use std::fmt::Write;
 
-/// The file that tells of a release as a whole, for programs.
+/// The file that describes a release as a whole, for programs.
 pub const RELEASE_CARD_FILE: &str = "CARD.json";
 
-/// Takes the files of a release, each as soon as it is made: relative path and content.
+/// Receives the files of a release as they are made: relative path and content.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;
 
-/// A release that is being laid out: files go to a sink, and what the manifest tells of them is kept.
+/// A release that is being written: files go to a sink, and the data for the manifest is kept.
 pub(super) struct Folder<'a, 'b> {
     sink: &'a mut Sink<'b>,
     canary: String,
@@ -46,7 +46,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         Ok(())
     }
 
-    /// The files of a game.
+    /// Writes the files of a game.
     pub(super) fn game(&mut self, frozen: FrozenGame) -> Result<(), SnapshotError> {
         let FrozenGame { text, mut card, levels, witnesses, paths } = frozen;
         let folder = format!("games/{}", card.id);
@@ -57,7 +57,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         let won = levels.iter().zip(witnesses).zip(paths).enumerate();
         for (number, ((level, episode), path)) in won {
             self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
-            // Of an open release the seed is known, and with it everything.
+            // The seed of an open release is known, and everything follows from it.
             let path = if self.is_sealed { path } else { Vec::new() };
             let witness = Witness { canary: self.canary.clone(), episode, path };
             let file = match self.is_sealed {
@@ -70,7 +70,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         Ok(())
     }
 
-    /// What tells of the release as a whole, and its manifest, which is the caller's to write.
+    /// Writes the files about the release as a whole, and returns its manifest, which the caller must write.
     pub(super) fn finish(
         mut self,
         recipe: &Recipe,
@@ -109,7 +109,7 @@ fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SnapshotError> {
     Ok(to_canonical_json(value)?.into_bytes())
 }
 
-/// The release's own README: what is in it and how to check it.
+/// The release's own README: its content and how to check it.
 fn readme(recipe: &Recipe, canary: &str, cards: &[Card], card: &ReleaseCard) -> String {
     let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
     let mut text = format!("# {}\n\n{}\n\n", recipe.name, recipe.description.trim());

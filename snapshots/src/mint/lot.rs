@@ -1,4 +1,4 @@
-//! What a lot came to, as data that can be put away and shipped.
+//! The result of a job, as data that can be stored and shipped.
 
 use super::tally::Tally;
 use crate::card::Card;
@@ -8,13 +8,13 @@ use crate::witness::Step;
 use engine::{Episode, Seed};
 use serde::{Deserialize, Serialize};
 
-/// The games of a lot: none, if nothing passed.
+/// The games of a job; none if nothing passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LotResult {
-    /// Those that passed.
+    /// The games that passed.
     pub games: Vec<FrozenGame>,
-    /// What was tried, and why the others failed.
+    /// The candidates that were tried, and the reasons why the others failed.
     pub tally: Tally,
 }
 
@@ -24,18 +24,18 @@ pub struct LotResult {
 pub struct FrozenGame {
     /// The rules, headed by the title.
     pub text: String,
-    /// What is told of it.
+    /// The card that describes it.
     pub card: Card,
-    /// Its levels.
+    /// The levels.
     pub levels: Vec<String>,
-    /// The episode that wins each.
+    /// The winning episode of each level.
     pub witnesses: Vec<Episode>,
-    /// For each of these, the steps from the release's root seed to the episode's.
+    /// For each episode, the steps from the release's root seed to its seed.
     pub paths: Vec<Vec<Step>>,
 }
 
 impl FrozenGame {
-    /// The game of a lot whose seed is at the end of `lot`, counted from the release's root.
+    /// The game of a job. `lot` holds the steps from the release's root to the job's seed.
     pub(super) fn of(made: MadeGame, root: Seed, lot: &[Step]) -> FrozenGame {
         let start: Vec<Step> = lot.iter().chain(&made.path).cloned().collect();
         let won = made.levels.iter().zip(&made.witnesses);
@@ -47,8 +47,8 @@ impl FrozenGame {
     }
 }
 
-/// The steps from the root seed to the episode that wins a level, of which `start` are known: which of `count` places it was made
-/// for, and which play of which judge won it. None if it was won in another way than those.
+/// The steps from the root seed to the episode that wins a level, beginning with `start`: which of `count` places the
+/// level was made for, and which play of which judge won it. `None` if the level was won in another way.
 fn path(
     root: Seed,
     start: &[Step],
@@ -67,7 +67,7 @@ fn path(
     let candidate = found.candidate.into();
     let places = (0..count as u64).map(move |place| to(&[("level", place), ("candidate", candidate)]));
     let place = find(judges, found.seed, Box::new(places))?;
-    // Mostly the search for a win; where it found none, a win that another judge has seen.
+    // Usually the search for a win; if it found none, a win that another judge has seen.
     let searched = (0..ROUNDS).flat_map(|round| (0..PLAYERS).map(move |player| (round, player)));
     let searched = searched.map(move |(round, player)| {
         to(&[("winnable", 0), ("round", round), ("play", player), ("chance", 0)])
@@ -90,7 +90,8 @@ fn path(
     Some(start.iter().cloned().chain(place).chain(asked).chain(won).collect())
 }
 
-/// Rounds and players of the search for a win ([`agents::solve`]), and plays of any other judge, at most.
+/// Upper bounds for the rounds and players of the search for a win ([`agents::solve`]), and for the plays of other
+/// judges.
 const ROUNDS: u64 = 20;
 const PLAYERS: u64 = 64;
 const PLAYS: u64 = 10_000;

@@ -1,9 +1,9 @@
-//! Minting: where candidates meet their judges.
+//! Minting: candidates are made, judged and selected.
 //!
-//! A recipe comes to a [`Plan`]: a list of lots, each made by itself from a seed of its own ([`Plan::make`]) and put on a
-//! [`Shelf`]. When all are there, games are chosen from them, as the recipe's quotas and difficulty histogram ask, and laid out
-//! as files. Both steps depend on the recipe alone: not on threads, order, machines or time, nor on how often the work was
-//! interrupted.
+//! A recipe is turned into a [`Plan`]: a list of independent jobs, each with its own seed. [`Plan::make`] runs a job,
+//! and its result is put into a [`Shelf`], the job store. After all jobs, games are selected from the results
+//! according to the recipe's quotas and difficulty histogram, and written as files. Both steps depend on the recipe
+//! alone: not on threads, order, machines, time or interruptions.
 
 mod card;
 mod folder;
@@ -32,29 +32,29 @@ pub use tally::Tally;
 pub(crate) use tally::reasons;
 use validators::CriteriaError;
 
-/// A release whose files have been handed over.
+/// A release whose files have been written to the sink.
 #[derive(Clone, Debug)]
 pub struct Minted {
-    /// The manifest, root included.
+    /// The manifest, including the root.
     pub manifest: Manifest,
     /// The cards of the games, those of the corpus first.
     pub cards: Vec<Card>,
-    /// What it is like as a whole.
+    /// The summary of the release.
     pub card: ReleaseCard,
 }
 
-/// Why nothing was minted.
+/// The reasons why minting fails.
 #[derive(Debug, thiserror::Error)]
 pub enum MintError {
-    /// The recipe is not sound, or sealed and its secret not there.
+    /// The recipe is not sound, or it is sealed and its secret is missing.
     #[error(transparent)]
     Recipe(#[from] RecipeError),
     /// The recipe asks for more corpus games than there are.
     #[error("`corpus.games` is {asked}, but the corpus has {known} games")]
     SmallCorpus {
-        /// In the recipe.
+        /// The number that the recipe asks for.
         asked: u32,
-        /// In the corpus.
+        /// The number of games in the corpus.
         known: usize,
     },
     /// A corpus game does not compile.
@@ -62,16 +62,16 @@ pub enum MintError {
     BrokenCorpus {
         /// The game.
         name: String,
-        /// What is wrong.
+        /// The diagnostics of the compiler.
         problems: engine::Diagnostics,
     },
-    /// The criteria are not sensible.
+    /// The criteria are invalid.
     #[error("`criteria.{}` {}", .0.key, .0.message)]
     Criteria(#[from] CriteriaError),
-    /// A lot is not on the shelf.
+    /// A job's result is not in the store.
     #[error("the lot `{0}` is missing: mint it again")]
     Missing(String),
-    /// A lot holds what is no game, or not the one that its card tells of.
+    /// A job's result holds something that is no game, or not the one that its card describes.
     #[error("the lot `{0}` holds a game that is not one: mint it again")]
     Unsound(String),
     /// Too few candidates passed.
@@ -80,46 +80,47 @@ pub enum MintError {
          --resume, which keeps what is made; or raise the tries or relax the criteria, and begin anew"
     )]
     TooFew {
-        /// Of the recipe.
+        /// The part of the recipe.
         part: &'static str,
-        /// In the recipe.
+        /// The number that the recipe asks for.
         asked: usize,
-        /// That passed and are no copies.
+        /// The number of candidates that passed and are no copies.
         there: usize,
-        /// How the others failed, or what they are copies of.
+        /// The reasons why the others failed, or the games that they copy.
         why: String,
     },
-    /// No choice of candidates meets the quotas.
+    /// No selection of candidates meets the quotas.
     #[error(
         "no choice of games was found among {candidates} candidates that is as the recipe asks: {missed}; raise \
          `generated.candidates` or `corpus.candidates`, or ask for what they can give, and go on with --resume, which keeps what \
          is made"
     )]
     Uneven {
-        /// To choose from.
+        /// The number of candidates.
         candidates: usize,
-        /// What the nearest choice misses.
+        /// The requirements that the nearest selection misses.
         missed: String,
     },
-    /// Files or manifest could not be made.
+    /// The files or the manifest cannot be made.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
 }
 
-/// Told how minting goes; from several threads.
+/// Receives the progress of minting, from several threads.
 pub trait Progress: Sync {
-    /// So many lots are to be made, of which so many were found made.
+    /// Called at the start with the number of jobs, and the number of those that are already done.
     fn begin(&self, _lots: usize, _made: usize) {}
-    /// A lot is made.
+    /// Called when a job is done.
     fn made(&self, _name: &str, _games: &[FrozenGame]) {}
 }
 
 impl Progress for () {}
 
-/// Makes those lots that are not on the shelf yet. Cost: minutes for tens of games, on all threads of the current rayon pool.
+/// Runs the jobs whose results are not in the store yet. Cost: minutes for tens of games, on all threads of the
+/// current rayon pool.
 ///
 /// # Errors
-/// The criteria are not sensible, or a lot cannot be put away.
+/// The criteria are invalid, or a result cannot be stored.
 pub fn make_lots(
     plan: &Plan<'_>,
     lots: &[Lot],
@@ -140,15 +141,15 @@ pub fn make_lots(
         progress.made(&name, &result.games);
         Ok(())
     };
-    // Long lots first, one by one: a thread takes the next when it is free.
+    // Long jobs first, one by one: a thread takes the next when it is free.
     open.par_iter().with_max_len(1).try_for_each(make)
 }
 
-/// Chooses the games of a release from lots that are all on the shelf, and hands its files over. Memory: what is told of the
-/// games, not the games.
+/// Selects the games of a release from the results of all jobs, and passes its files to the sink. Memory: the metadata
+/// of the games, not the games.
 ///
 /// # Errors
-/// A lot is missing or unsound, the candidates do not give what the recipe asks for, or the sink refuses.
+/// A job's result is missing or unsound, the candidates do not meet the recipe's demands, or the sink fails.
 pub fn lay_out(
     plan: &Plan<'_>,
     secret: Option<&Secret>,
@@ -178,7 +179,7 @@ pub fn lay_out(
     let mut folder = folder::Folder::new(plan, sink);
     for &taken in &taken {
         let Contender { lot: of, at, .. } = contenders[taken];
-        // Without the way from the secret to its chance no witness could be checked when that is revealed.
+        // Without the steps from the secret to its seed, no witness could be checked after the reveal.
         let is_traced = |game: &FrozenGame| !(plan.is_sealed() && game.paths.iter().any(Vec::is_empty));
         let game = lot(of)?.games.into_iter().nth(at).filter(is_traced);
         folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.lots()[of])))?)?;
@@ -197,7 +198,7 @@ mod tests {
     use crate::levels::Method;
     use crate::recipe::Recipe;
 
-    /// Fetch the gem and leave, before time is up.
+    /// A game of fetching the gem and leaving before time is up.
     pub(super) const FETCH: &str = "BasicGame
     SpriteSet
         floor > Immovable
@@ -237,7 +238,7 @@ mod tests {
         Corpus { games: sources.iter().map(game).collect() }
     }
 
-    /// One corpus game with one level.
+    /// A recipe for one corpus game with one level.
     pub(super) fn recipe(seed: &str) -> Recipe {
         let text = format!(
             "name = 'one'\ndescription = 'one'\nseed = '{seed}'\n[corpus]\ngames = 1\nlevels = 1\n\
@@ -259,7 +260,7 @@ mod tests {
             .replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack")
             .replace("exit avatar > killSprite", "avatar exit > stepBack");
         let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
-        // Whichever is drawn first: both orders are drawn.
+        // Either may be drawn first: both orders occur.
         let mut first = Vec::new();
         for seed in ["a", "b", "c", "d", "e", "f"] {
             let recipe = recipe(seed);
@@ -271,7 +272,7 @@ mod tests {
         assert!(first.contains(&Lot::Corpus(0)) && first.contains(&Lot::Corpus(1)), "{first:?}");
     }
 
-    /// Else a sealed release could not show that its witnesses were played under its secret.
+    /// Otherwise a sealed release could not show that its witnesses were played under its secret.
     #[test]
     fn every_way_of_making_games_leaves_a_way_from_the_seed_to_the_witness() {
         let check = |root: engine::Seed, game: &FrozenGame| {
@@ -307,7 +308,7 @@ mod tests {
         }
     }
 
-    /// The estimate of a dry run is the measurement on the page, a quarter more or less.
+    /// The estimate of a dry run is within a quarter of the measurement on the page.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
         let page = include_str!("../../../docs/recipes.md");
@@ -350,7 +351,7 @@ mod tests {
         );
     }
 
-    /// What was put away before is not made again, and the bytes are the same.
+    /// Stored results are not computed again, and the bytes are the same.
     #[test]
     fn a_mint_goes_on_from_what_is_on_the_shelf() {
         struct Count(std::sync::Mutex<Vec<String>>);

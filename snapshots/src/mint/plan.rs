@@ -1,4 +1,4 @@
-//! What a recipe comes to: a list of lots, each made by itself from a seed of its own.
+//! The plan of a recipe: a list of independent jobs, each with its own seed.
 
 use super::MintError;
 use super::lot::{FrozenGame, LotResult};
@@ -20,49 +20,51 @@ use std::sync::Arc;
 use validators::novelty::GameForm;
 use validators::{Criteria, Panel};
 
-/// A recipe with all that minting takes, in order.
+/// A recipe with all the data that minting needs, in order.
 #[derive(Debug)]
 pub struct Plan<'a> {
     pub(super) recipe: &'a Recipe,
     pub(super) seed: Seed,
     corpus: &'a Corpus,
-    /// By corpus game.
+    /// The compiled games, by place in the corpus.
     games: Vec<Game>,
     pub(super) forms: Vec<GameForm>,
-    /// New games of the releases before.
+    /// The new games of previous releases.
     pub(super) before: Vec<GameForm>,
     lots: Vec<Lot>,
 }
 
-/// A part of the work that depends on no other.
+/// A job: a part of the work that depends on no other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lot {
     /// An archive of [`ISLAND`] new games, by its number.
     Archive(u32),
-    /// A new game that is searched for.
+    /// A new game that is found by search.
     Search(u32),
-    /// A new game that is drawn.
+    /// A new game that is drawn at random.
     Constructive(u32),
     /// New levels for a corpus game, by its place in the corpus.
     Corpus(usize),
 }
 
-/// New games of one archive: few enough that archives are spread over machines, enough that they are bred. Archives are never
-/// smaller, so that one keeps its games when a recipe asks for more candidates.
+/// The number of new games of an archive: few enough to spread archives over machines, enough for evolution. Archives
+/// are never smaller, so that an archive keeps its games if a recipe asks for more candidates.
 const ISLAND: u32 = 4;
 
-/// Seconds of one core for each level that a lot is asked for: without `skill` as `starter` has it, with `skill` as `medium`.
-/// Those of archives and searches without `skill` are guessed.
+/// The cost of a job in seconds of one core per requested level: without `skill` as in `starter`, with `skill` as in
+/// `medium`. Those of archives and searches without `skill` are guesses.
 const ARCHIVE: (f64, f64) = (2.9, 5.0);
 const SEARCH: (f64, f64) = (2.9, 5.4);
 const CONSTRUCTIVE: (f64, f64) = (1.03, 3.0);
 const CORPUS: (f64, f64) = (0.41, 0.58);
 
 impl<'a> Plan<'a> {
-    /// The lots of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of milliseconds.
+    /// Makes the plan of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of
+    /// milliseconds.
     ///
     /// # Errors
-    /// The recipe is sealed and the secret is not its own, it asks for more than the corpus has, or the corpus is broken.
+    /// The recipe is sealed and the secret does not match it, it asks for more than the corpus has, or the corpus is
+    /// broken.
     pub fn new(
         recipe: &'a Recipe,
         secret: Option<&Secret>,
@@ -81,22 +83,22 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// Name of the release.
+    /// The name of the release.
     pub fn name_of_release(&self) -> &str {
         &self.recipe.name
     }
 
-    /// Whether seed and witnesses are held back.
+    /// Returns `true` if seed and witnesses are withheld.
     pub fn is_sealed(&self) -> bool {
         self.recipe.commitment.is_some()
     }
 
-    /// The lots, those that take longest first.
+    /// The jobs, the longest first.
     pub fn lots(&self) -> &[Lot] {
         &self.lots
     }
 
-    /// How many levels of each difficulty are asked for, in the order of difficulty; empty if none are.
+    /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
     pub fn histogram(&self) -> Vec<(String, i64)> {
         super::select::histogram(self.recipe)
             .into_iter()
@@ -104,11 +106,11 @@ impl<'a> Plan<'a> {
             .collect()
     }
 
-    /// The rough cost of lots together, in seconds of one core of the machine that docs/recipes.md describes.
+    /// The rough total cost of jobs, in seconds of one core of the machine that docs/recipes.md describes.
     pub fn seconds(&self, lots: &[Lot]) -> f64 {
         let usual = Criteria::default();
         let of = |(plain, skill): (f64, f64), levels: u32, criteria: &Criteria| {
-            // Decisions are about a third of what the other judges cost.
+            // Decisions cost about a third of what the other judges cost.
             let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
             let played = match criteria.asks("skill") {
                 true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
@@ -126,14 +128,14 @@ impl<'a> Plan<'a> {
         lots.iter().map(cost).sum()
     }
 
-    /// Places of the lots in the order in which their games are told: those of the corpus first.
+    /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
     pub(super) fn in_order(&self) -> Vec<usize> {
         let is_new = |at: &usize| !matches!(self.lots[*at], Lot::Corpus(_));
         let (new, old): (Vec<usize>, Vec<usize>) = (0..self.lots.len()).partition(is_new);
         old.into_iter().chain(new).collect()
     }
 
-    /// What a lot is called, as a file name is.
+    /// The name of a job, suitable as a file name.
     pub fn name(&self, lot: Lot) -> String {
         match lot {
             Lot::Archive(number) => format!("archive-{number}"),
@@ -143,10 +145,10 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The mark of every file.
+    /// The canary of every file.
     pub fn canary(&self) -> String {
         match self.recipe.commitment {
-            // From the recipe's digest, so that two recipes have two.
+            // Derived from the recipe's digest, so that two recipes have different canaries.
             None => {
                 let text =
                     to_canonical_json(self.recipe).expect("a checked recipe has no numbers that JSON lacks");
@@ -156,11 +158,11 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// What decides the content of every lot: two plans with the same digest share their lots, whatever else their recipes
-    /// ask for.
+    /// The digest of everything that determines the results of the jobs. Two plans with the same digest share their
+    /// results, whatever else their recipes ask for.
     ///
     /// # Errors
-    /// None for a checked recipe.
+    /// Never for a checked recipe.
     pub fn digest(&self) -> Result<Digest, SnapshotError> {
         let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
         let decisive = serde_json::json!({
@@ -178,7 +180,7 @@ impl<'a> Plan<'a> {
         Ok(Digest::of(to_canonical_json(&decisive)?.as_bytes()))
     }
 
-    /// The candidates for new games, by the weights of the mix.
+    /// The candidates for new games, according to the weights of the mix.
     fn generated(&self) -> Vec<Lot> {
         let part = &self.recipe.generated;
         let all = candidates(part.games, part.candidates);
@@ -188,7 +190,7 @@ impl<'a> Plan<'a> {
         archives.chain((0..searched).map(Lot::Search)).chain((0..drawn).map(Lot::Constructive)).collect()
     }
 
-    /// Which corpus games are taken is drawn.
+    /// Draws the corpus games to use.
     fn of_corpus(&self) -> Result<Vec<Lot>, MintError> {
         let (asked, known) = (self.recipe.corpus.games, self.corpus.games.len());
         if asked as usize > known {
@@ -201,10 +203,10 @@ impl<'a> Plan<'a> {
         Ok(order.into_iter().map(Lot::Corpus).collect())
     }
 
-    /// Makes a lot. Cost: from a second to minutes of one core; uses all threads of the current rayon pool.
+    /// Runs a job. Cost: from a second to minutes of one core; uses all threads of the current rayon pool.
     ///
     /// # Errors
-    /// The criteria are not sensible.
+    /// The criteria are invalid.
     pub fn make(&self, lot: Lot) -> Result<LotResult, MintError> {
         let part = &self.recipe.generated;
         let steps = self.steps(lot);
@@ -227,7 +229,7 @@ impl<'a> Plan<'a> {
         Ok(LotResult { games: games.collect(), tally })
     }
 
-    /// From the root seed to that of a lot, or of the lots of its kind where each counts its own.
+    /// The steps from the root seed to that of a job, or to that of its kind if jobs of the kind count their own.
     fn steps(&self, lot: Lot) -> Vec<Step> {
         let step = |purpose: &str, index: u32| (purpose.to_owned(), u64::from(index));
         match lot {
@@ -238,7 +240,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// What levels of corpus games must show.
+    /// The criteria for levels of corpus games.
     fn corpus_criteria(&self) -> &Criteria {
         self.recipe.corpus.criteria.as_ref().unwrap_or(&self.recipe.criteria)
     }
@@ -267,7 +269,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// A corpus game in a fresh fiction, with new levels like its own.
+    /// A corpus game under a new theme, with new levels like its own.
     fn new_levels(&self, at: usize, seed: Seed) -> (Vec<MadeGame>, Tally) {
         let (recipe, known) = (self.recipe, &self.corpus.games[at]);
         let mut tally = Tally::default();
@@ -275,7 +277,7 @@ impl<'a> Plan<'a> {
             tally.game_rejected("no fiction fits");
             return (Vec::new(), tally);
         };
-        // From the print: what is judged is what is frozen.
+        // Compiled from the printed text, so that the judged game is the frozen one.
         let Ok(game) = Game::from_source(&syntax::print(&retold.description)) else {
             tally.game_rejected("the rules do not compile");
             return (Vec::new(), tally);
@@ -316,14 +318,14 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// So many candidates for so many games.
+/// The number of candidates for a number of games.
 fn candidates(games: u32, each: f64) -> u32 {
-    // At most 20 times 10,000: no rounding error.
+    // At most 20 times 10,000, so there is no rounding error.
     (f64::from(games) * each).ceil() as u32
 }
 
-/// Shares a number out by weights: each gets its share rounded down, and what is left goes to the largest remainders, the
-/// first of equals first (Hamilton's method). All weights 0: nobody gets anything.
+/// Divides a number by weights: each gets its share rounded down, and the rest goes to the largest remainders, the
+/// first of equal ones first (Hamilton's method). If all weights are 0, all shares are 0.
 pub(super) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
     let total: f64 = weights.iter().sum();
     if total <= 0.0 {

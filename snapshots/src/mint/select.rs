@@ -1,8 +1,8 @@
-//! From candidates to a release: which games are taken, so that months can be compared.
+//! Selection: turning candidates into a release that can be compared with other months.
 //!
-//! Every candidate passed its judges, so any choice is sound. The one that is made meets the recipe's quotas and comes as near
-//! as can be to its difficulty histogram: by swapping games in and out, from several random choices. Integers and seeded
-//! draws decide, so the same candidates give the same choice on any machine.
+//! Every candidate passed its judges, so any selection is sound. The selection meets the recipe's quotas and comes as
+//! near as possible to its difficulty histogram, by swapping games in and out, from several random starts. It uses
+//! integers and seeded draws only, so the same candidates give the same selection on any machine.
 
 use super::MintError;
 use super::lot::FrozenGame;
@@ -20,9 +20,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm};
 
-/// A game that could be taken.
+/// A game that can be selected.
 pub(super) struct Contender {
-    /// The lot that it lies in, and where.
+    /// The index of its job, and its place in the job's result.
     pub(super) lot: usize,
     pub(super) at: usize,
     is_new: bool,
@@ -30,15 +30,15 @@ pub(super) struct Contender {
     labels: BTreeMap<Difficulty, i64>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
-    /// How many rules it has.
+    /// The number of rules.
     pub(super) rules: usize,
     pub(super) form: GameForm,
-    /// Canonical items: rules and level.
+    /// The canonical items: rules and level.
     pub(super) items: Vec<Digest>,
 }
 
 impl Contender {
-    /// Of a game of a lot; none if it is not what its lot says.
+    /// The contender for a game of a job's result; `None` if its rules or levels do not load.
     pub(super) fn of(lot: usize, at: usize, frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
@@ -68,7 +68,7 @@ impl Contender {
         self.is_new
     }
 
-    /// Whether a release before has a game nearly like this new one, or an item of this corpus game.
+    /// Returns `true` if a previous release has a near copy of this new game, or an item of this corpus game.
     fn is_known(&self, plan: &Plan<'_>) -> bool {
         match self.is_new {
             true => plan.before.iter().any(|form| self.form.is_near(form)),
@@ -76,7 +76,7 @@ impl Contender {
         }
     }
 
-    /// The difficulty of each level, as data has it.
+    /// The difficulty of each level, as spelt in data.
     pub(super) fn labels(&self) -> impl Iterator<Item = String> {
         self.labels
             .iter()
@@ -84,12 +84,12 @@ impl Contender {
     }
 }
 
-/// Whether a game comes from a generator.
+/// Tests whether a game comes from a generator.
 pub(super) fn is_new(card: &Card) -> bool {
     matches!(card.origin, Origin::Generated { .. })
 }
 
-/// How many levels of a game have each difficulty; nothing if none was measured.
+/// The number of levels of a game at each difficulty; empty if none was measured.
 fn labels(card: &Card) -> BTreeMap<Difficulty, i64> {
     let mut labels = BTreeMap::new();
     for ladder in card.levels.iter().filter_map(|level| level.ladder.as_ref()) {
@@ -98,44 +98,45 @@ fn labels(card: &Card) -> BTreeMap<Difficulty, i64> {
     labels
 }
 
-/// What was asked for, and what there is.
+/// A requested range and the number that was achieved.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bin {
-    /// A difficulty, a goal, an avatar.
+    /// The name of a difficulty, a goal or an avatar.
     pub name: String,
-    /// The least number asked for.
+    /// The least number requested.
     pub least: i64,
-    /// The greatest.
+    /// The greatest number requested.
     pub most: i64,
-    /// How many there are.
+    /// The number achieved.
     pub there: i64,
 }
 
 impl Bin {
-    /// By how much it is missed.
+    /// The distance from the range.
     pub(super) fn missed(&self) -> i64 {
         (self.least - self.there).max(self.there - self.most).max(0)
     }
 }
 
-/// How many levels of each difficulty are asked for, in the order of difficulty; empty if none are.
+/// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
 pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
     let shares: Vec<f64> = recipe.difficulty.values().copied().collect();
     let numbers = apportion(recipe.levels(), &shares);
     recipe.difficulty.keys().copied().zip(numbers.into_iter().map(i64::from)).collect()
 }
 
-/// Choices that are improved, each from a random one.
+/// The number of random starts of the local search.
 const STARTS: u64 = 24;
 
-/// How much a choice misses: quotas, the histogram, titles that occur twice.
+/// The amounts by which a selection misses the quotas and the histogram, and the number of duplicate titles.
 type Miss = (i64, i64, i64);
 
-/// Chooses as many contenders of each part as the recipe asks for. Returns their places, in order.
+/// Selects as many contenders of each part as the recipe asks for. Returns their indices, in order.
 ///
 /// # Errors
-/// There are too few of them, or no choice was found that meets the quotas, and the histogram within one item a bin.
+/// There are too few of them, or no selection was found that meets the quotas and, within one level per bin, the
+/// histogram.
 pub(super) fn select(
     plan: &Plan<'_>,
     contenders: &[Contender],
@@ -161,7 +162,7 @@ pub(super) fn select(
         choice.improve();
         (choice.counts.miss(), start, choice.taken)
     };
-    // The first of the best, whichever is ready first.
+    // The first of the best, whichever finishes first.
     let best = (0..STARTS).into_par_iter().map(improved).min_by_key(|(miss, start, _)| (*miss, *start));
     let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
@@ -177,16 +178,16 @@ pub(super) fn select(
     }
 }
 
-/// Contenders that may be taken together.
+/// The contenders that may be selected together.
 struct Fit {
-    /// Their places.
+    /// Their indices.
     fit: Vec<usize>,
-    /// Why others may not, by whether they are new.
+    /// The counts of the reasons why others are excluded, by whether they are new.
     dropped: BTreeMap<bool, BTreeMap<String, u64>>,
 }
 
 impl Fit {
-    /// Those that are near to no earlier one, and in no release before.
+    /// Excludes contenders that are in a previous release, have a duplicate level, or are near an earlier new one.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<bool, BTreeMap<String, u64>> = BTreeMap::new();
@@ -211,7 +212,7 @@ impl Fit {
     }
 }
 
-/// What a choice is held to, with what it has: difficulties within one item, quotas as they are.
+/// The requirements of a selection and its figures: difficulties within one level, quotas exactly.
 pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -> Vec<Bin> {
     let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
     let mut bins = Vec::new();
@@ -241,12 +242,12 @@ pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -
     bins
 }
 
-/// A label as data has it.
+/// A difficulty as spelt in data.
 pub(super) fn word(label: &Difficulty) -> String {
     serde_json::to_value(label).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
-/// A choice that is being improved.
+/// A selection that is being improved.
 struct Choice<'a> {
     contenders: &'a [Contender],
     taken: Vec<usize>,
@@ -255,7 +256,7 @@ struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// The first of an order.
+    /// The initial selection: the first contenders of an order.
     fn of(
         recipe: &'a Recipe,
         contenders: &'a [Contender],
@@ -278,7 +279,8 @@ impl<'a> Choice<'a> {
         Choice { contenders, taken, left, counts }
     }
 
-    /// Makes the swap that helps most, until none helps. Each makes the miss smaller, so this ends. Cost: candidates² a swap.
+    /// Makes the best swap until none helps. Each swap reduces the miss, so this terminates. Cost: candidates² per
+    /// swap.
     fn improve(&mut self) {
         loop {
             let now = self.counts.miss();
@@ -308,7 +310,7 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// What a choice has of everything that is asked for.
+/// The figures of a selection for every requirement.
 struct Counts<'a> {
     histogram: Vec<(Difficulty, i64)>,
     goal_quotas: Vec<(GoalKind, (i64, i64))>,
@@ -345,7 +347,7 @@ impl<'a> Counts<'a> {
         *self.goals.entry(game.goal).or_default() += times;
         *self.avatars.entry(game.avatar).or_default() += times;
         *self.kinds.entry((game.goal, game.avatar)).or_default() += times;
-        // Without those of nobody: as many are looked at as are taken.
+        // Titles with count 0 are removed, so only as many are kept as games are selected.
         let same = self.titles.entry(&game.title).or_default();
         *same += times;
         if *same == 0 {
@@ -368,7 +370,7 @@ impl<'a> Counts<'a> {
         let mut labels: BTreeSet<Difficulty> = asked.keys().copied().collect();
         labels.extend(self.labels.keys());
         let there = |label: &Difficulty| self.labels.get(label).copied().unwrap_or_default();
-        // Squares, so that what is missed is spread over the bins.
+        // Squares, to spread the deviation over the bins.
         let histogram = match asked.is_empty() {
             true => 0,
             false => labels.iter().map(|label| apart(label, there(label)).pow(2)).sum(),

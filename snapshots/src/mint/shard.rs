@@ -1,10 +1,10 @@
-//! Shards: slices of the lots of a release that are made apart, on other machines or at another time, and joined again.
+//! Shards: slices of the jobs of a release, run on other machines or at another time, and merged again.
 //!
 //! A shard is a folder, complete or absent like a release:
 //!
 //! ```text
-//! SHARD.json          which shard of which recipe, and the files of its lots with their digests
-//! lots/<name>.json    a lot each
+//! SHARD.json          the shard's number, its recipe, and the files of its jobs with their digests
+//! lots/<name>.json    one file per job
 //! ```
 
 use super::MintError;
@@ -27,16 +27,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// The file that tells what a shard is, at its top.
+/// The file at the top of a shard that describes it.
 pub const SHARD_FILE: &str = "SHARD.json";
-/// Version of the shards' layout.
+/// The version of the shards' layout.
 const SHARD_FORMAT: u32 = 1;
 
-/// Which slice of the lots: `2/4` is the second of four. Lots are dealt out in turn, so that slices take about as long.
+/// A slice of the jobs: `2/4` is the second of four. Jobs are dealt in turn, so that slices take about the same time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
-    /// From 1.
+    /// The number of the shard, from 1.
     number: u32,
     of: u32,
 }
@@ -60,7 +60,7 @@ impl std::fmt::Display for Shard {
     }
 }
 
-/// `SHARD.json`.
+/// The content of `SHARD.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ShardFile {
@@ -73,23 +73,23 @@ struct ShardFile {
     lots: Vec<Item>,
 }
 
-/// All that `SHARD.json` of any version is sure to have.
+/// The fields that every version of `SHARD.json` has.
 #[derive(Deserialize)]
 struct Version {
     format: u32,
 }
 
 impl Shard {
-    /// The lots of a plan that are this shard's.
+    /// The jobs of a plan that belong to this shard.
     pub fn lots(&self, plan: &Plan<'_>) -> Vec<Lot> {
         plan.lots().iter().copied().skip(self.number as usize - 1).step_by(self.of as usize).collect()
     }
 
-    /// The shard, of any generation, in a folder and the name of its recipe, if the folder holds the files that its `SHARD.json` lists and nothing
-    /// else. Their content is not read.
+    /// Returns the shard in a folder, of any generation, and the name of its recipe, if the folder holds exactly the
+    /// files that its `SHARD.json` lists. Their content is not read.
     pub fn at(folder: &Path) -> Option<(Shard, String)> {
         let bytes = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).ok()?;
-        // Of whatever generation: shards of an earlier one can no longer be joined here, but are shards.
+        // Any generation is accepted: shards of an earlier one can no longer be merged here, but they are shards.
         let file: ShardFile = serde_json::from_slice(&bytes).ok()?;
         let listing = folder::list(folder, &Limits::SNAPSHOT).ok()?;
         let mut listed: Vec<&str> = file.lots.iter().map(|item| item.path.as_str()).collect();
@@ -100,7 +100,7 @@ impl Shard {
         is_whole.then_some((file.shard, file.recipe.name))
     }
 
-    /// Checks whether a folder is this shard of this plan, with all its files. Their content is not read.
+    /// Tests whether a folder is this shard of this plan, with all its files. Their content is not read.
     ///
     /// # Errors
     /// The plan has no digest.
@@ -117,10 +117,10 @@ impl Shard {
         Ok(is_mine && Shard::at(folder).is_some())
     }
 
-    /// Writes the shard's folder from lots that are all on the shelf.
+    /// Writes the shard's folder from a job store that holds all its results.
     ///
     /// # Errors
-    /// A lot is missing, or the file system refuses.
+    /// A job's result is missing, or the file system refuses.
     pub fn write(&self, plan: &Plan<'_>, shelf: &dyn Shelf, draft: &Draft) -> Result<(), MintError> {
         let digest = plan.digest()?;
         let mut lots = Vec::new();
@@ -146,23 +146,23 @@ impl Shard {
     }
 }
 
-/// Where a lot lies in a shard.
+/// The path of a job's file in a shard.
 fn path(name: &str) -> String {
     format!("lots/{name}.json")
 }
 
-/// Why shards cannot be joined.
+/// The reasons why shards cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// There is no `SHARD.json`.
     #[error("{}: not a shard: there is no {SHARD_FILE}; one that is not finished goes on with `arcade release … --shard K/N --resume`", .0.display())]
     NotAShard(PathBuf),
-    /// `SHARD.json` is not what it should be.
+    /// `SHARD.json` is invalid.
     #[error("{}: {what}", .path.display())]
     Unsound {
         /// The folder.
         path: PathBuf,
-        /// What is wrong.
+        /// The fault.
         what: String,
     },
     /// Two shards do not belong together.
@@ -172,7 +172,7 @@ pub enum MergeError {
         one: PathBuf,
         /// Another.
         two: PathBuf,
-        /// Where they differ.
+        /// The respect in which they differ.
         what: &'static str,
     },
     /// Shards are missing.
@@ -188,17 +188,17 @@ pub enum MergeError {
 pub struct Shards {
     recipe: Recipe,
     plan: Digest,
-    /// Each with its folder and the paths of its lots.
+    /// Each shard with its folder and the paths of its job files.
     shards: Vec<(PathBuf, Shard, BTreeSet<String>)>,
-    /// By the lot's path: its folder, and what is to be there.
+    /// The folder and the expected file of each job, by the file's path.
     lots: BTreeMap<String, (PathBuf, Item)>,
 }
 
 impl Shards {
-    /// Opens the shards in some folders, which may be given in any order. Trusts nothing in them.
+    /// Opens the shards in some folders, in any order. Trusts nothing in them.
     ///
     /// # Errors
-    /// A folder is no shard, is of another version or of another recipe than the first, or a shard is missing or there twice.
+    /// A folder is no shard, its version or recipe differs from that of the first, or a shard is missing or duplicate.
     pub fn open(folders: &[PathBuf]) -> Result<Shards, MergeError> {
         let mut read = Vec::new();
         for folder in folders {
@@ -241,14 +241,14 @@ impl Shards {
         Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, lots })
     }
 
-    /// Checks what costs little beside minting: that each shard has the lots that the plan deals out to it and no other,
-    /// and that every game in them is what its card says, with levels of its own whose witnesses replay to wins.
+    /// Runs the checks that are cheap compared with minting: each shard has exactly the jobs that the plan deals to
+    /// it, every game in them matches its card, and its witnesses replay to wins of its own levels.
     ///
-    /// That the games are those that the seed gives, and the numbers those that their judges found, only minting them
-    /// again shows. Cost: a replay of every witness, on all threads of the current rayon pool.
+    /// Only minting again shows that the games are those that the seed gives, and the figures those that the judges
+    /// found. Cost: a replay of every witness, on all threads of the current rayon pool.
     ///
     /// # Errors
-    /// A shard or a lot is not as it is minted, or the file system refuses.
+    /// A shard or a job's result is not as minted, or the file system refuses.
     pub fn check(&self, plan: &Plan<'_>) -> Result<(), MergeError> {
         for (folder, shard, listed) in &self.shards {
             let dealt: BTreeSet<String> =
@@ -273,18 +273,18 @@ impl Shards {
         })
     }
 
-    /// What all of them are shards of.
+    /// The recipe that all of them belong to.
     pub fn recipe(&self) -> &Recipe {
         &self.recipe
     }
 
-    /// Whether their lots are those of this plan.
+    /// Tests whether their jobs are those of this plan.
     pub fn are_of(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         Ok(plan.digest()? == self.plan)
     }
 }
 
-/// The first thing that is wrong with a game of a lot of the plan with this root seed.
+/// The first fault of a game in a result of a plan with this root seed.
 fn problem(frozen: &FrozenGame, root: Seed) -> Option<String> {
     let FrozenGame { text, card, levels, witnesses, paths } = frozen;
     let id = card.id.escape_debug();
@@ -384,7 +384,7 @@ mod tests {
         }
     }
 
-    /// A shard of one lot, changed by a forger who states the digests of what is there.
+    /// Checks a shard of one job, changed by a forger who states the digests of the changed files.
     #[track_caller]
     fn check(alter: impl Fn(&mut FrozenGame), list: impl Fn(&mut ShardFile), expect: Option<&str>) {
         let (corpus, recipe) = (tests::corpus(&[("fetch", tests::FETCH)]), tests::recipe("a"));

@@ -1,4 +1,5 @@
-//! Where finished lots are kept until all are there: in memory, or in a folder that survives the process.
+//! Job stores: they keep the results of finished jobs until all are done, in memory or in a folder that survives the
+//! process.
 
 use super::lot::LotResult;
 use crate::canonical::to_canonical_json;
@@ -12,22 +13,22 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Where finished lots are kept, by name; from several threads.
+/// A job store: keeps the results of finished jobs by name, and can be used from several threads.
 pub trait Shelf: Sync {
-    /// A lot that was put away before; none if it was not, or if what is there is damaged.
+    /// Returns a result stored before; `None` if there is none or it is damaged.
     ///
     /// # Errors
     /// The file system refuses.
     fn get(&self, name: &str) -> Result<Option<LotResult>, SnapshotError>;
 
-    /// Puts a lot away. After it returns, the lot is kept whatever happens.
+    /// Stores a result. After it returns, the result persists even after a crash.
     ///
     /// # Errors
     /// The file system refuses.
     fn put(&self, name: &str, lot: &LotResult) -> Result<(), SnapshotError>;
 }
 
-/// Keeps lots in memory.
+/// A job store in memory.
 #[derive(Debug, Default)]
 pub struct Memory(Mutex<BTreeMap<String, LotResult>>);
 
@@ -44,39 +45,39 @@ impl Shelf for Memory {
     }
 }
 
-/// Keeps lots as files, each complete or absent.
+/// A job store in a folder, with one file per result, each complete or absent.
 #[derive(Debug)]
 pub struct LotFolder {
     folder: PathBuf,
-    /// What decides the content of lots: those of another plan do not count.
+    /// The digest of the plan. Results of other plans are ignored.
     plan: Digest,
-    /// Whether the folder says so.
+    /// `true` once the folder states the plan.
     is_marked: Mutex<bool>,
-    /// True if lots are for their owner alone.
+    /// `true` if results are readable by their owner alone.
     is_secret: bool,
 }
 
-/// Tells whose lots these are, so that those of another recipe are not thrown away.
+/// The file that names the plan of the results, so that those of another recipe are not discarded.
 const WHOSE: &str = "plan.txt";
 
-/// The largest file of a lot, in bytes: 64 MiB.
+/// The maximum size of a result's file, in bytes: 64 MiB.
 const LOT_LIMIT: u64 = 64 << 20;
 
-/// A file of a lot.
+/// The content of a result's file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LotFile {
     plan: Digest,
-    /// Of the result's canonical JSON: a file that was cut, or changed, does not count.
+    /// The digest of the result's canonical JSON: a file that was truncated or changed is ignored.
     digest: Digest,
     result: LotResult,
 }
 
 impl LotFolder {
-    /// Lots of this plan in a folder, which is created if it is not there.
+    /// Opens the results of this plan in a folder, which is created if missing.
     ///
     /// # Errors
-    /// The folder has lots of another plan, or the file system refuses.
+    /// The folder has results of another plan, or the file system refuses.
     pub fn open(folder: &Path, plan: Digest) -> Result<LotFolder, SnapshotError> {
         create_folder(folder)?;
         let whose = folder.join(WHOSE);
@@ -90,7 +91,7 @@ impl LotFolder {
         Ok(LotFolder { folder: folder.to_path_buf(), plan, is_marked, is_secret: false })
     }
 
-    /// Keeps the lots to their owner: for sealed releases.
+    /// Restricts the results to their owner: for sealed releases.
     ///
     /// # Errors
     /// The file system refuses.
@@ -104,10 +105,10 @@ impl LotFolder {
         Ok(())
     }
 
-    /// Returns whether each of the lots with these names is in a folder, which may be absent and is left as it is.
+    /// Returns, for each name, whether a folder holds the result. The folder may be absent, and it is not changed.
     ///
     /// # Errors
-    /// The folder has lots of another plan, or the file system refuses.
+    /// The folder has results of another plan, or the file system refuses.
     pub fn there(folder: &Path, plan: Digest, names: &[String]) -> Result<Vec<bool>, SnapshotError> {
         if !folder.exists() {
             return Ok(vec![false; names.len()]);
@@ -116,7 +117,7 @@ impl LotFolder {
         names.iter().map(|name| Ok(shelf.get(name)?.is_some())).collect()
     }
 
-    /// Before the first lot: says whose it is.
+    /// Writes the name of the plan, before the first result.
     fn mark(&self) -> Result<(), SnapshotError> {
         let mut is_marked = self.is_marked.lock().unwrap_or_else(PoisonError::into_inner);
         if !*is_marked {
@@ -126,7 +127,7 @@ impl LotFolder {
         Ok(())
     }
 
-    /// A file that is complete or absent.
+    /// Writes a file that is complete or absent.
     fn write(&self, path: &Path, text: &str) -> Result<(), SnapshotError> {
         let fresh = path.with_extension("new");
         let write = || {
@@ -145,13 +146,13 @@ impl LotFolder {
         sync_folder(&self.folder)
     }
 
-    /// The text of a lot's file.
+    /// The text of a result's file.
     pub(super) fn text(plan: Digest, lot: &LotResult) -> Result<String, SnapshotError> {
         let digest = Digest::of(to_canonical_json(lot)?.as_bytes());
         Ok(to_canonical_json(&LotFile { plan, digest, result: lot.clone() })?)
     }
 
-    /// Reads the text of a lot's file; none if it is cut, changed, or of another plan.
+    /// Reads the text of a result's file; `None` if it is truncated, changed, or of another plan.
     pub(super) fn parse(plan: Digest, bytes: &[u8]) -> Result<Option<LotResult>, SnapshotError> {
         let Ok(file) = serde_json::from_slice::<LotFile>(bytes) else { return Ok(None) };
         let sound =
@@ -186,7 +187,7 @@ mod tests {
     use super::*;
     use crate::mint::Tally;
 
-    /// The names of the folder, of the note whose lots these are, and of the lot are waited for.
+    /// The names of the folder, of the plan's file and of the result are synced.
     #[test]
     fn a_lot_that_is_put_away_stays() {
         let home = tempfile::tempdir().unwrap();

@@ -1,23 +1,23 @@
-//! What minting cost: candidates, rejections, calls.
+//! The cost of minting: candidates, rejections, calls.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Candidates tried for one place or a whole release, and why those that failed did.
+/// The candidates tried for one place or for a whole release, and the reasons why some failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tally {
-    /// Games tried.
+    /// The number of games tried.
     pub games_tried: u64,
-    /// Games accepted.
+    /// The number of games accepted.
     pub games_accepted: u64,
-    /// Levels tried.
+    /// The number of levels tried.
     pub levels_tried: u64,
-    /// Levels accepted, those of games that failed later included.
+    /// The number of levels accepted, including those of games that failed later.
     pub levels_accepted: u64,
-    /// Forward-model calls of all judges.
+    /// The forward-model calls of all judges.
     pub calls: u64,
-    /// How often each criterion, or a generator, said no.
+    /// The number of rejections by each criterion or generator.
     pub rejections: BTreeMap<String, u64>,
 }
 
@@ -47,13 +47,13 @@ impl Tally {
         self.calls += calls;
     }
 
-    /// A game that was accepted is not taken after all.
+    /// Counts an accepted game as rejected.
     pub(crate) fn taken_back(&mut self, why: &str) {
         self.games_accepted -= 1;
         *self.rejections.entry(why.to_owned()).or_default() += 1;
     }
 
-    /// Adds the counts of another place.
+    /// Adds the counts of another tally.
     pub(crate) fn add(&mut self, other: &Tally) {
         self.games_tried += other.games_tried;
         self.games_accepted += other.games_accepted;

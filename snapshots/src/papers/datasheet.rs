@@ -1,4 +1,5 @@
-//! The datasheet of a release: the facts of its card under the headings of *Datasheets for Datasets* (Gebru et al., 2021).
+//! The datasheet of a release: the facts of its card under the headings of *Datasheets for Datasets* (Gebru et al.,
+//! 2021).
 
 use crate::card::Origin;
 use crate::figures::Quantiles;
@@ -13,14 +14,14 @@ const SEALED: &str = "sealed: seed and winning episodes are held back until it i
 const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only after the release is revealed, and wholly \
      only by minting it again.\n";
 
-/// The datasheet after the release was revealed. Whatever its publisher has written stays.
+/// The datasheet after the reveal. Changes by the publisher are kept.
 pub(super) fn revealed(datasheet: &str) -> String {
     datasheet
         .replace(SEALED, "sealed, and revealed: its seed and the winning episodes are public now")
         .replace(UNCHECKED, "- That games come from the seed that was committed to is shown wholly only by minting it again.\n")
 }
 
-/// All of it, as Markdown.
+/// The whole datasheet, as Markdown.
 pub(super) fn datasheet(minted: &Minted) -> String {
     let Minted { manifest, card, cards } = minted;
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
@@ -96,7 +97,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
     text
 }
 
-/// `jumps 3, walks 12`.
+/// Formats counts: `jumps 3, walks 12`.
 fn counted(counts: &BTreeMap<String, u64>) -> String {
     let counts: Vec<String> =
         counts.iter().map(|(name, count)| format!("{} {count}", name.replace('_', " "))).collect();

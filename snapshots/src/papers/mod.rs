@@ -1,9 +1,9 @@
-//! Papers: what goes along with a release without being part of it: licence, citation, datasheet, errata, and whatever its
-//! publisher adds.
+//! Papers: documents that accompany a release without being part of it: licence, citation, datasheet, errata, and
+//! whatever its publisher adds.
 //!
-//! They lie in `papers/`, beside the hashed tree and outside the manifest: a DOI or an erratum comes after the root is fixed.
-//! So nothing in them is proved; they are bounded, and links and unsafe names are refused like everywhere else. What other
-//! programs leave at the top of a folder (`.git`, `.DS_Store`) is passed over and named.
+//! They lie in `papers/`, beside the hashed tree and outside the manifest, because a DOI or an erratum comes after the
+//! root is fixed. So nothing in them is proved. They are bounded, and links and unsafe names are refused as everywhere
+//! else. Entries that other programs leave at the top of a folder (`.git`, `.DS_Store`) are skipped and reported.
 
 mod datasheet;
 
@@ -17,10 +17,11 @@ use std::path::Path;
 /// The folder of the papers, at the top of a release.
 pub const PAPERS: &str = "papers/";
 
-/// Limits of the papers of a release: 1 000 files of at most 64 MiB, 256 MiB together.
+/// The limits of the papers of a release: 1 000 files of at most 64 MiB, 256 MiB together.
 pub const PAPERS_LIMITS: Limits = Limits { files: 1000, file_bytes: 64 << 20, total_bytes: 256 << 20 };
 
-/// Names that version control, file managers and downloads leave at the top of a folder. What is below is not looked at.
+/// The names that version control, file managers and downloads leave at the top of a folder. Their content is not
+/// read.
 pub(crate) const PASSED_OVER: [&str; 12] = [
     ".DS_Store",
     ".cache",
@@ -41,11 +42,11 @@ pub(crate) const PASSED_OVER: [&str; 12] = [
 pub struct Beside {
     /// The papers, by path.
     pub papers: Vec<Entry>,
-    /// Files that other programs left at the top, by name; not looked at.
+    /// Files that other programs left at the top, by name; they are not read.
     pub ignored: Vec<String>,
 }
 
-/// The files in the release folder `root` that its manifest has to list, and what is beside them.
+/// The files in the release folder `root` that its manifest must list, and the files beside them.
 ///
 /// # Errors
 /// A folder cannot be read.
@@ -55,7 +56,7 @@ pub(crate) fn list(root: &Path) -> Result<(Listing, Beside), SnapshotError> {
     let entries = std::mem::take(&mut listing.entries);
     let (papers, entries): (Vec<Entry>, _) = entries.into_iter().partition(|entry| is_paper(&entry.path));
     listing.entries = entries;
-    // A folder that is waiting for papers does no harm.
+    // An empty folder for papers is harmless.
     listing.problems.retain(|problem| {
         problem.flaw != Flaw::EmptyFolder
             || !(is_paper(&problem.path) || is_paper(&format!("{}/", problem.path)))
@@ -72,7 +73,7 @@ pub(crate) fn list(root: &Path) -> Result<(Listing, Beside), SnapshotError> {
 }
 
 impl Minted {
-    /// The papers that a release is born with, by path: they tell what the manifest and the cards tell, and no more.
+    /// The initial papers of a release, by path. Their facts are those of the manifest and the cards.
     pub fn papers(&self) -> Vec<(String, String)> {
         let manifest = &self.manifest;
         let papers = [
@@ -85,7 +86,7 @@ impl Minted {
     }
 }
 
-/// The content that a paper of a sealed release has after the release was revealed.
+/// The content of a sealed release's paper after the reveal.
 pub(crate) fn revealed(path: &str, content: Vec<u8>) -> Vec<u8> {
     match (path.strip_prefix(PAPERS), std::str::from_utf8(&content)) {
         (Some("DATASHEET.md"), Ok(text)) => datasheet::revealed(text).into_bytes(),
@@ -93,7 +94,7 @@ pub(crate) fn revealed(path: &str, content: Vec<u8>) -> Vec<u8> {
     }
 }
 
-/// The licence of what programs made.
+/// The licence of generated content.
 fn licence(manifest: &Manifest) -> String {
     format!(
         "SPDX-License-Identifier: MIT OR Apache-2.0\n\n\
@@ -109,7 +110,7 @@ fn licence(manifest: &Manifest) -> String {
     )
 }
 
-/// The citation of a release: [CFF 1.2.0](https://citation-file-format.github.io). The root says which bytes are meant.
+/// The citation of a release: [CFF 1.2.0](https://citation-file-format.github.io). The root identifies the bytes.
 fn citation(manifest: &Manifest) -> String {
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
     format!(
@@ -131,13 +132,13 @@ fn citation(manifest: &Manifest) -> String {
     )
 }
 
-/// A text in double quotes, as YAML reads it.
+/// Quotes a text for YAML, with double quotes.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for character in text.chars() {
         match character {
             '"' | '\\' => quoted.extend(['\\', character]),
-            // Line breaks to YAML, or nothing that may stand in it.
+            // Line breaks in YAML, or characters that it does not allow.
             '\u{2028}' | '\u{2029}' | '\u{feff}' => quoted += &format!("\\u{:04x}", character as u32),
             _ if character.is_control() => quoted += &format!("\\u{:04x}", character as u32),
             _ => quoted.push(character),
@@ -196,7 +197,7 @@ mod tests {
             ],
             (&["README.md"], &["papers/LICENSE", "papers/talk/slides.pdf"], &[".DS_Store", ".git"], &[]),
         );
-        // Below the top nothing is passed over, and papers are no cover for what has no business there.
+        // Below the top no entry is skipped, and the papers folder does not hide unsafe entries.
         check(
             &[("games/x/.DS_Store", 1), ("games/.git/HEAD", 1), ("games/papers/x", 1), ("papers", 1)],
             (&["games/.git/HEAD", "games/papers/x", "games/x/.DS_Store", "papers"], &[], &[], &[]),

@@ -1,8 +1,8 @@
-//! The mirrored twin: the board reflected left to right, and every direction in the rules with it.
+//! The mirrored twin: the board reflected left to right, together with every direction in the rules.
 //!
-//! What has no mirror image is refused with the reason: sprites that prefer a side by their class, sprites of other widths
-//! than a cell, and games in which the order matters in which sprites of a row are gone through. The last is found by
-//! playing both worlds side by side, which chance must not decide.
+//! A game without a mirror image is refused with the reason: sprites whose class prefers a side, sprites of other
+//! widths than a cell, and a dependence on the order in which the sprites of a row are processed. The last is detected
+//! by playing both worlds side by side, in games without randomness.
 
 use super::{Made, Original, Twin, TwinError, TwinGame, replayed};
 use agents::{PortfolioConfig, Solution, solve};
@@ -13,16 +13,16 @@ use engine::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Ticks of a random play that the two worlds have to agree on.
+/// The ticks of a random play during which the two worlds must agree.
 const TICKS: usize = 150;
-/// Random plays of each level.
+/// The number of random plays of each level.
 const PLAYS: u64 = 2;
-/// Chances under which the mirrored actions of a witness are tried, where chance decides.
+/// The number of seeds under which the mirrored actions of a witness are tried in a stochastic game.
 const CHANCES: u64 = 16;
-/// Forward-model calls to find another witness, where chance decides.
+/// The forward-model calls to find another witness in a stochastic game.
 const CALLS: u64 = 50_000;
 
-/// Words that swap places, in names of types that face a side.
+/// Words that are swapped in the names of types that face a side.
 const SIDES: [(&str, &str); 2] = [("left", "right"), ("west", "east")];
 
 pub(super) fn twin(original: &Original<'_>) -> Result<TwinGame, TwinError> {
@@ -64,7 +64,7 @@ pub(super) fn twin(original: &Original<'_>) -> Result<TwinGame, TwinError> {
     Ok(made.headed(original))
 }
 
-/// A level's rows from right to left.
+/// Reflects a level: the characters of each row in reverse order.
 fn reflected(level: &str) -> String {
     level.lines().map(|row| row.chars().rev().chain(['\n']).collect::<String>()).collect()
 }
@@ -85,7 +85,7 @@ fn mirrored_direction(direction: Direction) -> Direction {
     }
 }
 
-/// The constant on the other side, in either spelling; None if it has none.
+/// The constant for the opposite side, in either spelling; `None` if it has none.
 fn mirrored_constant(text: &str) -> Option<&'static str> {
     match text {
         "LEFT" => Some("RIGHT"),
@@ -96,7 +96,7 @@ fn mirrored_constant(text: &str) -> Option<&'static str> {
     }
 }
 
-/// Refuses what prefers a side and cannot be told otherwise.
+/// Refuses games with sprites that prefer a side and cannot be reoriented.
 fn refuse(analysis: &Analysis) -> Result<(), String> {
     use SpriteClass as C;
     let game = analysis.game();
@@ -125,7 +125,7 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     Ok(())
 }
 
-/// Names of types that face a side and say so: `westvane` and `eastvane` swap.
+/// The renamings of types that face a side and are named after it: `westvane` and `eastvane` swap.
 fn swapped_names(game: &Game) -> BTreeMap<String, String> {
     let names: BTreeSet<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
     let swap = |stype: SpriteType| {
@@ -135,7 +135,7 @@ fn swapped_names(game: &Game) -> BTreeMap<String, String> {
         (facing == Direction::LEFT || facing == Direction::RIGHT).then(|| (name.to_owned(), other))
     };
     let mut swaps: BTreeMap<String, String> = game.sprite_types().filter_map(swap).collect();
-    // No two types may get one name.
+    // No two types may get the same name.
     let taken = |swaps: &BTreeMap<String, String>| -> Vec<String> {
         let clash = |(_, new): &(&String, &String)| names.contains(new.as_str()) && !swaps.contains_key(*new);
         swaps.iter().filter(clash).map(|(old, _)| old.clone()).collect()
@@ -181,7 +181,7 @@ fn rules(game: &Game, names: &BTreeMap<String, String>) -> Result<Description, S
             };
         }
     }
-    // What faces a side by its class, or by what it inherits, has to be told to face the other one.
+    // Types that face a side by class or inheritance must be given the opposite orientation explicitly.
     for stype in misdirected(game, &rules)? {
         let facing = match mirrored_direction(game.orientation(stype)) {
             Direction::UP => "UP",
@@ -216,7 +216,7 @@ fn sprites(lines: &mut [SpriteLine]) {
     }
 }
 
-/// The types, in both games in the same order, that do not face the way that they should.
+/// The types that do not face the mirrored direction; both games have them in the same order.
 fn misdirected(game: &Game, rules: &Description) -> Result<Vec<SpriteType>, String> {
     let twin = Game::compile(rules).map_err(|problems| format!("it does not compile: {problems}"))?;
     let wrong = |stype: &SpriteType| {
@@ -251,10 +251,10 @@ struct Worlds<'a> {
 }
 
 impl Worlds<'_> {
-    /// Plays actions in one world, their mirror images in the other, and compares what is seen.
+    /// Plays actions in one world and their mirror images in the other, and compares the observations.
     ///
     /// # Errors
-    /// The tick after which the two differ, counted from 0.
+    /// The tick after which the two differ, from 0.
     fn agree(&self, one: &Level, two: &Level, seed: Seed, actions: &[Action]) -> Result<(), usize> {
         let (mut left, mut right) = (self.one.start(one, seed), self.two.start(two, seed));
         for (tick, &action) in actions.iter().enumerate() {
@@ -282,8 +282,8 @@ impl Worlds<'_> {
     }
 }
 
-/// An episode that wins the level where chance decides: what was done in the original, under other chances; or another one,
-/// if it is found soon.
+/// An episode that wins the level of a stochastic game: the original's actions under other seeds, or another episode
+/// if one is found soon.
 fn another(analysis: &Analysis, level: &Level, known: &Episode, seed: Seed) -> Option<Episode> {
     let game = analysis.game();
     for chance in 0..CHANCES {
@@ -346,7 +346,7 @@ mod tests {
                 "rower > ShootAvatar stype=gate orientation=LEFT",
             ],
         );
-        // Not what inherits another direction.
+        // Types that inherit another direction are not affected.
         check(
             "    hull > Missile orientation=UP\n      boat > speed=0.5\n      raft > orientation=DLEFT\n    rower > \
              MovingAvatar\n",
@@ -398,7 +398,7 @@ mod tests {
         );
     }
 
-    /// Only one raft can be there: the first boat of the row makes it, and in the mirror that is the other one.
+    /// Only one raft can exist: the first boat of the row spawns it, and in the mirror image that is the other boat.
     #[test]
     fn games_that_depend_on_the_order_in_a_row_are_refused() {
         let sprites = "    boat > SpawnPoint stype=raft cooldown=3\n    raft > Immovable singleton=True\n    rower > MovingAvatar\n";

@@ -1,5 +1,5 @@
-//! Twins of games: the same mechanics with another surface, to test whether a model remembers or understands
-//! ([what each keeps and changes](../../../docs/twins.md)).
+//! Twins of games: the same mechanics under another theme, to test whether a model remembers or understands ([the
+//! properties of each](../../../docs/twins.md)).
 
 mod mirrored;
 mod released;
@@ -15,23 +15,23 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// What becomes of the surface.
+/// The kind of a twin: the change of the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Twin {
-    /// Names and level characters tell nothing any more.
+    /// Names and level characters no longer carry meaning.
     Masked,
-    /// The board is reflected left to right, and every direction in the rules with it.
+    /// The board is reflected left to right, together with every direction in the rules.
     Mirrored,
-    /// The game is told in another fiction.
+    /// The game has another theme.
     Renamed,
 }
 
 impl Twin {
-    /// All kinds.
+    /// All kinds of twins.
     pub const ALL: [Twin; 3] = [Twin::Masked, Twin::Mirrored, Twin::Renamed];
 
-    /// As written on the command line and in data.
+    /// The name on the command line and in data.
     pub fn name(self) -> &'static str {
         match self {
             Twin::Masked => "masked",
@@ -56,52 +56,52 @@ impl FromStr for Twin {
     }
 }
 
-/// A game with another surface.
+/// A game under another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TwinGame {
     /// The rules, headed by title and canary.
     pub text: String,
-    /// The levels, in their order.
+    /// The levels, in the order of the original.
     pub levels: Vec<String>,
-    /// For each level an episode that wins it; none where there was none, or where what was done in the original does not
-    /// win here and no other way was found.
+    /// For each level an episode that wins it; `None` if there was none, or if the original's actions do not win here
+    /// and no other win was found.
     pub witnesses: Vec<Option<Episode>>,
-    /// Its title.
+    /// The title.
     pub title: String,
-    /// Who the player is, and more, as far as the surface may tell.
+    /// A description of the player and more, as far as the surface reveals it.
     pub description: String,
-    /// How to win, in one sentence.
+    /// The goal, in one sentence.
     pub goal: String,
 }
 
-/// Why a game has no twin.
+/// The reasons why a game has no twin.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum TwinError {
     /// The text is no game.
     #[error("not a game: {0}")]
     Game(Diagnostics),
-    /// A level is no level of the game.
+    /// A level does not belong to the game.
     #[error("lvl{number}.txt is not a level of this game: {problems}")]
     Level {
-        /// Counted from 0.
+        /// The number of the level, from 0.
         number: usize,
-        /// What is wrong.
+        /// The diagnostics.
         problems: Diagnostics,
     },
     /// The rules cannot be mirrored faithfully.
     #[error("the game cannot be mirrored: {0}")]
     Unmirrorable(String),
-    /// No other fiction.
+    /// There is no other theme.
     #[error(transparent)]
     Untold(#[from] GenerateError),
 }
 
-/// The twin of a game: the same mechanics, level by level. `witnesses` are episodes that win the levels, in the order of the
-/// levels; fewer are none for the others. The same arguments give the same twin. Cost: well under a second, where no witness
-/// has to be searched anew.
+/// Makes the twin of a game: the same mechanics, level by level. `witnesses` are episodes that win the levels, in the
+/// order of the levels; they may be fewer. The same arguments give the same twin. Cost: well under a second, unless a
+/// witness must be searched for.
 ///
 /// # Errors
-/// Text or levels do not load, or the game has no twin of this kind.
+/// The rules or the levels do not load, or the game has no twin of this kind.
 pub fn of_game(
     kind: Twin,
     source: &str,
@@ -112,7 +112,7 @@ pub fn of_game(
     of_levels(kind, source, levels, known)
 }
 
-/// The same, where levels in between may have no witness.
+/// Makes the twin like [`of_game`], but any level may lack a witness.
 fn of_levels(
     kind: Twin,
     source: &str,
@@ -133,22 +133,22 @@ fn of_levels(
     }
 }
 
-/// A game that a twin is made of.
+/// The original of a twin.
 struct Original<'a> {
     game: Game,
-    /// Canonical texts.
+    /// The canonical texts.
     levels: Vec<String>,
-    /// One a level.
+    /// One entry per level.
     witnesses: Vec<Option<&'a Episode>>,
 }
 
 impl Original<'_> {
-    /// Where the draws for a twin come from: from nothing but the game.
+    /// The seed for the draws of a twin, which depends on nothing but the game.
     fn seed(&self, kind: Twin) -> Seed {
         Seed::from_text(&format!("twin {} of {}", kind.name(), self.game.digest()))
     }
 
-    /// Its title, as releases write it above the rules.
+    /// The title that releases write above the rules.
     fn title(&self) -> Option<String> {
         let comments = self.game.description().header.trivia.above.iter().map(|line| line.trim());
         comments.filter(|line| !line.is_empty() && !line.starts_with(CANARY)).map(str::to_owned).next()
@@ -173,24 +173,24 @@ impl Original<'_> {
     }
 }
 
-/// How comments begin that mark a text as one not to be trained on.
+/// The beginning of comments that mark a text as excluded from training.
 const CANARY: &str = "canary ";
 
-/// A twin without its title and text, and the game that it is.
+/// A twin without its title and text, and its compiled game.
 struct Made {
     twin: TwinGame,
     game: Game,
 }
 
 impl Made {
-    /// From rules in which the image of an action does what the action did.
+    /// Makes a twin from rules in which the image of an action has the effect of the action.
     fn of(
         original: &Original<'_>,
         rules: &Description,
         levels: Vec<String>,
         image: fn(Action) -> Action,
     ) -> Result<Made, TwinError> {
-        // From the print: what is frozen is what is played.
+        // Compiled from the printed text, so that the played game is the frozen one.
         let game = Game::from_source(&syntax::print_bare(rules)).map_err(TwinError::Game)?;
         let mut witnesses = Vec::new();
         for (number, text) in levels.iter().enumerate() {
@@ -206,12 +206,12 @@ impl Made {
         Ok(Made { twin, game })
     }
 
-    /// A title that tells nothing.
+    /// A title without meaning.
     fn plain_title(&self) -> String {
         format!("Game {}", self.game.digest().short())
     }
 
-    /// With its text: headed by the title, and by the canary of the original if that has one.
+    /// Adds the text: headed by the title, and by the canary of the original if it has one.
     fn headed(self, original: &Original<'_>) -> TwinGame {
         let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
         let canaries = comments.filter(|line| line.starts_with(CANARY));
@@ -222,7 +222,7 @@ impl Made {
     }
 }
 
-/// The episode of the images of some actions, if it wins.
+/// The episode of the images of some actions; `None` if it does not win.
 fn replayed(
     game: &Game,
     level: &Level,

@@ -1,12 +1,12 @@
-//! Twins of games of a release.
+//! Twins of the games of a release.
 
 use super::{Twin, TwinError, TwinGame, of_levels};
 use crate::released::ReleasedGame;
 
-/// Words that tell a side. (What is `left` is most often over.)
+/// Words that name a side. (The word `left` mostly means "remaining".)
 const SIDES: [&str; 7] = ["leftward", "leftwards", "right", "rightward", "rightwards", "west", "east"];
 
-/// The twin of a game of a release. What its card tells of it is told of its mirror image too, unless it tells of a side.
+/// The twin of a game of a release. A mirrored twin keeps the texts of the game's card unless they name a side.
 ///
 /// # Errors
 /// The game has no twin of this kind.

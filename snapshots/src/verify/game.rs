@@ -1,4 +1,4 @@
-//! A game of a release: rules, levels, card and witnesses, and whether they belong together.
+//! The check of a game of a release: rules, levels, card and witnesses must fit together.
 
 use super::numbers;
 use super::replay::{Meter, Replayed, replay};
@@ -11,41 +11,41 @@ use crate::{Digest, SnapshotError};
 use engine::Game;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The largest `card.json`, in bytes: 1 MiB. Cards of twenty levels have a tenth of it.
+/// The maximum size of a `card.json`, in bytes: 1 MiB. Cards of twenty levels have a tenth of it.
 const CARD_LIMIT: u64 = 1 << 20;
-/// The most patterns that a game is told to be composed of. Ours have some ten, and edits.
+/// The maximum number of patterns on a card. Our games have about ten, and edits.
 const MAX_PATTERNS: usize = 1024;
 
 /// The files of a game's folder, by path below it.
 pub(super) type Files = BTreeSet<String>;
 
-/// A game that was looked at.
+/// The result of checking a game.
 pub(super) struct GameCheck {
-    /// Levels that were read.
+    /// The number of levels read.
     pub(super) levels: usize,
-    /// Witnesses that were replayed to a win.
+    /// The number of witnesses that replayed to a win.
     pub(super) replayed: usize,
     /// The paths of its witnesses in a sealed release.
     pub(super) held: Vec<String>,
-    /// The card, if it is one.
+    /// The card, if it is valid.
     pub(super) card: Option<Card>,
-    /// All that is wrong, each naming the file.
+    /// The problems, each naming the file.
     pub(super) problems: Vec<String>,
 }
 
-/// Checks the folders of a release.
+/// Checks the game folders of a release.
 pub(super) struct Checker<'a> {
     pub(super) contents: &'a Contents,
     pub(super) manifest: &'a Manifest,
     /// The secret of a sealed release that was revealed.
     pub(super) secret: Option<&'a Secret>,
-    /// None: the witnesses are of other semantics.
+    /// The meter for replays; `None` if the witnesses are of other semantics.
     pub(super) meter: Option<&'a Meter>,
 }
 
 impl Checker<'_> {
-    /// Checks folders whose names end with the same digest, in their order: of two that hold the same game, the second
-    /// is a problem, and its witnesses are not replayed.
+    /// Checks folders whose names end with the same digest, in order. If two hold the same game, the second is a
+    /// problem, and its witnesses are not replayed.
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
         let mut seen = BTreeMap::new();
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
@@ -61,7 +61,7 @@ impl Checker<'_> {
             GameCheck { levels: 0, replayed: 0, held: Vec::new(), card: None, problems: Vec::new() };
         let canary = &self.manifest.canary;
         let path = |file: &str| format!("games/{folder}/{file}");
-        // The digests hold, so every listed file can be read as a text of its size; what is in it is another matter.
+        // The digests match, so every listed file can be read as a text of its size; its content may still be wrong.
         let read = |file: &str| -> Result<Option<String>, SnapshotError> {
             match files.contains(file) {
                 true => Ok(String::from_utf8(self.contents.read(&path(file))?).ok()),
@@ -175,7 +175,7 @@ impl Checker<'_> {
                             format!("not the ticks and score of the episode that wins {file}"),
                         );
                     }
-                    // What is there twice, or not as declared, is a problem already, and costs nothing more.
+                    // Duplicates and mismatches are reported already, and cost no replay.
                     match self.meter.filter(|_| fits && !is_again) {
                         None => {}
                         Some(meter) => match replay(&episode, &game, &level, meter) {
@@ -186,7 +186,7 @@ impl Checker<'_> {
                     }
                 }
                 Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
-                // Whether all that is held back is there has been looked at.
+                // The completeness of withheld files has been checked already.
                 None if is_sealed => {}
                 None => wrong(&witness_file, "missing or not a text".to_owned()),
             }
@@ -199,7 +199,7 @@ impl Checker<'_> {
             wrong(file, "a game has no such file".to_owned());
         }
         seen.entry(game.digest()).or_insert_with(|| folder.to_owned());
-        // Texts are not kept: the cards of all games are, until they are counted.
+        // The texts are dropped, because the cards of all games are kept until they are counted.
         for text in [&mut card.title, &mut card.description, &mut card.goal, &mut card.rules] {
             *text = String::new();
         }

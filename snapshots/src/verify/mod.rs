@@ -1,4 +1,4 @@
-//! Verifying a release folder: nothing in it is trusted.
+//! Verifying a release folder, without trusting anything in it.
 
 mod game;
 mod numbers;
@@ -26,13 +26,13 @@ pub use replay::Bounds;
 pub(crate) use replay::problem as replay_problem;
 pub(crate) use version::COMPLETE;
 
-/// What was found out about the witnesses.
+/// The results of checking the witnesses.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Witnesses {
-    /// So many were replayed; those that failed are among the problems.
+    /// The number of witnesses replayed; those that failed are among the problems.
     Replayed(usize),
-    /// The release is sealed: they are held back until it is revealed.
+    /// The release is sealed: they are withheld until the reveal.
     Held,
     /// The release was minted under other semantics of the engine.
     NotReplayed {
@@ -41,37 +41,37 @@ pub enum Witnesses {
     },
 }
 
-/// The answer of [`verify`].
+/// The result of [`verify`].
 #[derive(Clone, Debug, Serialize)]
 pub struct Verification {
-    /// Name of the release.
+    /// The name of the release.
     pub name: String,
-    /// Its root digest, as stated.
+    /// The root digest, as stated.
     pub root: Digest,
-    /// Files, the manifest apart.
+    /// The number of files, without the manifest.
     pub files: usize,
-    /// Games.
+    /// The number of games.
     pub games: usize,
-    /// Levels.
+    /// The number of levels.
     pub levels: usize,
-    /// What was found out about the witnesses.
+    /// The results of checking the witnesses.
     pub witnesses: Witnesses,
-    /// Units of work that the replays took, see [`Bounds`]; at most the bound.
+    /// The units of work that the replays took, at most the bound; see [`Bounds`].
     pub work: u64,
-    /// Papers beside the release, which its root does not cover.
+    /// The number of papers beside the release, which its root does not cover.
     pub papers: usize,
-    /// Files that other programs left beside the release, by name; not looked at.
+    /// Files that other programs left beside the release, by name; they are not read.
     pub ignored: Vec<String>,
-    /// All that is wrong, each naming the file; empty if the release is sound.
+    /// The problems, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,
-    /// The manifest as stated.
+    /// The manifest, as stated.
     #[serde(skip)]
     pub manifest: Manifest,
 }
 
-/// Checks paths, links, sizes, digests and the root; if these hold, that games, levels and cards are well-formed and
-/// fit together; and, under the same semantics, replays every witness to its win, within the bounds that any release
-/// keeps ([`Bounds::RELEASE`]). `root` is the release's folder or its [archive](crate::archive).
+/// Checks paths, links, sizes, digests and the root; if these are correct, that games, levels and cards are
+/// well-formed and fit together; and, under the same semantics, replays every witness to its win, within bounds that
+/// every release respects ([`Bounds::RELEASE`]). `root` is the release's folder or its [archive](crate::archive).
 ///
 /// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
 ///
@@ -81,10 +81,11 @@ pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     verify_within(root, &Bounds::RELEASE)
 }
 
-/// As [`verify`], with other bounds. A release whose replays take more is not sound, and the replays end there.
+/// Verifies a release like [`verify`], with other bounds. A release whose replays exceed them is not sound, and the
+/// replays end there.
 ///
 /// # Errors
-/// As for [`verify`].
+/// See [`verify`].
 pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, SnapshotError> {
     refuse_unfinished(root)?;
     let (integrity, contents) = Contents::open(root)?;
@@ -120,7 +121,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         games = checked.into_iter().flatten().collect();
         work = meter.exceeded().unwrap_or(meter.spent());
         match meter.exceeded() {
-            // Which replays came to an end depends on the threads, so nothing is said of any.
+            // The replays that finished depend on the threads, so no results of replays are reported.
             Some(limit) => problems.push(format!(
                 "games: its witnesses take more than {limit} units of work to replay, the bound for {} levels",
                 declared_levels(&manifest)
@@ -131,7 +132,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         check_known(&manifest, &mut problems);
         check_held(&manifest, &games, &mut problems);
         let cards: Option<Vec<&Card>> = games.iter().map(|game| game.card.as_ref()).collect();
-        // Counted only if nothing is left out: what is missing has been named.
+        // Compared only if no game is left out: missing ones have been reported.
         if let Some(cards) = cards {
             problems.extend(readme_and_card::problems(&contents, &manifest, &cards)?);
         }
@@ -156,7 +157,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     })
 }
 
-/// Levels that the manifest lists.
+/// The number of levels that the manifest lists.
 fn declared_levels(manifest: &Manifest) -> usize {
     let is_level = |path: &str| {
         path.starts_with("games/") && path.rsplit('/').next().is_some_and(|file| file.starts_with("lvl"))
@@ -164,7 +165,7 @@ fn declared_levels(manifest: &Manifest) -> usize {
     manifest.items.iter().filter(|item| is_level(&item.path) && item.path.ends_with(".txt")).count()
 }
 
-/// Folders whose names end alike, which those of the same game do, together.
+/// Groups folders whose names have the same ending, as those of the same game do.
 fn namesakes(folders: BTreeMap<String, Files>) -> Vec<Vec<(String, Files)>> {
     let mut by_end: BTreeMap<String, Vec<(String, Files)>> = BTreeMap::new();
     for (folder, files) in folders {
@@ -176,7 +177,7 @@ fn namesakes(folders: BTreeMap<String, Files>) -> Vec<Vec<(String, Files)>> {
     together
 }
 
-/// Whether what the manifest states of itself is what its recipe says.
+/// Checks that the manifest's fields agree with its recipe.
 fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     let stated = [
         ("name", Some(manifest.name.clone())),
@@ -205,8 +206,8 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Checks that the recipe knows what one with this parent, or with none, can know. Only the parent tells whether it is
-/// what the parent has: see [`chain`](crate::chain).
+/// Checks that `known` in the recipe is plausible for a release with this parent, or with none. Only the parent can
+/// show whether it is right: see [`chain`](crate::chain).
 fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     if manifest.generation < COMPLETE {
         return;
@@ -215,7 +216,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     let known = match manifest.recipe.get("known").map(|known| serde_json::from_value(known.clone())) {
         None => Known::default(),
         Some(Ok(known)) => known,
-        // Another generation may know more.
+        // Another generation may store more.
         Some(Err(_)) if manifest.generation != generators::GENERATION => return,
         Some(Err(error)) => return wrong(&format!("is not what one is ({error})")),
     };
@@ -230,7 +231,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Whether a sealed release commits to its secret and to a witness of every level, and to nothing else that nobody sees.
+/// Checks that a sealed release commits to its secret and to a witness of every level, and to no other hidden file.
 fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<String>) {
     if manifest.kind != Kind::Sealed {
         return;
@@ -245,18 +246,18 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     problems.extend(absent.chain(foreign));
 }
 
-/// Whether the release's mark is in a file.
+/// Tests whether a file contains the release's canary.
 fn carries(content: &[u8], canary: &str) -> bool {
     content.windows(canary.len()).any(|part| part == canary.as_bytes())
 }
 
-/// What is called `.partial`, and what is inside, may be complete but for its publication: it is no release.
+/// Refuses `.partial` folders and everything inside them: even a complete release is none before its publication.
 fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot { path: root.to_path_buf() },
         _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
     })?;
-    // Far above, the name alone tells little: there has to be a draft.
+    // For distant ancestors the name alone is weak evidence, so a draft is required.
     let is_draft = |folder: &Path| folder.join(".lock").exists() && folder.join("tree").exists();
     let unfinished = real.ancestors().enumerate().any(|(above, folder)| {
         folder.extension().is_some_and(|end| end == "partial") && (above < 2 || is_draft(folder))

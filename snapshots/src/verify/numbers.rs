@@ -1,20 +1,21 @@
-//! The numbers of a card: those that judges can have found.
+//! Plausibility checks on the numbers of a card.
 //!
-//! Nothing here is played again, so a number in its range may still be another than the judges found: `regenerate` shows that.
+//! Nothing is replayed here, so a plausible number may still differ from the judges' result: `regenerate` detects
+//! that.
 
 use crate::card::LevelCard;
 use engine::{Level, MAX_TICKS};
 use statistics::{Z95, wilson};
 use validators::{Difficulty, Fared, Ladder, Rate};
 
-/// The largest score, and mean score, by absolute value: the effects of an episode cannot add up to more.
+/// The maximum absolute score and mean score: the effects of an episode cannot add up to more.
 const MAX_SCORE: f64 = 1e15;
-/// The most plays of one player on one level.
+/// The maximum number of plays of one player on one level.
 const MAX_PLAYS: u64 = 1_000_000;
-/// The distance that an interval may have from the one that its counts give: other versions may round otherwise.
+/// The tolerance between an interval and the one computed from its counts: other versions may round differently.
 const ROUNDING: f64 = 1e-9;
 
-/// All that is wrong with the numbers of a level's card.
+/// The problems with the numbers of a level's card.
 pub(crate) fn problems(card: &LevelCard, level: &Level) -> Vec<String> {
     let mut problems = Vec::new();
     let mut expect = |holds: bool, what: String| {
@@ -54,7 +55,7 @@ fn is_score(number: f64) -> bool {
     number.abs() <= MAX_SCORE
 }
 
-/// The first thing that is wrong with how a player fared.
+/// The first problem with a player's results.
 fn of_rate(rate: &Rate) -> Option<String> {
     let Rate { wins, plays, interval, mean_score, .. } = *rate;
     if plays > MAX_PLAYS {

@@ -1,4 +1,4 @@
-//! The files that tell of a release as a whole: `README.md` and `CARD.json`.
+//! The files that describe a release as a whole: `README.md` and `CARD.json`.
 
 use super::carries;
 use super::version::COMPLETE;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// The README, for people.
 pub(super) const README_FILE: &str = "README.md";
 
-/// All that is wrong with the two, given the cards of the games.
+/// The problems with the two, given the cards of the games.
 pub(super) fn problems(
     contents: &Contents,
     manifest: &Manifest,
@@ -43,8 +43,8 @@ pub(super) fn problems(
     Ok(problems)
 }
 
-/// All that is wrong with the card of a release. One of this generation has a shape that is known; of any other the
-/// counts are compared that every generation has had.
+/// The problems with the card of a release. A card of this generation has a known shape; for any other, only the
+/// counts that every generation has are compared.
 fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     let value: Value = match serde_json::from_slice(text) {
         Ok(value @ Value::Object(_)) => value,

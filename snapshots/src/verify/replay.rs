@@ -1,16 +1,16 @@
-//! Replaying witnesses within bounds: what a stranger's release may cost.
+//! Replaying witnesses within bounds that limit the cost of an untrusted release.
 
 use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The work that the replays of a release may be, in units of the engine's limit on one tick
-/// ([`MAX_WORK`](engine::MAX_WORK)): a sprite or a cell that is looked at is one unit. A core does some fifty to two
-/// hundred million units a second.
+/// The bound on the work of a release's replays, in units of the engine's limit on one tick
+/// ([`MAX_WORK`](engine::MAX_WORK)): visiting a sprite or a cell is one unit. A core does some fifty to two hundred
+/// million units a second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
-    /// Units for any release.
+    /// The units for any release.
     pub work: u64,
-    /// Further units for each level that the release declares.
+    /// The additional units for each level that the release declares.
     pub work_per_level: u64,
 }
 
@@ -18,7 +18,7 @@ impl Bounds {
     /// 2³¹ units and 2²¹ for each level, which is 455 ticks of a quiet game: ten to sixty seconds of one core.
     pub const RELEASE: Bounds = Bounds { work: 1 << 31, work_per_level: 1 << 21 };
 
-    /// The units that a release of so many levels may take.
+    /// The units that a release of this many levels may take.
     pub fn of(&self, levels: usize) -> u64 {
         self.work.saturating_add(self.work_per_level.saturating_mul(levels as u64))
     }
@@ -32,7 +32,7 @@ impl Default for Bounds {
 
 /// Counts the work of all replays of a release, from several threads.
 ///
-/// True if the limit is passed does not depend on threads: it is if all replays together take more.
+/// The result does not depend on threads: the limit is exceeded if all replays together take more.
 pub(super) struct Meter {
     limit: u64,
     spent: AtomicU64,
@@ -43,7 +43,7 @@ impl Meter {
         Meter { limit, spent: AtomicU64::new(0) }
     }
 
-    /// The limit, if more than that was spent.
+    /// The limit, if it was exceeded.
     pub(super) fn exceeded(&self) -> Option<u64> {
         (self.spent() > self.limit).then_some(self.limit)
     }
@@ -54,26 +54,27 @@ impl Meter {
     }
 
     fn spend(&self, units: u64) {
-        // Relaxed, and one addition an episode at most overflows nothing: 2^64 units take a thousand years.
+        // Relaxed suffices. One addition per episode cannot overflow: 2^64 units take a thousand years.
         self.spent.fetch_add(units, Ordering::Relaxed);
     }
 }
 
-/// Units that a tick counts whatever happens in it: the slowest ticks that count next to nothing take fifty microseconds.
+/// The units that every tick counts, whatever happens in it: the slowest ticks with almost no counted work take fifty
+/// microseconds.
 const TICK: u64 = 4096;
 
-/// The answer of [`replay`].
+/// The result of [`replay`].
 pub(super) enum Replayed {
-    /// The episode is what it says, and wins.
+    /// The episode matches its record, and wins.
     Won,
-    /// It is not what it should be.
+    /// The episode is invalid.
     Wrong(String),
-    /// The limit was passed, here or in another replay.
+    /// The limit was exceeded, here or in another replay.
     OutOfWork,
 }
 
-/// Plays a witness again, as [`Episode::replay`] does, as long as the meter allows; refuses before the first tick what no
-/// witness is.
+/// Replays a witness like [`Episode::replay`], as long as the meter allows; rejects episodes that cannot be witnesses
+/// before the first tick.
 pub(super) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Meter) -> Replayed {
     let wrong = |divergence: Divergence| Replayed::Wrong(divergence.to_string());
     if episode.game != game.digest() {
@@ -119,7 +120,7 @@ pub(super) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Mete
     Replayed::Won
 }
 
-/// The reason that an episode does not replay to a win within the bounds of a release of one level; none if it does.
+/// The reason why an episode does not replay to a win within the bounds of a release of one level; `None` if it does.
 pub(crate) fn problem(episode: &Episode, game: &Game, level: &Level) -> Option<String> {
     match replay(episode, game, level, &Meter::new(Bounds::RELEASE.of(1))) {
         Replayed::Won => None,

@@ -1,11 +1,12 @@
-//! The versions that a manifest states: those that an arcade can have had.
+//! The plausibility of the versions that a manifest states.
 
 use crate::version::{CURRENT, MintedBy, VERSIONS, Version};
 
-/// The first generation whose releases have a `CARD.json`, a canary of their recipe, and what the releases before hold.
+/// The first generation whose releases have a `CARD.json`, a canary derived from their recipe, and the content of
+/// previous releases in it.
 pub(crate) const COMPLETE: u32 = 7;
 
-/// The reason that no arcade ever minted under these versions; none if one may have done so, be it a later one.
+/// The reason why no arcade can have minted under these versions; `None` if one can have, even a later one.
 pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
     let &MintedBy { ref version, generation, semantics } = minted_by;
     let never = format!("GENERATION {generation} never had SEMANTICS {semantics}");

@@ -1,4 +1,4 @@
-//! Twins of corpus games: the same mechanics, whatever the surface.
+//! Twins of corpus games: the same mechanics under any surface.
 
 use agents::{PortfolioConfig, Solution, solve};
 use engine::{Analysis, Episode, Game, Outcome, Seed};
@@ -9,13 +9,13 @@ use std::fs;
 use std::path::Path;
 use validators::GameForm;
 
-/// A corpus game, with those of its first levels that are won soon, and how.
+/// A corpus game, with those of its first levels that are won quickly, and their witnesses.
 struct Sample {
     name: String,
     source: String,
     levels: Vec<String>,
     witnesses: Vec<Episode>,
-    /// Whether chance can decide anything.
+    /// `true` if chance can decide anything.
     chance: bool,
 }
 
@@ -52,7 +52,7 @@ fn of(sample: &Sample, kind: Twin) -> Result<TwinGame, TwinError> {
     twin::of_game(kind, &sample.source, &sample.levels, &sample.witnesses)
 }
 
-/// Loads what a twin says, and replays its witnesses.
+/// Loads a twin, and replays its witnesses.
 fn check(sample: &Sample, twin: &TwinGame) -> Game {
     let name = &sample.name;
     let game = Game::from_source(&twin.text).unwrap_or_else(|problems| panic!("{name}: {problems}"));
@@ -87,13 +87,13 @@ fn twins_have_the_mechanics_of_their_originals() {
     samples.par_iter().for_each(mirrored);
 }
 
-/// A corpus game has a mirror image, which is as winnable.
+/// A corpus game has a mirror image that is equally winnable.
 fn mirrored(sample: &Sample) {
     let name = &sample.name;
     let twin = of(sample, Twin::Mirrored).unwrap_or_else(|problem| panic!("{name}: {problem}"));
     check(sample, &twin);
     let without = twin.witnesses.iter().filter(|witness| witness.is_none()).count();
-    // Where chance decides, a win may go otherwise; where it does not, the mirrored actions win at the same score.
+    // In a stochastic game the win may differ; in a deterministic one the mirrored actions win with the same score.
     assert!(without == 0 || sample.chance, "{name}");
     for (own, known) in twin.witnesses.iter().zip(&sample.witnesses).filter(|_| !sample.chance) {
         let own = own.as_ref().unwrap_or_else(|| panic!("{name}: no witness"));
@@ -106,7 +106,7 @@ fn mirrored(sample: &Sample) {
     assert_eq!(clauses(&again.text), clauses(&sample.source), "{name}");
 }
 
-/// The page shows an example, whose twins are these.
+/// The example on the page has exactly these twins.
 #[test]
 fn the_page_shows_real_twins() {
     let page = include_str!("../../../docs/twins.md");
@@ -145,7 +145,7 @@ const FLAT: &str = "BasicGame
     SpriteCounter stype=exit win=True
 ";
 
-/// The texts of a card hold in the mirror, unless they tell a side.
+/// A mirrored twin keeps the texts of the card unless they name a side.
 #[test]
 fn cards_are_mirrored_with_their_games() {
     let told = |description: &str| {

@@ -1,10 +1,10 @@
-//! A warm step takes no memory: planners make millions of them.
+//! A warm step allocates no memory: planners make millions of them.
 
 use engine::{Action, Game, Level, Seed, State};
 use std::path::Path;
 use tests::{games, public_games, workspace_root};
 
-/// Plays an episode twice into the same state; the second time, counts what is allocated.
+/// Plays an episode twice into the same state, and returns the allocations of the second time.
 fn allocations(game: &Game, level: &Level, ticks: usize) -> u64 {
     let seed = Seed::from_text("warm");
     let start = game.start(level, seed);

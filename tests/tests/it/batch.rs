@@ -1,4 +1,4 @@
-//! Batches: each lane is the episode that it would be by itself, whatever the number of threads.
+//! Batches: each lane plays the same episode as on its own, on any number of threads.
 
 use agents::{Batch, BatchError};
 use engine::{Action, Game, Level, Sampler, Seed, State, StateHash};
@@ -20,7 +20,7 @@ fn hashes(states: &[State]) -> Vec<StateHash> {
     states.iter().map(State::state_hash).collect()
 }
 
-/// Plays episodes in a batch and one by one; what the batch's states were after each tick.
+/// Plays episodes in a batch and one by one; returns the batch's states after each tick.
 fn episodes(name: &str, game: &Game, levels: &[Level], lanes: usize, ticks: usize) -> Vec<StateHash> {
     let seed = Seed::from_text(name);
     let mut sampler = seed.child("actions", 0).sampler();
@@ -64,7 +64,7 @@ fn lanes_of_public_games_are_episodes() {
     }
 }
 
-/// What a lane plays does not depend on what others play, nor on how many there are.
+/// The episode of a lane does not depend on other lanes, nor on their number.
 #[test]
 fn lanes_are_independent() {
     let (name, game, levels) = games(&workspace_root().join("corpora")).swap_remove(0);
@@ -99,7 +99,7 @@ fn what_a_batch_cannot_do_it_says() {
     assert_eq!(batch.seed(2), Err(BatchError::NoLane { lane: 2, lanes: 2 }));
     batch.play(&[]).unwrap();
     assert_eq!(hashes(batch.states()), before);
-    // Of no states there is nothing to do.
+    // An empty batch does nothing.
     let mut none = Batch::start(&game, &levels, 0, seed).unwrap();
     assert!(none.is_empty());
     assert_eq!(none.step(&[]), Ok(&[][..]));
@@ -110,7 +110,7 @@ fn what_a_batch_cannot_do_it_says() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Plans are played as their actions are, tick by tick, from any state of any game, which is left alone.
+    /// Plans equal their actions played tick by tick, from any state of any game, which is left unchanged.
     #[test]
     fn plans_are_steps(
         bytes in prop::collection::vec(any::<u8>(), 0..300),

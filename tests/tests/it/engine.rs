@@ -1,11 +1,11 @@
-//! Properties that hold for every game, here of the corpus: clones, hashes, replays, terminal states, prints. Cf. OpenSpiel's
-//! basic tests. Games that nobody wrote are in `robustness.rs`.
+//! Properties that hold for every game, here for the corpus: clones, hashes, replays, terminal states, prints. Cf.
+//! OpenSpiel's basic tests. Generated games are in `robustness.rs`.
 
 use engine::{Action, Episode, Game, Level, Outcome, Sampler, Seed, State, syntax};
 use std::fs;
 use tests::workspace_root;
 
-/// Every corpus game with its levels.
+/// Returns every corpus game with its levels.
 fn corpus() -> Vec<(String, Game, Vec<Level>)> {
     let mut folders: Vec<_> =
         fs::read_dir(workspace_root().join("corpora")).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -49,7 +49,7 @@ fn stepping_a_copy_leaves_the_original_alone() {
             game.step(&mut copy, *sampler.choose(&Action::ALL));
         }
         assert_eq!((state.state_hash(), game.records(state)), before, "{name}");
-        // And a warm copy is as good as a new one.
+        // A warm copy equals a new one.
         copy.clone_from(state);
         assert_eq!(copy.state_hash(), state.state_hash(), "{name}");
         assert_eq!(game.step(&mut copy, action), game.step(state, action), "{name}");
@@ -103,7 +103,7 @@ fn episodes_replay_bit_for_bit() {
         }
         let end = episode.replay(&game, &levels[0]).unwrap();
         assert_eq!(end.state_hash(), state.state_hash(), "{name}");
-        // What is altered is found where it was altered.
+        // An alteration is detected at its position.
         let middle = episode.actions.len() / 2;
         let mut other = episode.clone();
         other.hashes[middle].0 ^= 1;
@@ -120,7 +120,7 @@ fn episodes_replay_bit_for_bit() {
     }
 }
 
-/// Two ways to the same key, then the same actions: the keys and outcomes stay the same.
+/// Two sequences to the same key, then the same actions: the keys and outcomes stay equal.
 #[test]
 fn equal_search_keys_have_equal_futures() {
     let mut merged = 0;

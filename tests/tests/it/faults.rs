@@ -1,4 +1,4 @@
-//! Single faults in sound files: each must be told at its line, and most with the right repair.
+//! Single faults in sound files: each must be reported at its line, and most with the right repair.
 //!
 //! The faults are drawn from a seed, [`EACH`] of each kind, over the corpus games.
 
@@ -19,16 +19,16 @@ struct Sound {
 struct Fault {
     game: String,
     level: String,
-    /// Whether the fault is in the level.
+    /// `true` if the fault is in the level.
     in_level: bool,
-    /// Lines, from 1, any of which is right.
+    /// Acceptable lines, from 1.
     lines: Vec<usize>,
-    /// The help names one of these.
+    /// Repairs, of which the help must name one.
     repairs: Vec<String>,
     what: String,
 }
 
-/// What kind of fault to make; None if the draw gave none.
+/// A generator of one kind of fault; None if the random choice allows none.
 type Kind = fn(&Sound, &mut Sampler) -> Option<Fault>;
 
 const KINDS: [(&str, Kind); 6] = [
@@ -98,7 +98,7 @@ fn told(kind: &str, fault: &Fault, problems: &[(bool, Diagnostic)]) -> String {
     text
 }
 
-/// The problems of the game, then those of the level if there is a game; whether each is the level's.
+/// Returns the problems of the game, then those of the level if the game compiles; `true` for those of the level.
 fn problems(fault: &Fault) -> Vec<(bool, Diagnostic)> {
     let game = match Game::from_source(&fault.game) {
         Ok(game) => game,
@@ -121,7 +121,7 @@ fn corpus() -> Vec<Sound> {
         .collect()
 }
 
-/// A word of a line: where it starts and ends in the text, which line it is on (from 1), and its section.
+/// A word of a line: its start and end in the text, its line (from 1), and its section.
 #[derive(Clone, Copy)]
 struct Token<'a> {
     start: usize,
@@ -163,11 +163,11 @@ fn in_game(sound: &Sound, game: String, lines: Vec<usize>, repairs: &[&str], wha
     Some(Fault { game, level: sound.level.clone(), in_level: false, lines, repairs, what })
 }
 
-/// One letter of a word lost, doubled, swapped with the next or turned into another.
+/// Loses, doubles, swaps or changes one letter of a word.
 fn typo(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let token = *sampler.choose(&tokens);
-    // Names alone: of a parameter its key, of a list nothing.
+    // Only names: of a parameter its key, of a list nothing.
     let word = token.text.split('=').next().unwrap_or_default();
     if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphanumeric()) {
         return None;
@@ -188,7 +188,7 @@ fn typo(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, vec![token.line], &[&format!("`{word}`")], format!("{word} → {wrong}"))
 }
 
-/// A word that a line cannot do without, or the `=` or the value of a parameter, is gone.
+/// Removes a required word of a line, or the `=` or the value of a parameter.
 fn missing_token(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let token = *sampler.choose(&tokens);
@@ -235,7 +235,7 @@ fn missing_token(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, vec![token.line], &repairs, what)
 }
 
-/// A line indented by some columns more or less.
+/// Indents a line by some columns more or less.
 fn wrong_indent(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let lines: Vec<&str> = sound.game.lines().collect();
     let at = 1 + sampler.below(lines.len() - 1);
@@ -252,7 +252,7 @@ fn wrong_indent(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, changed.join("\n") + "\n", vec![at + 1], &["indent"], what)
 }
 
-/// Two section names stand for each other, or a section stands before the one that it needs.
+/// Swaps two section names, or moves a section before one that it needs.
 fn swapped_section(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let heads: Vec<&Token<'_>> = tokens.iter().filter(|token| token.is_head()).collect();
@@ -275,7 +275,7 @@ fn swapped_section(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
             format!("{} and {}", one.text, two.text),
         );
     }
-    // The SpriteSet goes to the end of the file.
+    // Moves the SpriteSet to the end of the file.
     let sprites = heads.iter().position(|head| head.text == "SpriteSet")?;
     let next = heads.get(sprites + 1)?;
     let lines: Vec<&str> = sound.game.lines().collect();
@@ -288,7 +288,7 @@ fn swapped_section(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, moved, &["SpriteSet first"], "the SpriteSet last".to_owned())
 }
 
-/// A value that the parameter does not take.
+/// Writes a value that the parameter does not accept.
 fn wrong_type(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let params: Vec<&Token<'_>> = tokens.iter().filter(|token| token.text.contains('=')).collect();
@@ -304,7 +304,7 @@ fn wrong_type(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, vec![token.line], &[&format!("{key}=")], format!("{key}={value} → {key}={wrong}"))
 }
 
-/// A character that belongs there turned into one that does not: in a level, in a mapping, in an arrow or a parameter.
+/// Changes a valid character into an invalid one: in a level, in a mapping, in an arrow or a parameter.
 fn wrong_character(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     match sampler.below(4) {

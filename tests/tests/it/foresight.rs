@@ -1,4 +1,4 @@
-//! Sprites that a step passes over, because it is foreseen what they do, are where they would be had it not.
+//! Foresight: sprites that a step skips, because their movement is predicted, are where they would be without it.
 
 use engine::{Action, Game, Level, Limit, Outcome, Sampler, Seed, State};
 use proptest::prelude::*;
@@ -23,7 +23,7 @@ fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<I
         }
         let outcomes = (game.step(&mut state, action), game.step_plainly(&mut plain, action, &mut ()));
         if [outcomes.0, outcomes.1].contains(&Outcome::Stopped(Limit::Work)) {
-            // What rests is no work, and waking it is.
+            // Sleeping sprites cost no work, but waking them does.
             return state;
         }
         assert_eq!(outcomes.0, outcomes.1, "{name}");
@@ -37,7 +37,7 @@ fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<I
     state
 }
 
-/// The first sprites that differ.
+/// Returns the first sprites that differ.
 fn difference(game: &Game, one: &State, two: &State) -> String {
     let (ones, twos) = (game.records(one), game.records(two));
     let pairs = ones.iter().zip(&twos).find(|(one, two)| format!("{one:?}") != format!("{two:?}"));
@@ -77,7 +77,7 @@ proptest! {
     }
 }
 
-/// What has been made of sprites that walk into what puts them back, and of all that may come between.
+/// Makes a game of sprites that walk into obstacles which put them back, with many possible interruptions.
 fn crowded_house(sampler: &mut Sampler) -> (String, String) {
     let mut source = "BasicGame square_size=10\n  SpriteSet\n    wall > Immovable\n    fence > Immovable\n    rock > Passive\n"
         .to_owned();
@@ -169,7 +169,7 @@ fn foresight_changes_nothing_for_who_walks_into_walls() {
     assert!(played > 11_800, "{played}");
 }
 
-/// An effect moves the avatar against a wall when the rule that puts it back has had its turn: no rule has another.
+/// An effect moves the avatar against a wall after the rule that puts it back has run: no rule runs again.
 #[test]
 fn only_own_steps_are_foreseen_to_be_put_back() {
     let source = "\
@@ -224,7 +224,8 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Lost);
 }
 
-/// The rule that puts the dart back costs nothing, but the one before it, in which the dart is the second, is worth a point.
+/// The rule that puts the dart back costs nothing, but the one before it, in which the dart is the second, is worth a
+/// point.
 #[test]
 fn what_is_worth_points_goes_on() {
     let source = "\
@@ -249,7 +250,7 @@ BasicGame square_size=10
     assert_eq!(state.score(), 4.0);
 }
 
-/// A kite off the board moves onto it, where a rule puts it back: it is on the board when the edge has its turn.
+/// A kite off the board moves onto it, where a rule puts it back: it is on the board when the rules of the edge run.
 #[test]
 fn off_the_board_nothing_rests() {
     let source = "\
@@ -273,7 +274,7 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Ongoing);
 }
 
-/// A door takes one arrow to the other for a moment, and both are put back where they were, until the door is gone.
+/// A door takes one arrow to the other for a moment, and both are put back to their places, until the door is gone.
 #[test]
 fn what_was_in_the_way_for_a_moment_is_no_ground_to_rest_on() {
     let source = "\
@@ -301,8 +302,8 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Ongoing);
 }
 
-/// What spreads into its own kind stops the tick in the middle of the updates: what flies and is yet to be updated is where
-/// it was.
+/// A type that spreads into its own kind stops the tick in the middle of the updates: flying sprites that are not yet
+/// updated stay in place.
 #[test]
 fn a_stop_in_the_middle_of_the_updates_finds_all_where_they_are() {
     let source = "\
@@ -329,7 +330,7 @@ BasicGame
     assert_eq!((state.outcome(), state.tick()), (Outcome::Stopped(Limit::SpawnIntoUpdatedType), 2));
 }
 
-/// The avatar's own update stops the tick: then nobody else is updated, whoever of them flies.
+/// The avatar's own update stops the tick: then no other sprite is updated, even if it flies.
 #[test]
 fn a_stop_by_the_avatar_ends_the_updates() {
     let source = "\

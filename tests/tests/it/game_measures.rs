@@ -1,4 +1,4 @@
-//! Measures of our own games, beside what their authors say of them.
+//! Measures of our own games, compared with their authors' intentions.
 
 use agents::{PortfolioConfig, Solution, solve};
 use engine::{Analysis, Seed};
@@ -30,7 +30,7 @@ fn kinds_of_our_own_games() {
     }
 }
 
-/// Of the first level, by the win that the portfolio finds.
+/// Measures the first level, by the win that the portfolio finds.
 fn played(name: &str) -> PlayMeasures {
     let all = games(&workspace_root().join("corpora"));
     let (_, game, levels) = all.iter().find(|game| game.0 == name).expect(name);
@@ -42,14 +42,15 @@ fn played(name: &str) -> PlayMeasures {
     PlayMeasures::of(&analysis, &recording, Seed::from_text("measures")).expect("an episode")
 }
 
-/// The jars wait for their porter, who can only lose by the clock; the hounds of the bog do not wait, and catch who stays.
+/// The jars wait for their porter, who can only lose by the clock; the hounds of the bog do not wait, and catch an
+/// avatar that stays.
 #[test]
 fn a_puzzle_and_a_flight_measure_as_they_play() {
     let (jars, bog) = (played("quiet-jars"), played("bog-lantern"));
     assert_eq!((jars.chance, jars.drama, jars.lead_changes), (0.0, 0.0, 0.0), "{jars:?}");
-    // Jars are pushed, and fall quiet.
+    // Jars are pushed, and come to rest.
     assert!(jars.mechanics >= 2, "{jars:?}");
-    // Something moves in most ticks of the bog, and nobody can be sure where to; of the jars only what is pushed does.
+    // Something moves in most ticks of the bog, and its movements are random; of the jars only the pushed ones move.
     assert!(bog.pace > 0.5 && bog.chance > 0.1 && bog.drama > 0.3, "{bog:?}");
     assert!(bog.density < jars.density, "{jars:?} {bog:?}");
 }

@@ -1,6 +1,7 @@
-//! The hostile set (`tests/suite/hostile/`): each case ends as its file says, under both ways to load a game.
+//! The hostile set (`tests/suite/hostile/`): each case has the result that its file states, under both ways to load a
+//! game.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` writes the ends anew; the diff is to be read like code.
+//! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` rewrites the results; review the diff like code.
 
 use tests::hostile::Case;
 
@@ -25,7 +26,7 @@ fn every_case_ends_as_expected() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
-/// What is made of a game beside playing it ends, too: its warnings, its description and its canonical print.
+/// Besides playing a game, its warnings, its description and its canonical print terminate too.
 #[test]
 fn every_game_is_described_or_refused() {
     for case in Case::all() {

@@ -1,4 +1,4 @@
-//! `docs/limits.md` says what the constants of `engine::limits` are.
+//! `docs/limits.md` states the values of the constants in `engine::limits`.
 
 use engine::limits;
 use tests::read;
@@ -22,7 +22,7 @@ fn the_page_lists_every_limit() {
     let page = read("docs/limits.md");
     let rows = page.lines().filter(|line| line.starts_with("| ") && line.contains('`'));
     let rows = rows.map(|line| line.split('|').map(str::trim).collect());
-    // The limits of the engine are those with a constant and an end.
+    // The limits of the engine are the rows with a constant and a result.
     let rows: Vec<Vec<&str>> = rows.filter(|row: &Vec<&str>| row.len() == 6).collect();
     for (name, value) in constants {
         let quoted = format!("`{name}`");

@@ -1,5 +1,5 @@
-//! Novelty of games: what does not count leaves the form of a game alone, what counts changes it, and the duplicate distance
-//! lies between copies with other numbers and other games (docs/novelty.md).
+//! Novelty of games: irrelevant changes leave the form of a game unchanged, relevant ones change it, and the
+//! duplicate distance lies between copies with other numbers and other games (docs/novelty.md).
 
 use engine::{Game, Seed};
 use generators::Generator;
@@ -11,13 +11,13 @@ use tests::dress;
 use tests::{games, public_games, workspace_root};
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// The corpus, and the public games that load strictly.
+/// Returns the corpus, and the public games that load strictly.
 fn all() -> Vec<(String, Game)> {
     let strictly = |(name, game): (String, Game)| Some((name, Game::compile(game.description()).ok()?));
     as_reference().into_iter().filter_map(strictly).collect()
 }
 
-/// The same, and those that only the reference loads.
+/// Like [`all`], with those that only the reference loads.
 fn as_reference() -> Vec<(String, Game)> {
     let of = |folder: &Path| games(folder).into_iter().map(|(name, game, _)| (name, game));
     let mut all: Vec<(String, Game)> = of(&workspace_root().join("corpora")).collect();
@@ -45,7 +45,7 @@ fn another_dress_is_the_same_game() {
     }
 }
 
-/// Games that nobody wrote, of every class, effect and parameter.
+/// Generated games of every class, effect and parameter.
 #[test]
 fn another_dress_of_an_invented_game_is_the_same_game() {
     let mut sampler = Seed::from_text("invented").sampler();
@@ -65,8 +65,8 @@ fn another_dress_of_an_invented_game_is_the_same_game() {
     assert!(tried > 100, "{tried}");
 }
 
-/// Twins keep the names that the engine knows and choose other characters; those that they leave to the engine must not place
-/// what nothing in the game places.
+/// Twins keep the names that the engine knows and choose other characters; the default characters must not place a
+/// type that nothing in the game places.
 #[test]
 fn twins_are_the_same_game() {
     let generated = (0..20).map(|number| {
@@ -99,7 +99,7 @@ fn another_rule_is_another_game() {
             let mut sampler = Seed::from_text(&name).child("alter", number).sampler();
             let Some(altered) = dress::altered(game.description(), &mut sampler) else { continue };
             let Ok(other) = Game::compile(&altered) else { continue };
-            // Lots may fall on what is there already.
+            // A random change may restore the original.
             if other.clauses() == game.clauses() {
                 continue;
             }
@@ -147,7 +147,7 @@ fn games_that_people_wrote_are_no_duplicates() {
     let forms = forms(&all);
     let near = |one: usize| (0..one).filter(|&two| forms[one].1.is_near(&forms[two].1)).count();
     let pairs: usize = (0..forms.len()).map(near).sum();
-    // Among the public games there are copies, by whatever measure.
+    // Some public games are copies of others, by any measure.
     assert!(pairs <= forms.len() / 10, "{pairs}");
     let corpus = games(&workspace_root().join("corpora")).len();
     assert!((0..corpus).all(|at| near(at) == 0));

@@ -3,17 +3,20 @@
 //!
 //! A page is prose around fenced blocks, which run from top to bottom:
 //!
-//! - `vgdl` is a game, `level` a level of the last game; `level seed=7` starts its episode from that chance, 0 by default.
+//! - `vgdl` is a game, `level` a level of the last game; `level seed=7` starts its episode from that seed, 0 by
+//!   default.
 //!   Games are loaded strictly, those in a `vgdl as-reference` block as the reference does.
 //! - `actions` plays: `right use*3 nil`.
-//! - `expect` says how things stand then: `tick 2, score 1, won`; then, if wanted, facts about the oldest sprite of a type,
-//!   `key: count 2; at 3,1; facing left; speed 0.5; health 2; size 1x1; holds coin 3` (cells); then, if wanted, the board in level
-//!   characters. A cell shows the character that places just the sprites in it, or else its topmost sprite.
+//! - `expect` states the results: `tick 2, score 1, won`; then, optionally, facts about the oldest sprite of a type,
+//!   `key: count 2; at 3,1; facing left; speed 0.5; health 2; size 1x1; holds coin 3` (cells); then, optionally, the
+//!   board in level characters. A cell shows the character that places just the sprites in it, or else its topmost
+//!   sprite.
 //! - `diagnostics` lists the problems of the block above it, each with line and column; without it there must be none
 //!   (but examples need not say how they are won and lost).
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-tests --test it pages` writes what came out into the `expect` and `diagnostics` blocks; a
-//! value of `?` in a fact, and a board of one `?`, are filled in. Read the diff before believing it.
+//! `BLESS=1 cargo test -p infinite-arcade-tests --test it pages` writes the actual results into the `expect` and
+//! `diagnostics` blocks; a value of `?` in a fact, and a board of one `?`, are filled in. Review the diff before
+//! accepting it.
 
 use engine::{Action, Chance, Diagnostic, Game, Level, Outcome, Severity, SpriteClass, SpriteRecord, State};
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
@@ -119,8 +122,8 @@ fn every_diagnostic_code_has_a_page() {
     assert!(problems.is_empty(), "\n{problems}");
 }
 
-/// What the page of a code is to show: the code in a list of problems; or, where no small example has it, all that is told of
-/// a file that is made here.
+/// Returns the output that the page of a code must show: the code in a list of problems; or, if no small example has
+/// it, the whole output for a file that is made here.
 fn shown(code: &str) -> String {
     let source = match code {
         "not-text" => "BasicGame\u{7}\n".to_owned(),
@@ -138,7 +141,7 @@ fn shown(code: &str) -> String {
     own.map(|problem| rendered(&source, problem)).collect()
 }
 
-/// The problems of the last game or level of a page.
+/// Returns the problems of the last game or level of a page.
 fn repaired(page: &str) -> Vec<Diagnostic> {
     let blocks = blocks(page);
     let games = blocks.iter().rfind(|block| block.info == "vgdl");
@@ -147,8 +150,8 @@ fn repaired(page: &str) -> Vec<Diagnostic> {
     last.map_or(Vec::new(), |block| block.problems(game.as_ref()))
 }
 
-/// The codes that the engine's source writes. They are the first argument where a problem is made, or in the statement
-/// `let code = …;` above.
+/// Returns the codes in the engine's source. They are the first argument of the constructor of a problem, or in the
+/// statement `let code = …;` above.
 fn codes() -> BTreeSet<String> {
     let mut codes = BTreeSet::new();
     for (file, text) in rust_files().into_iter().filter(|(file, _)| file.starts_with("engine/src")) {
@@ -179,7 +182,7 @@ fn games(page: &str) -> impl Iterator<Item = &str> {
     page.split("```vgdl").skip(1).filter_map(|rest| rest.split("```").next())
 }
 
-/// The first line that differs, as said and as it is.
+/// Returns the first line that differs, as stated and as it is.
 fn first_difference(said: &str, is: &str) -> String {
     let at = said
         .lines()
@@ -190,7 +193,7 @@ fn first_difference(said: &str, is: &str) -> String {
     format!("  line {}\n  said: {}\n  is:   {}\n", at + 1, line(said), line(is))
 }
 
-/// A fenced block: its info string, its text and where that stands.
+/// A fenced block: its info string, its text and its position.
 struct Block {
     info: String,
     text: String,
@@ -198,7 +201,7 @@ struct Block {
 }
 
 impl Block {
-    /// What is told of it, as a level of `game` if it is a level.
+    /// Returns its problems, as a level of `game` if it is a level.
     fn problems(&self, game: Option<&Game>) -> Vec<Diagnostic> {
         match (self.info.as_str(), game) {
             ("vgdl as-reference", _) => {
@@ -233,7 +236,7 @@ fn blocks(page: &str) -> Vec<Block> {
     blocks
 }
 
-/// What has been loaded and played so far.
+/// The state of a page: the games and levels loaded, and the actions played.
 #[derive(Default)]
 struct Bench {
     game: Option<Game>,
@@ -241,7 +244,7 @@ struct Bench {
     state: Option<State>,
 }
 
-/// The page with what really happens in its `expect` and `diagnostics` blocks.
+/// Returns the page with the actual results in its `expect` and `diagnostics` blocks.
 fn run(page: &str) -> Result<String, String> {
     let mut bench = Bench::default();
     let mut out = String::new();
@@ -283,7 +286,7 @@ fn run(page: &str) -> Result<String, String> {
 }
 
 fn expect_none(source: &str, problems: &[Diagnostic], told: bool) -> Result<Option<String>, String> {
-    // An example need not be a game that is worth playing.
+    // An example need not be a complete game.
     let of_parts = |problem: &&Diagnostic| !["no-win", "no-lose"].contains(&problem.code);
     let text: String = problems.iter().filter(of_parts).map(|problem| rendered(source, problem)).collect();
     if told || text.is_empty() { Ok(None) } else { Err(text) }
@@ -345,7 +348,7 @@ impl Bench {
         Ok(())
     }
 
-    /// What the `expect` block should say, asking for what it asks for.
+    /// Returns the correct `expect` block with the requested facts.
     fn report(&self, said: &str) -> Result<String, String> {
         let (Some(game), Some(state)) = (&self.game, &self.state) else {
             return Err("expect without a level".into());
@@ -372,7 +375,7 @@ impl Bench {
     }
 }
 
-/// One fact about the oldest sprite of a type.
+/// Returns one fact about the oldest sprite of a type.
 fn fact(game: &Game, state: &State, name: &str, asked: &str) -> Result<String, String> {
     let stype = game.sprite_type(name).ok_or_else(|| format!("no sprite named `{name}`"))?;
     let records = game.records(state);
@@ -410,7 +413,7 @@ fn held(game: &Game, sprite: &SpriteRecord, resource: &str) -> Result<i32, Strin
     Ok(sprite.resources.iter().find(|(held, _)| *held == stype.0).map_or(0, |&(_, amount)| amount))
 }
 
-/// The board in level characters.
+/// Returns the board in level characters.
 fn board(game: &Game, state: &State) -> String {
     let seen = game.observe(state);
     let mut text = String::new();

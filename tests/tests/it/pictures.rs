@@ -1,4 +1,4 @@
-//! Whatever loads can be drawn: the hostile games and the corpus, in every format.
+//! Every game that loads can be drawn: the hostile games and the corpus, in every format.
 
 use engine::{Action, Analysis, Game, Level, Seed};
 use render::{Looks, RenderError, Style, Symbols};
@@ -6,7 +6,7 @@ use std::fs;
 use tests::hostile::Case;
 use tests::workspace_root;
 
-/// Draws the start and the first tick; too many pixels may be refused.
+/// Draws the start and the first tick; a picture with too many pixels may be refused.
 fn draw(name: &str, game: &Game, level: &Level) {
     let analysis = Analysis::of(game);
     let looks = Looks::of(&analysis);
@@ -16,7 +16,7 @@ fn draw(name: &str, game: &Game, level: &Level) {
         let text = render::rows(&looks, &symbols, &state);
         let (columns, rows) = state.size();
         assert_eq!(text.lines().count(), rows as usize, "{name}");
-        // ASCII, as far as it goes.
+        // ASCII while there are free characters.
         let is_symbol = |symbol: char| symbol.is_ascii_graphic() || symbol.is_alphabetic();
         let is_row = |line: &str| line.chars().count() == columns as usize && line.chars().all(is_symbol);
         assert!(text.lines().all(is_row), "{name}");

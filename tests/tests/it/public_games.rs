@@ -1,7 +1,7 @@
-//! What strict loading says of the public games of the reference, pinned in `tests/ref/strict-diagnostics.txt`.
+//! Diagnostics of strict loading of the reference's public games, pinned in `tests/ref/strict-diagnostics.txt`.
 //!
-//! The games are test data that is not part of the repository; without them the test says so and passes.
-//! `BLESS=1 cargo test -p infinite-arcade-tests --test it public_games` writes the file anew; its diff is to be read like code.
+//! The games are test data that is not part of the repository; without them the test prints a note and passes.
+//! `BLESS=1 cargo test -p infinite-arcade-tests --test it public_games` rewrites the file; review its diff like code.
 
 use engine::{Diagnostic, Game, Severity, line_and_column};
 use std::fmt::Write;

@@ -13,13 +13,13 @@ fn sampler(purpose: &str) -> Sampler {
     Seed::from_text("robustness").child(purpose, 0).sampler()
 }
 
-/// The files below a folder of the repository, in order.
+/// Returns the files below a folder of the repository, in order.
 fn files_below(folder: &str) -> Vec<Vec<u8>> {
     let files = workspace_files().into_iter().filter(|file| file.starts_with(folder));
     files.map(|file| std::fs::read(workspace_root().join(file)).expect("a file of the repository")).collect()
 }
 
-/// Every game of the repository, whole and damaged, and games that nobody wrote.
+/// Every game of the repository, whole and damaged, and generated games.
 #[test]
 fn any_text_parses_compiles_and_prints() {
     let mut sampler = sampler("text");
@@ -60,7 +60,7 @@ fn any_bytes_are_a_level_or_are_refused() {
     assert!(seen.ticks > 1000, "{seen:?}");
 }
 
-/// Every effect runs, sprites of every class are there, and many pairs of states share a search key.
+/// Every effect runs, sprites of every class are present, and many pairs of states share a search key.
 #[test]
 fn any_actions_leave_a_sound_state() {
     let mut sampler = sampler("play");
@@ -82,7 +82,7 @@ fn any_actions_leave_a_sound_state() {
     assert!(seen.merged > 1000, "{seen:?}");
 }
 
-/// The words that the fuzzer puts into texts. `BLESS=1` writes the file anew.
+/// The words that the fuzzer puts into texts. `BLESS=1` rewrites the file.
 #[test]
 fn the_dictionary_has_every_word() {
     let words = SpriteClass::ALL.iter().map(|class| class.name());

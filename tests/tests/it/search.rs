@@ -1,15 +1,15 @@
-//! Systematic search: what it proves is so.
+//! Systematic search: its proofs hold.
 //!
-//! Small levels are searched through in three ways: telling states apart by the hash of what a search need not leave out
-//! ([`State::search_key`]), by the key of the search, and by all that this key is a hash of. All three must come to the same
-//! states, up to what the key leaves out, and to the same wins.
+//! Small levels are searched exhaustively in three ways: telling states apart by [`State::search_key`], by the key of the
+//! search, and by the full data that this key hashes. All three must find the same states, except for data that the key
+//! leaves out, and the same wins.
 
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use engine::analysis::Keying;
 use engine::{Action, Analysis, Game, Level, Outcome, Seed, State};
 use std::collections::BTreeMap;
 
-/// A game: sprites, mapping, interactions and terminations beside walls and the player.
+/// Returns a game: sprites, mapping, interactions and terminations, besides walls and the player.
 fn game(sprites: &str, mapping: &str, rules: &str, ends: &str) -> Game {
     let lines = |text: &str| text.lines().map(|line| format!("    {line}\n")).collect::<String>();
     let source = format!(
@@ -32,7 +32,7 @@ fn drains() -> Game {
     )
 }
 
-/// Crates that stay on plates, and are no crates there.
+/// Crates that stay on plates, and turn into another type there.
 fn plates() -> Game {
     game(
         "tile > Immovable hidden=True\nplate > Immovable\nblock > Passive\n  crate >\n  stowed >\nhero > MovingAvatar",
@@ -62,10 +62,10 @@ fn carts() -> Game {
     )
 }
 
-/// Levels, and whether each can be won.
+/// Levels, each with `true` if it can be won.
 type Levels = Vec<(&'static str, bool)>;
 
-/// Every game with its levels, and whether each can be won.
+/// Returns every game with its levels.
 fn cases() -> Vec<(&'static str, Game, Levels)> {
     vec![
         (
@@ -122,7 +122,8 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// All states that can be reached while the game goes on, told apart by `tell`, and the fewest actions that win; breadth first.
+    /// Returns all reachable states of the ongoing game, told apart by `tell`, and the fewest actions that win;
+    /// breadth first.
     fn reached<T: Ord>(&self, tell: impl Fn(&State) -> T) -> (BTreeMap<T, Vec<u64>>, Option<usize>) {
         let words = |state: &State| self.keying.words(self.analysis, state);
         let mut met = BTreeMap::from([(tell(&self.start), words(&self.start))]);
@@ -211,8 +212,8 @@ fn wins_are_the_shortest_and_proofs_are_right() {
     }
 }
 
-/// What is pruned is lost: from no state that [`Pushes`] gives up can any win be reached, and no state needs fewer ticks than
-/// it says.
+/// Pruned states are lost: from no state that [`Pushes`] prunes can any win be reached, and no state needs fewer
+/// ticks than its bound.
 #[test]
 fn pushes_never_promise_too_little() {
     for (name, game, levels) in cases().into_iter().take(2) {

@@ -1,7 +1,7 @@
-//! House rules that a machine can check: which crate may import which, how long a file may be, where a
-//! link may lead.
+//! House rules that can be checked automatically: the imports between crates, the length of files, the targets of
+//! links.
 //!
-//! Every message reads `file:line: what is wrong; how to repair it`, and a test reports all it found at once.
+//! Every message reads `file:line: the problem; the repair`, and a test reports all problems at once.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
@@ -11,7 +11,7 @@ use std::process::Command;
 use tests::{read, rust_files, workspace_files, workspace_root};
 use toml::de::{DeTable, DeValue};
 
-/// Our crates by folder, each with those it may depend on. Imports point one way only.
+/// Our crates by folder, each with its allowed dependencies. Imports point one way only.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("engine", &[]),
     ("statistics", &[]),
@@ -31,7 +31,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
 /// The crate that may depend on all others, because none depends on it.
 const ABOVE_ALL: &str = "tests";
 
-/// Crates of others (with their families, such as `pest_derive`) that stay in few of ours.
+/// External crates (with their families, such as `pest_derive`) that only a few of ours may use.
 const CONFINED: &[(&str, &[&str])] = &[
     ("pest", &["engine"]),
     ("clap", &["cli", "xtask"]),
@@ -50,10 +50,10 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("zstd", &["snapshots"]),
 ];
 
-/// The longest a Rust file may be, in lines.
+/// The greatest length of a Rust file, in lines.
 const RUST_LINES: usize = 1000;
 
-/// The longest `ARCHITECTURE.md` may be, in lines.
+/// The greatest length of `ARCHITECTURE.md`, in lines.
 const ARCHITECTURE_LINES: usize = 200;
 
 /// The pages at the root; their links are checked like those in `docs/`.
@@ -154,12 +154,12 @@ fn rust_files_are_short() {
     report(problems);
 }
 
-/// Relies on the formatting, which puts the first line of every item, and nothing else, at the left margin.
+/// Relies on the formatting, which puts only the first line of every item at the left margin.
 #[test]
 fn lib_files_hold_docs_and_declarations_only() {
     let mut problems = Vec::new();
     for (file, text) in rust_files() {
-        // The helpers of this crate are few and have no other user: its lib.rs is their file.
+        // The helpers of this crate are few and have no other user: they stay in its lib.rs.
         if !file.ends_with("src/lib.rs") || file.starts_with(ABOVE_ALL) {
             continue;
         }
@@ -213,7 +213,7 @@ fn files_are_named_after_what_they_hold() {
 
 #[test]
 fn nothing_is_left_unfinished() {
-    // In two halves, so that this file is not found wanting itself.
+    // In two halves, so that this file does not match itself.
     let unfinished = [
         (concat!("todo", "!("), "write it, or leave it out"),
         (concat!("unimplemented", "!("), "write it, or leave it out"),
@@ -233,7 +233,7 @@ fn nothing_is_left_unfinished() {
     report(problems);
 }
 
-/// Home and work folders are refused everywhere; `/tmp` may stand in tests, as an absolute path like others.
+/// Home and work folders are refused everywhere; `/tmp` may appear in tests, like other absolute paths.
 #[test]
 fn no_path_leads_out_of_the_repository() {
     let homes = ["home", "root", "Users", "work"];
@@ -334,7 +334,7 @@ fn code_is_formatted() {
         command
     };
     if !cargo().arg("--version").output().is_ok_and(|output| output.status.success()) {
-        // Written past the capture of the test harness, so that it is seen.
+        // Bypasses the capture of the test harness, so that it is visible.
         writeln!(std::io::stderr(), "rustfmt is not installed: formatting is not checked")
             .expect("stderr is open");
         return;
@@ -377,7 +377,7 @@ fn absolute_paths_are_found() {
     }
 }
 
-/// What a member's `Cargo.toml` says about dependencies of all kinds and for all targets.
+/// The dependencies in a member's `Cargo.toml`, of all kinds and for all targets.
 struct Manifest {
     /// Folder and library name, such as `engine`.
     folder: String,
@@ -394,14 +394,14 @@ impl Manifest {
 
 /// One line of a dependency section.
 struct Dependency {
-    /// The real package name, whatever it is renamed to.
+    /// The real package name, even if it is renamed.
     package: String,
-    /// Whether only tests, examples and benches see it.
+    /// `true` for a dependency of tests, examples and benches only.
     development: bool,
     line: usize,
 }
 
-/// The manifests of all members, in the order of the workspace.
+/// Returns the manifests of all members, in the order of the workspace.
 fn manifests() -> Vec<Manifest> {
     let source = read("Cargo.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("Cargo.toml: {error}"));
@@ -443,7 +443,7 @@ fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
     Manifest { folder: folder.to_owned(), package: package.to_owned(), dependencies }
 }
 
-/// The `package = "..."` of a dependency, if it is renamed.
+/// Returns the `package = "..."` of a dependency, if it is renamed.
 fn renamed<'a>(dependency: &'a DeValue<'_>) -> Option<&'a str> {
     dependency.as_table().and_then(|table| get(table, "package")).and_then(DeValue::as_str)
 }
@@ -452,12 +452,12 @@ fn get<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<&'a DeValue<'i>> {
     table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.get_ref())
 }
 
-/// The folder of the member whose package is called `package`; `None` for the crates of others.
+/// Returns the folder of the member whose package is called `package`; `None` for external crates.
 fn folder_of<'a>(manifests: &'a [Manifest], package: &str) -> Option<&'a str> {
     manifests.iter().find(|manifest| manifest.package == package).map(|manifest| manifest.folder.as_str())
 }
 
-/// Whether `goal` is `start` or one of its direct or indirect dependencies.
+/// Returns `true` if `goal` is `start` or one of its direct or indirect dependencies.
 fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> bool {
     let mut seen = BTreeSet::from([start]);
     let mut open = vec![start];
@@ -471,7 +471,7 @@ fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> b
     false
 }
 
-/// Whether a line of a formatted `lib.rs` is part of docs, of an attribute or of a declaration that may be there.
+/// Returns `true` if a line of a formatted `lib.rs` is part of docs, of an attribute or of an allowed declaration.
 fn is_declaration(line: &str) -> bool {
     let continued = line.is_empty() || line.starts_with([' ', '}', ')', ']']);
     let item = line.strip_prefix("pub(crate) ").or_else(|| line.strip_prefix("pub ")).unwrap_or(line);
@@ -481,7 +481,7 @@ fn is_declaration(line: &str) -> bool {
     continued || module || constant || starts.iter().any(|start| item.starts_with(start))
 }
 
-/// Whether a line holds an absolute path below the given folder of the file system's root.
+/// Returns `true` if a line holds an absolute path below the given folder of the file system's root.
 fn names_absolute(line: &str, folder: &str) -> bool {
     let prefix = format!("/{folder}/");
     line.match_indices(&prefix).any(|(start, _)| {
@@ -490,8 +490,8 @@ fn names_absolute(line: &str, folder: &str) -> bool {
     })
 }
 
-/// The links of a Markdown page that are neither URLs nor places in the page itself, without their fragments,
-/// each with its line number. Code is passed over.
+/// Returns the links of a Markdown page that are neither URLs nor anchors in the page itself, without their
+/// fragments, each with its line number. Code is skipped.
 fn relative_links(page: &str) -> Vec<(usize, String)> {
     let mut links = Vec::new();
     let mut fenced = false;
@@ -521,7 +521,7 @@ fn relative_links(page: &str) -> Vec<(usize, String)> {
     links
 }
 
-/// Fails with every problem on a line of its own, if there is one.
+/// Fails with every problem on a line of its own, if there is any.
 #[track_caller]
 fn report(problems: Vec<String>) {
     assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));

@@ -1,7 +1,7 @@
-//! `tests/suite/levels/`: games with a level, bad and good, and what the judges have to say of each.
+//! `tests/suite/levels/`: games with a level, bad and good, and the expected verdicts on each.
 //!
-//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad one names the criterion that it fails, and words
-//! that reason and evidence have to contain; it may pass none but through that. A good one meets every criterion.
+//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad one names the criterion that it does not
+//! pass, the expected verdict, and words that reason and evidence must contain. A good one meets every criterion.
 
 use engine::{Game, Level, Seed};
 use serde::Deserialize;
@@ -14,19 +14,19 @@ use validators::{Criteria, Finding, Judgement, LEVEL_CRITERIA, Panel, Report, Ve
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Expect {
-    /// What is good or bad about it, for readers.
+    /// The merits or faults of the case, for readers.
     about: String,
     /// The criterion that a bad level fails.
     criterion: Option<String>,
     /// `pass`, `fail` or `unknown`.
     verdict: String,
-    /// What reason and evidence contain.
+    /// The words that reason and evidence must contain.
     #[serde(default)]
     words: Vec<String>,
-    /// The criteria that are asked; all if none is named.
+    /// The criteria to check; all if none is named.
     #[serde(default)]
     ask: Vec<String>,
-    /// Criteria that differ from those of these tests.
+    /// Criteria that differ from the defaults of these tests.
     #[serde(default)]
     criteria: toml::Table,
 }
@@ -55,7 +55,7 @@ fn cases(kind: &str) -> Vec<Case> {
     folders.iter().map(case).collect()
 }
 
-/// All criteria, with budgets that small levels get along with.
+/// Returns all criteria, with budgets that suffice for small levels.
 fn criteria(expect: &Expect) -> Criteria {
     let base = Criteria { budget: 600_000, ..Criteria::full() };
     let mut table = toml::Table::try_from(&base).unwrap();
@@ -76,7 +76,7 @@ fn word(finding: &Finding) -> &'static str {
     }
 }
 
-/// Everything that a finding says in words.
+/// Returns the whole text of a finding.
 fn told(finding: &Finding) -> String {
     let mut text = match &finding.verdict {
         Verdict::Fail { reason, .. } => reason.0.clone(),
@@ -93,7 +93,7 @@ fn told(finding: &Finding) -> String {
     text
 }
 
-/// Every witness that is shown replays.
+/// Every witness in the report replays.
 fn replays(case: &Case, report: &Report) {
     for episode in report.episodes() {
         assert!(episode.replay(&case.game, &case.level).is_ok(), "{}", case.name);

@@ -1,9 +1,9 @@
-//! Effects and sprite classes by what they are for.
+//! Groups of effects and sprite classes by purpose.
 
 use engine::SpriteClass;
 use serde::{Deserialize, Serialize};
 
-/// What an effect is about: the groups of the engine's ontology, with motion told apart by what becomes of it.
+/// The group of an effect: the groups of the engine's ontology, with movement split by its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EffectFamily {
@@ -11,13 +11,13 @@ pub enum EffectFamily {
     Kill,
     /// Health points.
     Health,
-    /// What sprites hold: taken, changed.
+    /// Resources of sprites: taken or changed.
     Resource,
     /// Sprites appear.
     Spawn,
     /// Sprites become others.
     Transform,
-    /// Moves are taken back.
+    /// Moves are undone.
     Block,
     /// Sprites face another way.
     Turn,
@@ -29,14 +29,14 @@ pub enum EffectFamily {
     Speed,
     /// Continuous physics meets walls and bats.
     Bounce,
-    /// Something is planned for later.
+    /// Something is scheduled for later.
     Timer,
-    /// An interaction is kept from happening.
+    /// An interaction is prevented.
     Shield,
 }
 
 impl EffectFamily {
-    /// All, in their order.
+    /// All families, in their order.
     pub const ALL: [EffectFamily; 13] = [
         EffectFamily::Kill,
         EffectFamily::Health,
@@ -53,7 +53,7 @@ impl EffectFamily {
         EffectFamily::Shield,
     ];
 
-    /// As in data.
+    /// Returns the name used in data.
     pub fn name(self) -> &'static str {
         match self {
             EffectFamily::Kill => "kill",
@@ -72,7 +72,7 @@ impl EffectFamily {
         }
     }
 
-    /// The family of an effect by its keyword; none for what is no effect.
+    /// Returns the family of an effect by its keyword; none if it is not an effect.
     pub fn of(keyword: &str) -> Option<EffectFamily> {
         Some(match keyword {
             "killSprite" | "killBoth" | "killAll" | "killIfAlive" | "killIfFast" | "killIfSlow" => {
@@ -112,13 +112,13 @@ impl EffectFamily {
     }
 }
 
-/// What sprites of a class do by themselves.
+/// The behaviour of sprites of a class by themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ClassFamily {
-    /// Nothing: they lie about, are pushed, lead somewhere or carry.
+    /// None: they lie about, are pushed, lead somewhere or carry.
     Thing,
-    /// Nothing, and they can be held.
+    /// None, and they can be held.
     Resource,
     /// They go away after a while, or spread.
     Flicker,
@@ -130,19 +130,19 @@ pub enum ClassFamily {
     Walker,
     /// They make others.
     Producer,
-    /// What the player tells them.
+    /// They do as the player commands.
     Avatar,
 }
 
 impl ClassFamily {
-    /// The family of a class.
+    /// Returns the family of a class.
     pub fn of(class: SpriteClass) -> ClassFamily {
         use SpriteClass as C;
         match class {
             class if class.is_avatar() => ClassFamily::Avatar,
             class if class.is_a(C::RandomNPC) => ClassFamily::Npc,
             class if class.is_a(C::SpriteProducer) => match class {
-                // Of a portal without a production of its own.
+                // A portal without a production of its own.
                 C::Portal => ClassFamily::Thing,
                 _ => ClassFamily::Producer,
             },
@@ -154,7 +154,7 @@ impl ClassFamily {
         }
     }
 
-    /// As in data.
+    /// Returns the name used in data.
     pub fn name(self) -> &'static str {
         match self {
             ClassFamily::Thing => "thing",

@@ -1,23 +1,23 @@
-//! What careless play makes of a moment, beside what was really played: who leads, and how far one must see.
+//! Random futures of a moment, compared with the episode played: the side in the lead, and the look-ahead needed.
 //!
-//! Futures are played by somebody who presses keys at random and takes a press back that loses at once. Without that, whatever
-//! is deadly at all would look hopeless at every moment.
+//! The futures press random keys, but take back a key that loses at once. Without that, any deadly game would look
+//! hopeless at every moment.
 
 use engine::{Game, Outcome, Sampler, Seed, State};
 use std::cmp::Ordering;
 
-/// Ticks that random futures are played for.
+/// Ticks that random futures are played.
 pub const SIGHT: usize = 64;
-/// Futures of a moment.
+/// Random futures of each moment.
 pub const FUTURES: u64 = 8;
-/// After how many ticks futures are looked at.
+/// Ticks at which futures are compared.
 const LOOKS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
-/// Keys that are tried in a tick.
+/// Random keys to try in a tick.
 const TRIES: usize = 3;
-/// So many futures must be worse for a line of play to be seen to be better.
+/// The number of futures that must be worse for the played line to be visibly better.
 const WORSE: usize = 6;
 
-/// Plays for so many ticks, or until the game is over.
+/// Plays for `ticks` ticks, or until the game is over.
 fn play_on(game: &Game, state: &mut State, keys: &mut Sampler, ticks: usize) {
     for _ in 0..ticks {
         if state.is_over() {
@@ -38,7 +38,7 @@ fn play_on(game: &Game, state: &mut State, keys: &mut Sampler, ticks: usize) {
     }
 }
 
-/// How a game stands: won or not first, then by score.
+/// The standing of a game: first by outcome, then by score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Standing {
     outcome: i8,
@@ -61,11 +61,12 @@ impl Standing {
     }
 }
 
-/// Futures of a moment, as they stand after 1, 2, 4 … [`SIGHT`] ticks.
+/// The standings of a moment's futures after 1, 2, 4 … [`SIGHT`] ticks.
 pub(super) struct Futures(Vec<[Standing; LOOKS.len()]>);
 
 impl Futures {
-    /// Each with a chance of its own. Cost: [`FUTURES`] × [`SIGHT`] forward-model calls, three times that at most.
+    /// Plays the futures, each with its own random seed. Cost: [`FUTURES`] × [`SIGHT`] forward-model calls, at most
+    /// three times that.
     pub(super) fn of(game: &Game, state: &State, seed: Seed) -> Futures {
         let play = |number: u64| {
             let seed = seed.child("future", number);
@@ -81,15 +82,14 @@ impl Futures {
         Futures((0..FUTURES).map(play).collect())
     }
 
-    /// By how many more of the futures are won than lost at the end, as a share: from −1 to 1. What is not decided counts for
-    /// neither side.
+    /// Returns the share of futures won minus the share lost, from −1 to 1. Undecided futures count for neither.
     pub(super) fn lead(&self) -> f64 {
         let sum: i32 = self.0.iter().map(|future| i32::from(future[LOOKS.len() - 1].outcome)).sum();
         f64::from(sum) / FUTURES as f64
     }
 
-    /// After how many ticks a line of play, given by how it stands from the moment on, tick by tick, stands better than most
-    /// of the futures; [`SIGHT`], if later or never; none if the futures win as well.
+    /// Returns the number of ticks after which a line of play, given by its standing at each tick from the moment on,
+    /// stands better than most of the futures; [`SIGHT`], if later or never; none if the futures win as well.
     pub(super) fn sight(&self, line: &[Standing]) -> Option<usize> {
         let last = line.len() - 1;
         let seen = |look: &usize| {

@@ -1,17 +1,17 @@
-//! What nobody would call a mechanic: interactions that keep sprites on the board and out of walls.
+//! Guards: interactions that keep sprites on the board and out of walls, and hardly count as mechanics.
 
 use super::families::EffectFamily;
 use crate::measures::is_guard;
 use engine::analysis::Role;
 use engine::{Analysis, Meeting, SpriteType};
 
-/// The guards of a game: interactions with the edge of the screen, and moves that walls take back at no price. A wall is what
+/// The guards of a game: interactions with the edge of the screen, and moves that walls undo without price. A wall
 /// has [`Role::Wall`]: it stands still, always blocks, and nothing removes it.
 #[derive(Clone, Debug)]
 pub struct Guards {
     /// By interaction line.
     lines: Vec<Kind>,
-    /// By type: whether it is a wall.
+    /// By type: `true` for a wall.
     walls: Vec<bool>,
 }
 
@@ -21,14 +21,14 @@ enum Kind {
     Edge,
     /// By the clock.
     Clock,
-    /// It takes back a move, and only that; `walls`: all that it names are walls.
+    /// It only undoes a move; `walls`: all types that it names are walls.
     Block { walls: bool },
     /// Anything else.
     Other,
 }
 
 impl Guards {
-    /// Cost: O(interactions × types).
+    /// Finds the guards. Cost: O(interactions × types).
     pub fn of(analysis: &Analysis) -> Guards {
         let game = analysis.game();
         let is_wall =
@@ -55,13 +55,14 @@ impl Guards {
         Guards { lines: game.description().interactions.iter().enumerate().map(kind).collect(), walls }
     }
 
-    /// The lines that are nothing but guards: indices into [`Description::interactions`](engine::Description).
+    /// Returns the lines that are only guards: indices into [`Description::interactions`](engine::Description).
     pub fn lines(&self) -> impl Iterator<Item = usize> + '_ {
         let guards = |line: &usize| matches!(self.lines[*line], Kind::Edge | Kind::Block { walls: true });
         (0..self.lines.len()).filter(guards)
     }
 
-    /// Whether an execution is a guard's: of a line that is one, or with a wall where the line names others as well.
+    /// Returns `true` for an execution of a guard: its line is one, or it meets a wall where the line names other
+    /// types too.
     pub fn covers(&self, meeting: Meeting) -> bool {
         match self.lines[meeting.line] {
             Kind::Edge => true,
@@ -70,7 +71,7 @@ impl Guards {
         }
     }
 
-    /// Whether a line runs by the clock.
+    /// Returns `true` if a line runs by the clock.
     pub(super) fn runs_by_clock(&self, line: usize) -> bool {
         self.lines[line] == Kind::Clock
     }

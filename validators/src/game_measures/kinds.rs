@@ -1,4 +1,4 @@
-//! What kind of game it is, by its rules alone: who one is, what one is after, what there is to reckon with.
+//! The kind of a game, by its rules alone: its avatar, its goal, and its sources of randomness and movement.
 
 use super::families::{ClassFamily, EffectFamily};
 use super::guards::Guards;
@@ -7,7 +7,7 @@ use engine::{Analysis, SpriteClass, SpriteType, Term};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// What the avatar that episodes start with can do: how it gets about, and whether the use key makes something.
+/// The abilities of the initial avatar: how it moves, and whether the use key makes something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AvatarKind {
@@ -36,7 +36,7 @@ pub enum AvatarKind {
 }
 
 impl AvatarKind {
-    /// Of a game. Cost: O(1).
+    /// Classifies a game. Cost: O(1).
     pub fn of(analysis: &Analysis) -> AvatarKind {
         let Some(avatar) = analysis.start_avatar() else { return AvatarKind::Watches };
         let class = analysis.game().class(avatar.stype);
@@ -56,7 +56,7 @@ impl AvatarKind {
         }
     }
 
-    /// As in data.
+    /// Returns the name used in data.
     pub fn name(self) -> &'static str {
         match self {
             AvatarKind::Walks => "walks",
@@ -74,41 +74,41 @@ impl AvatarKind {
     }
 }
 
-/// What a win asks for, by the signed goals: where several fit, the first in this order counts.
+/// The task that a win requires, by the signed goals: if several fit, the first in this order counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum GoalKind {
-    /// Others make for the same goal, and who comes first wins.
+    /// Others head for the same goal, and the first to arrive wins.
     Race,
-    /// What is pushed has to come to where it belongs.
+    /// Pushed sprites have to reach their places.
     Deliver,
-    /// There have to be many of something that is made.
+    /// Many copies of something that is made have to exist.
     Grow,
-    /// What the avatar shoots, or puts in the way, has to end others.
+    /// Sprites have to be removed by shots or obstacles of the avatar.
     Eliminate,
-    /// What moves has to be caught.
+    /// Moving sprites have to be caught.
     Hunt,
-    /// Things that lie about have to be taken: all of a type, or many of a resource that an exit asks for.
+    /// Items that lie about have to be taken: all of a type, or many of a resource that an exit requires.
     Collect,
-    /// Something has to be reached, or taken, that is closed until its key, or the right form, is got.
+    /// Something has to be reached, or taken, that is closed until the avatar has its key or the right form.
     Unlock,
     /// A place has to be reached.
     Reach,
     /// Others have to do something, or to be brought together.
     Herd,
-    /// Something other than the avatar has to be kept from harm for a while.
+    /// A sprite other than the avatar has to be protected for a while.
     Guard,
     /// Some tick has to be reached alive.
     Survive,
-    /// There is no goal but the score: play brings no win about, or the clock wins whatever happens.
+    /// There is no goal but the score: play cannot cause a win, or the clock wins in any case.
     Score,
 }
 
-/// Of so many it is about having many.
+/// The number from which the quantity is the point of a goal.
 const MANY: i32 = 3;
 
 impl GoalKind {
-    /// Of a game. Cost: O(types × avatars + interactions × relatives).
+    /// Classifies a game. Cost: O(types × avatars + interactions × relatives).
     pub fn of(analysis: &Analysis) -> GoalKind {
         let means = analysis.means();
         let has = |wanted: Means| means.contains(&wanted);
@@ -146,7 +146,7 @@ impl GoalKind {
         fits.into_iter().find(|(_, fits)| *fits).map_or(GoalKind::Score, |(kind, _)| kind)
     }
 
-    /// As in data.
+    /// Returns the name used in data.
     pub fn name(self) -> &'static str {
         match self {
             GoalKind::Race => "race",
@@ -165,24 +165,24 @@ impl GoalKind {
     }
 }
 
-/// What is left to chance, where chance can decide anything.
+/// The source of randomness, if randomness can decide anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChanceKind {
     /// Nothing.
     None,
-    /// How others move.
+    /// The movement of sprites other than the avatar.
     Movers,
-    /// When others appear.
+    /// The times at which sprites appear.
     Makers,
-    /// What interactions do.
+    /// The results of interactions.
     Rules,
     /// Several of these.
     Several,
 }
 
 impl ChanceKind {
-    /// Of a game. Cost: O(types + interactions).
+    /// Classifies a game. Cost: O(types + interactions).
     pub fn of(analysis: &Analysis) -> ChanceKind {
         if !analysis.chance_decides() {
             return ChanceKind::None;
@@ -214,13 +214,13 @@ impl ChanceKind {
             .collect::<Vec<ChanceKind>>()[..]
         {
             [one] => one,
-            // Chance decides, in a way that is none of these: the bounces of missiles, for one.
+            // Randomness decides in a way that is none of these: the bounces of missiles, for one.
             [] => ChanceKind::Movers,
             _ => ChanceKind::Several,
         }
     }
 
-    /// As in data.
+    /// Returns the name used in data.
     pub fn name(self) -> &'static str {
         match self {
             ChanceKind::None => "none",
@@ -232,30 +232,30 @@ impl ChanceKind {
     }
 }
 
-/// What kind of game it is, by its rules alone. Cost: some milliseconds at most, no forward-model calls.
+/// The kind of a game, by its rules alone. Cost: some milliseconds at most, no forward-model calls.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameKind {
-    /// What one can do.
+    /// The kind of its avatar.
     pub avatar: AvatarKind,
-    /// What one is after.
+    /// The kind of its goal.
     pub goal: GoalKind,
-    /// What is left to chance.
+    /// The source of its randomness.
     pub chance: ChanceKind,
     /// The families of the effects of its interactions, guards included, in the order of [`EffectFamily`].
     pub effects: Vec<EffectFamily>,
-    /// The classes of what moves by itself and can be there, in alphabetical order.
+    /// The classes that move by themselves and can be present, in alphabetical order.
     pub npcs: Vec<String>,
-    /// The classes of what makes others by itself and can be there, in alphabetical order.
+    /// The classes that make others by themselves and can be present, in alphabetical order.
     pub producers: Vec<String>,
-    /// Lines of the InteractionSet, guards apart.
+    /// Lines of the InteractionSet, without guards.
     pub interactions: usize,
     /// Lines that only keep sprites from leaving the board or going through walls: see [`Guards`].
     pub guards: usize,
 }
 
 impl GameKind {
-    /// Of a game.
+    /// Classifies a game.
     pub fn of(analysis: &Analysis) -> GameKind {
         let game = analysis.game();
         let lines = &game.description().interactions;

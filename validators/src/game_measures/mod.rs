@@ -1,4 +1,4 @@
-//! What a game is like, in numbers and kinds: the axes of archives of games, and lines of the report on their generators.
+//! Measures and kinds of a game: the axes of archives of games, and lines of the report on their generators.
 
 mod families;
 mod futures;

@@ -1,4 +1,4 @@
-//! What a game is like to play, from what was played of it.
+//! Measures of a game in play, from its recorded episodes.
 
 use super::futures::{Futures, Standing};
 use super::guards::Guards;
@@ -8,52 +8,53 @@ use engine::{Analysis, Episode, Game, Level, Meeting, Outcome, Seed, SpriteRecor
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// What a game is like to play: means over its levels, of each of which one episode counts, the first that is won, or the first
-/// if none is.
+/// The measures of a game in play: means over its levels, with one episode for each: the first that is won, or the
+/// first of all if none is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayMeasures {
     /// From 0 to 1: the share of ticks in which something other than the avatar moves, turns, appears, goes away or changes.
     pub pace: f64,
-    /// Executions of interactions a tick, guards ([`Guards`]) apart. One that puts the same sprite back to the same place
-    /// tick after tick counts once.
+    /// Executions of interactions per tick, without guards ([`Guards`]). One that puts the same sprite back to the
+    /// same place tick after tick counts once.
     pub density: f64,
-    /// From 0 to 1: the share of actions, at some ticks, that lead to something else under another chance.
+    /// From 0 to 1: the share of actions, at some ticks, whose result differs between random seeds.
     pub chance: f64,
-    /// Different interactions, guards apart, that won episodes execute: all of them together.
+    /// The number of different interactions, without guards, that won episodes execute: all of them together.
     pub mechanics: usize,
-    /// Planning depth, in ticks, from 1 to [`SIGHT`](super::SIGHT): how far one has to look ahead from a moment to see that
-    /// what was played is better than careless play (random keys, without those that lose at once): that it wins, does not
-    /// lose, or scores more. A game that pays for every step, or kills who does not act, has little of it; one in which the
-    /// good move looks like any other for long, or worse than a greedy one, has much. It asks how far the consequences lie, at
-    /// a price that does not grow with the branching, unlike the look-ahead that a planner needs. Moments from which careless
-    /// play wins as well do not count; 0 if no moment does.
+    /// Planning depth, in ticks, from 1 to [`SIGHT`](super::SIGHT): the look-ahead from a moment that shows that the
+    /// episode is better than careless play (random keys, without those that lose at once): that it wins, does not
+    /// lose, or scores more. A game that pays for every step, or kills a player who does not act, has a low value;
+    /// one in which the good move looks like any other for long, or worse than a greedy one, has a high value. The
+    /// measure asks how far away the consequences are, at a cost that does not grow with the branching factor, unlike
+    /// the look-ahead that a planner needs. Moments from which careless play wins as well do not count; 0 if no
+    /// moment counts.
     pub sight: f64,
-    /// From 0 to 1: how desperate the game is on the way to a win. The lead at a moment is by how many more of some careless
-    /// futures win than lose within [`SIGHT`](super::SIGHT) ticks, as a share. Drama is the mean over the moments of the square
-    /// root of the deficit where the lead is the game's, and of 0 where it is the player's or nobody's: the measure of Browne
-    /// and Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with the game for the opponent, such futures for the
-    /// value of a position, and all moments in the mean, so that a single bad one does not make a drama. What careless play can
-    /// neither win nor lose has none.
+    /// From 0 to 1: how desperate the game is on the way to a win. The lead at a moment is the share of careless
+    /// futures that win minus the share that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean over the
+    /// moments of the square root of the deficit where the game leads, and of 0 elsewhere: the measure of Browne and
+    /// Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with the game as the opponent, careless futures for
+    /// the value of a position, and a mean over all moments, so that a single bad one does not make a drama. A game
+    /// that careless play can neither win nor lose has a drama of 0.
     pub drama: f64,
-    /// How often the lead goes from one side to the other on the way to the win, which the player leads in the end: the mean
-    /// over the episodes (Browne and Maire's *lead change*, not divided by the number of moves).
+    /// The number of times that the lead changes sides on the way to the win (where the player leads): the mean over
+    /// the episodes (Browne and Maire's *lead change*, not divided by the number of moves).
     pub lead_changes: f64,
-    /// Of how many levels an episode was measured.
+    /// The number of levels with a measured episode.
     pub levels: usize,
 }
 
-/// Ticks of an episode that futures start from, evenly spread.
+/// The most moments of an episode from which futures start, evenly spread.
 const MOMENTS: usize = 12;
-/// Chances that an action is tried under.
+/// Random seeds to try an action with.
 const CHANCES: u64 = 3;
-/// Won episodes of a level that are searched for mechanics.
+/// The most won episodes of a level to search for mechanics.
 const WINS: usize = 12;
 
 impl PlayMeasures {
-    /// Of the recorded episodes of a game; none if there are none. The same arguments give the same numbers on every machine.
-    /// Cost: the episodes are played again, and for each level 12 × 8 × 64 forward-model calls for futures (three times that
-    /// at most), and 12 × 6 × 3 for chance: some milliseconds.
+    /// Measures the recorded episodes of a game; none if there are none. The same arguments give the same numbers on
+    /// every machine. Cost: the episodes are replayed, with 12 × 8 × 64 forward-model calls for futures (at most
+    /// three times that) and 12 × 6 × 3 for randomness for each level: some milliseconds.
     pub fn of(analysis: &Analysis, recording: &[Recorded<'_>], seed: Seed) -> Option<PlayMeasures> {
         let game = analysis.game();
         let guards = Guards::of(analysis);
@@ -135,13 +136,13 @@ impl Measured {
     }
 }
 
-/// How often the sign changes; zeros have none.
+/// Returns the number of sign changes; zeros are skipped.
 fn changes(leads: impl Iterator<Item = f64>) -> usize {
     let signs: Vec<bool> = leads.filter(|lead| *lead != 0.0).map(|lead| lead > 0.0).collect();
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// All sprites but the avatar.
+/// Returns all sprites except the avatar.
 fn others(game: &Game, state: &State) -> Vec<SpriteRecord> {
     let avatar = state.avatar_id();
     let mut records = game.records(state);
@@ -149,8 +150,8 @@ fn others(game: &Game, state: &State) -> Vec<SpriteRecord> {
     records
 }
 
-/// The share of the actions that lead to something else under another chance. Cost: actions × [`CHANCES`] calls; none where
-/// chance decides nothing.
+/// Returns the share of the actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls;
+/// none in a game where randomness decides nothing.
 fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     if !analysis.chance_decides() {
         return 0.0;
@@ -170,7 +171,7 @@ fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     unsure as f64 / actions.len() as f64
 }
 
-/// Counts executions of what is no guard.
+/// Counts executions of interactions that are not guards.
 struct Counter<'a> {
     guards: &'a Guards,
     executions: u64,
@@ -190,7 +191,7 @@ impl Counter<'_> {
 
 impl Watch for Counter<'_> {
     fn interaction(&mut self, line: usize) {
-        // The others are told of with their sprites.
+        // Events of the clock are not reported here: the other executions are reported with their sprites.
         if self.guards.runs_by_clock(line) {
             self.count(line);
         }
@@ -237,7 +238,7 @@ mod tests {
         assert_eq!(found.pace, 2.0 / 5.0, "{found:?}");
         // `bounceForward` twice, `killSprite` once; the guards do not count.
         assert_eq!((found.density, found.mechanics), (3.0 / 5.0, 2), "{found:?}");
-        // Nothing can be lost, and chance plays no part without a beetle.
+        // Nothing can be lost, and the level is deterministic without a beetle.
         assert_eq!((found.drama, found.lead_changes, found.chance), (0.0, 0.0, 0.0), "{found:?}");
         // The win is seen 8, 4, 4, 2 and 1 tick ahead.
         assert_eq!(found.sight, 3.8, "{found:?}");
@@ -254,7 +255,7 @@ mod tests {
 
     #[test]
     fn danger_makes_drama_and_shortens_the_sight() {
-        // The wasp is ahead of who stays in the row; below, the crate is one push away from its pit.
+        // The wasp is ahead of an avatar that stays in the row; below, the crate is one push away from its pit.
         let danger = check("wwwwwwwww\nwA     sw\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);
         assert!(danger.drama > 0.9, "{danger:?}");
         let calm = check("wwwwwwwww\nwA      w\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);

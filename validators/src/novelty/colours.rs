@@ -1,11 +1,11 @@
-//! Colour refinement: nodes told apart by what they are joined to (Weisfeiler and Leman 1968).
+//! Colour refinement: nodes are told apart by their neighbours (Weisfeiler and Leman 1968).
 //!
-//! A colour is a hash of what it stands for, so that the colours of different games can be compared.
+//! A colour is a hash of the structure it stands for, so that the colours of different games can be compared.
 
 use super::graph::RuleGraph;
 use engine::Digest;
 
-/// What a node looks like.
+/// The colour of a node.
 pub(super) type Colour = u64;
 
 /// The colour that stands for `bytes`.
@@ -14,9 +14,9 @@ pub(super) fn colour(bytes: &[u8]) -> Colour {
     Colour::from_le_bytes(digest.as_bytes()[..8].try_into().expect("eight of 32 bytes"))
 }
 
-/// A graph laid out for refinement.
+/// The adjacency lists of a graph, for refinement.
 pub(super) struct Neighbours {
-    /// By node: its neighbours, each with the role in which the one names the other, direction included.
+    /// By node: its neighbours, each with the role in which one names the other, direction included.
     of: Vec<Vec<(Colour, usize)>>,
 }
 
@@ -32,7 +32,7 @@ impl Neighbours {
         Neighbours { of }
     }
 
-    /// The colours after one more look at the neighbours. Cost: O(edges).
+    /// Returns the colours after one more round of refinement. Cost: O(edges).
     pub(super) fn refined(&self, colours: &[Colour]) -> Vec<Colour> {
         let mut bytes = Vec::new();
         let mut refine = |(at, neighbours): (usize, &Vec<(Colour, usize)>)| {
@@ -50,7 +50,7 @@ impl Neighbours {
         self.of.iter().enumerate().map(&mut refine).collect()
     }
 
-    /// The colours when looking on tells no more nodes apart.
+    /// Refines until no further nodes are told apart.
     pub(super) fn settled(&self, mut colours: Vec<Colour>) -> Vec<Colour> {
         let mut kinds = count(&colours);
         loop {

@@ -1,11 +1,11 @@
-//! The rules of a game as a graph: nodes for types, rules and what level characters place; edges from a rule to the types
-//! that it names.
+//! The rules of a game as a graph: nodes for types, rules and the objects that level characters place; edges from a
+//! rule to the types that it names.
 
 use crate::game_measures::{ClassFamily, EffectFamily};
 use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term, Terms, TypeClause};
 use std::fmt::Write;
 
-/// How much a label tells.
+/// The level of detail of a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Grain {
     /// Families of classes and effects, no parameters.
@@ -23,11 +23,11 @@ impl Grain {
 /// A node.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    /// What it is, by grain, names of types apart.
+    /// The labels, by grain, without the names of types.
     pub(super) labels: [String; 3],
-    /// How much it says about the game.
+    /// The weight of the node in the distance.
     pub(super) weight: u32,
-    /// What it names: in which role, which type.
+    /// The types that it names, each with its role.
     pub(super) edges: Vec<(String, usize)>,
 }
 
@@ -35,14 +35,14 @@ pub(super) struct Node {
 #[derive(Clone, Debug)]
 pub(super) struct RuleGraph {
     pub(super) nodes: Vec<Node>,
-    /// How many of the nodes are types.
+    /// The number of nodes that are types.
     pub(super) types: usize,
-    /// The types of the game that these are.
+    /// The types of the game that those nodes stand for.
     pub(super) stypes: Vec<SpriteType>,
 }
 
-/// Weights: what is a frame in nearly every game (what stops at walls and at the edge of the screen, what a character
-/// places) says least of it, when it ends says most.
+/// Weights: rules that frame nearly every game (blocking at walls and at the edge of the screen, the placement of a
+/// character) weigh least, terminations weigh most.
 const FRAME: u32 = 1;
 const TYPE: u32 = 2;
 const RULE: u32 = 4;
@@ -71,7 +71,7 @@ impl RuleGraph {
         let mut nodes: Vec<Node> = kept
             .iter()
             .map(|clause| {
-                // Without sprites of its own a parent is but the sum of those below it.
+                // A parent without sprites of its own only groups its subtypes.
                 let stands = clause.leaf || analysis.facts(clause.stype).possible;
                 let terms = if stands { &clause.terms } else { &Terms::new() };
                 let mut edges = edges(terms, true);
@@ -108,8 +108,8 @@ impl RuleGraph {
                 sets.push(set);
             }
         }
-        // What a character places besides more is left out: `w` and `A` place a wall and an avatar alone in every game that
-        // gives them no other meaning, so that another choice of characters would be another form.
+        // A placement that another one includes is left out: `w` and `A` place a wall and an avatar alone in every
+        // game that gives them no other meaning, so a different choice of characters would give a different form.
         let within = |set: &[usize], other: &[usize]| {
             set.len() < other.len() && set.iter().all(|at| other.contains(at))
         };
@@ -127,8 +127,8 @@ impl RuleGraph {
     }
 }
 
-/// By type: whether rules name it, or a character places it. Of `wall` and `avatar`, which every game has, those that the file
-/// does without are no part of its rules.
+/// Returns, by type, `true` if a rule names it or a character places it. `wall` and `avatar`, which every game has,
+/// are not part of its rules if the file does not use them.
 fn used(clauses: &Clauses) -> Vec<bool> {
     let mut used = vec![false; clauses.types.len()];
     let mut named = |terms: &Terms| {
@@ -151,7 +151,8 @@ fn used(clauses: &Clauses) -> Vec<bool> {
     used
 }
 
-/// What nearly every game has: what is held up, at no price and for no reward, and what happens at the edge of the screen.
+/// Returns `true` for a rule that nearly every game has: blocking without price or reward, and handling of the edge
+/// of the screen.
 fn is_frame(clause: &InteractionClause) -> bool {
     let blocks = EffectFamily::of(clause.effect) == Some(EffectFamily::Block);
     clause.second == Party::Edge || (blocks && clause.terms.is_empty())
@@ -183,10 +184,10 @@ fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
     ]
 }
 
-/// Numbers of which it matters for the kind of a rule that they are given and positive.
+/// Numbers that change the kind of a rule by being present and positive.
 const TELLING: [&str; 5] = ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
 
-/// Parameters in the order of their keys; types are edges and not spelled.
+/// Spells the parameters in the order of their keys; types are edges and are left out.
 fn spell(terms: &Terms, grain: Grain) -> String {
     let mut spelled: Vec<String> = Vec::new();
     for (key, term) in terms {

@@ -1,4 +1,4 @@
-//! How much two rule graphs have in common: a Weisfeiler–Lehman kernel.
+//! The similarity of two rule graphs: a Weisfeiler–Lehman kernel.
 //!
 //! After each of a few rounds of colour refinement the colours of the nodes are counted; a colour after h rounds stands for the
 //! subtree of depth h below a node (Shervashidze et al., "Weisfeiler–Lehman graph kernels", JMLR 12, 2011). Counts are compared
@@ -9,17 +9,17 @@
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 
-/// Rounds of refinement, by grain, and what a colour of that round counts. Early rounds count more: one other rule changes the
-/// late colours of everything near it.
+/// Rounds of refinement, by grain, and the weight of a colour of each round. Early rounds weigh more: one changed
+/// rule alters the late colours of everything near it.
 const ROUNDS: [(Grain, &[u32]); 3] =
     [(Grain::Coarse, &[4, 4, 2]), (Grain::Medium, &[4, 4, 2]), (Grain::Fine, &[1, 1, 0, 1])];
 
-/// The colours of a game with what they weigh, sorted by colour.
+/// The colours of a game with their weights, sorted by colour.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Features(Vec<(Colour, u32)>);
 
 impl Features {
-    /// Cost: 11 rounds of refinement, about a millisecond for large games.
+    /// Computes the features. Cost: 11 rounds of refinement, about a millisecond for large games.
     pub(super) fn of(graph: &RuleGraph) -> Features {
         let neighbours = Neighbours::of(graph);
         let mut counts: Vec<(Colour, u32)> = Vec::new();
@@ -45,7 +45,7 @@ impl Features {
         Features(counts)
     }
 
-    /// 1 − intersection / union, from 0 to 1. Cost: O(nodes).
+    /// Returns 1 − intersection / union, from 0 to 1. Cost: O(nodes).
     pub(super) fn distance(&self, other: &Features) -> f64 {
         let (mut common, mut all) = (0u64, 0u64);
         let (mut one, mut two) = (self.0.iter().peekable(), other.0.iter().peekable());

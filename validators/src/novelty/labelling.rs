@@ -1,20 +1,20 @@
-//! Canonical labelling: one text for all games that differ in names and order alone.
+//! Canonical labelling: one text for all games that differ only in names and order.
 //!
-//! Colours are refined; where types remain that look alike, one of them is singled out, the colours are refined again, and so
-//! on; of all texts that come about so, the smallest counts (McKay and Piperno, "Practical graph isomorphism, II", 2014).
-//! Types that can be exchanged without changing the rules, and branches that are seen to end as an earlier one did, are
-//! singled out once.
+//! Colours are refined; while several types share a colour, one of them is individualized and the colours are refined
+//! again. Of all texts produced in this way, the smallest counts (McKay and Piperno, "Practical graph isomorphism,
+//! II", 2014). Types that can be exchanged without changing the rules, and branches found to be equivalent to an
+//! earlier one, are individualized only once.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 
-/// Texts that are written at most. Games whose types are told apart by colours, or are alike because they can be exchanged,
-/// need far fewer. Past it the first of the types that look alike stands for all: if they are indeed alike, as they are unless
-/// the graph of the rules is built to deceive, that makes no difference; else two writings of the same rules may get different
-/// texts. Different rules never get the same one.
+/// The most texts to write. Games whose types are told apart by colours, or are alike because they can be exchanged,
+/// need far fewer. Beyond the limit the first of the types with equal colours stands for all: if they are indeed
+/// equivalent, as they are unless the graph of the rules is adversarial, that makes no difference; otherwise two
+/// spellings of the same rules may get different texts. Different rules never get the same text.
 const MOST: usize = 200;
 
-/// The text that all graphs have that are the same but for names and order, with the types in the order in which it calls them.
+/// The canonical text, equal for all graphs that differ only in names and order, with the types in its order.
 #[derive(Clone, Debug)]
 pub(super) struct Labelled {
     pub(super) text: String,
@@ -23,13 +23,13 @@ pub(super) struct Labelled {
 }
 
 impl Labelled {
-    /// The one with the smaller text; of equal texts the first.
+    /// Returns the one with the smaller text; of equal texts the first.
     fn min(self, other: Labelled) -> Labelled {
         if other.text < self.text { other } else { self }
     }
 }
 
-/// The canonical text of a graph. Cost: about 20 µs a node; [`MOST`] times that at worst.
+/// Returns the canonical text of a graph. Cost: about 20 µs a node; at worst [`MOST`] times that.
 pub(super) fn canonical(graph: &RuleGraph) -> Labelled {
     let neighbours = Neighbours::of(graph);
     let first = graph.nodes.iter().map(|node| colour(node.labels[Grain::Fine as usize].as_bytes())).collect();
@@ -45,7 +45,7 @@ struct Labelling<'a> {
 }
 
 impl Labelling<'_> {
-    /// The smallest text below these colours.
+    /// Returns the smallest text below these colours.
     fn smallest(&mut self, colours: &[Colour]) -> Labelled {
         let alike = self.alike(colours);
         let Some((&first, others)) = alike.split_first() else { return self.write(colours) };
@@ -58,8 +58,7 @@ impl Labelling<'_> {
             let started = self.single_out(colours, other);
             let quick = self.first_text(started.clone());
             let known = seen.get_or_insert_with(|| best.text.clone());
-            // The same text by another choice: the rules can be mapped onto themselves so that the one takes the place of
-            // the other.
+            // The same text by another choice: an automorphism of the rules maps one choice to the other.
             if quick.text == *known {
                 continue;
             }
@@ -68,7 +67,8 @@ impl Labelling<'_> {
         best
     }
 
-    /// The types of the first colour that several have, without those that can be exchanged for an earlier one.
+    /// Returns the types of the first colour that several share, without those that can be exchanged for an earlier
+    /// one.
     fn alike(&self, colours: &[Colour]) -> Vec<usize> {
         let types = &colours[..self.graph.types];
         let mut sorted = types.to_vec();
@@ -89,7 +89,7 @@ impl Labelling<'_> {
         self.neighbours.settled(colours)
     }
 
-    /// The text that comes about if always the first of those that look alike is singled out.
+    /// Returns the text that arises if the first of the types with equal colours is always individualized.
     fn first_text(&mut self, mut colours: Vec<Colour>) -> Labelled {
         while let Some(&first) = self.alike(&colours).first() {
             colours = self.single_out(&colours, first);
@@ -104,12 +104,12 @@ impl Labelling<'_> {
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(to, &at)| place[at] = to);
         let (mut types, rules) = self.lines(&place);
-        // With their colours, which tell what was singled out: equal texts are then equal choice by choice.
+        // The colours are part of the text and record the individualized types: equal texts then mean equal choices.
         types.iter_mut().zip(&order).for_each(|(line, &at)| *line = format!("{:016x} {line}", colours[at]));
         Labelled { text: types.join("\n") + "\n\n" + &rules.join("\n"), order }
     }
 
-    /// The nodes as text, types called by their places: the types in this order, the others sorted.
+    /// Returns the nodes as text, with types named by position: the types in this order, the others sorted.
     fn lines(&self, place: &[usize]) -> (Vec<String>, Vec<String>) {
         let line = |at: usize| {
             let node = &self.graph.nodes[at];
@@ -125,7 +125,7 @@ impl Labelling<'_> {
         (types, rules)
     }
 
-    /// Whether the rules stay the same if the two types take each other's places.
+    /// Returns `true` if the rules stay the same when the two types are exchanged.
     fn can_be_exchanged(&self, one: usize, two: usize) -> bool {
         let same: Vec<usize> = (0..self.graph.types).collect();
         let mut exchanged = same.clone();

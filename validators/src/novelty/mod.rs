@@ -1,5 +1,5 @@
-//! How far apart two games are by their rules, whatever they are called and in whichever order they are written
-//! ([what was measured](../../../docs/novelty.md)).
+//! The distance of two games by their rules, independent of names and of the order of lines
+//! ([measurements](../../../docs/novelty.md)).
 
 mod colours;
 mod graph;
@@ -10,59 +10,61 @@ use engine::{Digest, Game, SpriteType};
 use graph::RuleGraph;
 use kernel::Features;
 
-/// The rules of a game without names, symbols, colours and order: two games are the same game in another dress if their
-/// forms have the same [`digest`](GameForm::digest).
+/// The rules of a game without names, symbols, colours and order: two games are the same game under another theme if
+/// their forms have the same [`digest`](GameForm::digest).
 ///
-/// Of a game's text these do not count: the names of sprite types and what they look like; which characters levels are
-/// written in (but which types are placed together does); the order of lines, and of partners on a line; whether a
-/// parameter is inherited, written, or written though it is the default; types of which there are no sprites, where they
-/// only stand above others, have no class of their own; lines that are not enabled; `wall` and `avatar`, if neither the
-/// file declares them nor a rule names them. Games whose rules run in another order can play differently and yet share
-/// a form: they are one game to whoever counts games.
+/// The following parts of a game's text do not count: the names and looks of sprite types; the characters that levels
+/// are written in (but which types are placed together counts); the order of lines, and of partners on a line;
+/// whether a parameter is inherited, written, or written with its default value; types without sprites that only
+/// serve as parents and have no class of their own; lines that are not enabled; `wall` and `avatar`, if neither the
+/// file declares them nor a rule names them. Games whose rules run in a different order can play differently and yet
+/// share a form: for counting games they are one game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameForm {
     digest: Digest,
     features: Features,
 }
 
-/// Games that are nearer to each other than this are duplicates: the same rules with other numbers or in another fiction.
+/// The distance below which two games are duplicates: the same rules with other numbers or under another theme.
 pub const NEAR: f64 = 0.3;
 
 impl GameForm {
-    /// The form of a game. Cost: about a millisecond, no forward-model calls.
+    /// Computes the form of a game. Cost: about a millisecond, no forward-model calls.
     pub fn of(game: &Game) -> GameForm {
         let graph = RuleGraph::of(game);
         let digest = Digest::of(labelling::canonical(&graph).text.as_bytes());
         GameForm { digest, features: Features::of(&graph) }
     }
 
-    /// Equal for games that are the same but for what does not count. Different rules never share one. The converse holds
-    /// but for games in which many types look alike that are not: see the source of `labelling`.
+    /// Returns the digest, equal for games that differ only in parts that do not count. Different rules never share a
+    /// digest. The converse holds except for games with many types that look alike but are not equivalent: see the
+    /// source of `labelling`.
     pub fn digest(&self) -> Digest {
         self.digest
     }
 
-    /// The index and the distance of the nearest of some forms; the first of several. Cost: O(rules) each.
+    /// Returns the index and the distance of the nearest form; of equals, the first. Cost: O(rules) each.
     pub fn nearest<'a>(&self, forms: impl IntoIterator<Item = &'a GameForm>) -> Option<(usize, f64)> {
         let apart = forms.into_iter().map(|form| distance(self, form)).enumerate();
         apart.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 
-    /// Whether the two are duplicates: nearer than [`NEAR`].
+    /// Returns `true` if the two are duplicates: nearer than [`NEAR`].
     pub fn is_near(&self, other: &GameForm) -> bool {
         distance(self, other) < NEAR
     }
 }
 
-/// How far apart the rules of two games are, from 0 (equal forms) to 1 (nothing in common). Symmetric, and the triangle
-/// inequality holds. Cost: O(rules).
+/// Returns the distance of the rules of two games, from 0 (equal forms) to 1 (nothing in common). It is symmetric and
+/// obeys the triangle inequality. Cost: O(rules).
 pub fn distance(one: &GameForm, two: &GameForm) -> f64 {
     one.features.distance(&two.features)
 }
 
-/// The types of a game in an order that names and order in the file do not decide: in games with equal forms, types at the same
-/// place are the same type in another dress. (Types that can be exchanged without changing the rules may trade places.) Types
-/// that no rule and no character names are left out. Cost: as for [`GameForm::of`].
+/// Returns the types of a game in a canonical order, independent of names and of the order in the file: in games with
+/// equal forms, types at the same position correspond to each other. (Types that can be exchanged without changing
+/// the rules may trade places.) Types that no rule and no character names are left out. Cost: that of
+/// [`GameForm::of`].
 pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
     let graph = RuleGraph::of(game);
     labelling::canonical(&graph).order.into_iter().map(|at| graph.stypes[at]).collect()
@@ -128,7 +130,7 @@ mod tests {
         assert_eq!(ring.nearest([]), None);
         assert!(ring.is_near(&ring) && distance(&ring, &pairs) > 0.0);
     }
-    /// Whatever the types are called and wherever they stand, the same one has the same place.
+    /// Corresponding types have the same position, independent of their names and their order.
     #[test]
     fn types_have_places_of_their_own() {
         let game = |names: [&str; 3], order: [usize; 3]| {

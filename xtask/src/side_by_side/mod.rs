@@ -1,4 +1,4 @@
-//! `cargo xtask side-by-side`: two groups of games judged by the same verdicts, line by line.
+//! `cargo xtask side-by-side`: compares two groups of games by the same criteria, line by line.
 
 mod record;
 mod table;
@@ -13,9 +13,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use validators::Criteria;
 
-/// Judges the games of two folders by the same verdicts under the same budget, and prints a Markdown table: the mean or share of
-/// each group on seven lines, and the difference with its 95 % interval. With --csv, games that were judged before are not judged
-/// again: a run that was broken off goes on where it was.
+/// Judges the games of two folders by the same criteria under the same budget, and prints a Markdown table: the mean
+/// or share of each group on seven lines, and the difference with its 95 % interval. With --csv, games that were
+/// judged before are not judged again, so an interrupted run can be continued.
 ///
 /// Example: cargo xtask side-by-side --ours corpora --theirs gvgai/games --games 50 --csv side-by-side.csv
 #[derive(clap::Args)]
@@ -26,28 +26,28 @@ pub(crate) struct Args {
     /// Another one, whose games are loaded as the reference loads them
     #[arg(long, value_name = "DIR")]
     theirs: Option<PathBuf>,
-    /// Games of each folder at most, drawn by the seed
+    /// Maximum games of each folder, drawn by the seed
     #[arg(long, value_name = "N", default_value_t = 50)]
     games: usize,
-    /// Levels of each game at most: the first, the last, and some evenly between
+    /// Maximum levels of each game: the first, the last, and some evenly between
     #[arg(long, value_name = "N", default_value_t = 3)]
     levels: usize,
-    /// Text that the samples and all dice come from
+    /// Text that the samples and all random draws are derived from
     #[arg(long, value_name = "TEXT", default_value = "side by side")]
     seed: String,
-    /// Rows of games: those that are there are not judged again, new ones are added
+    /// Rows of games: games in the file are not judged again, new ones are added
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Forward-model calls for the win of a level
     #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().budget)]
     budget: u64,
-    /// Plays of each player of the ladder on a level at most
+    /// Maximum plays of each player of the ladder on a level
     #[arg(long, value_name = "N", default_value_t = GameSurvey::criteria().ladder_plays)]
     plays: u64,
     /// Forward-model calls of all players on a level, after which no further round of plays begins
     #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().ladder_calls)]
     ladder_calls: u64,
-    /// Print the names of the games that the seed draws, and judge none
+    /// Print the names of the games that the seed draws, without judging any
     #[arg(long)]
     sample: bool,
     /// Threads; all cores if not given. Changes no result
@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The folders of games in a folder, by name: as many as asked at most, drawn by the seed and the folder's own names.
+/// The game folders in a folder, by name: at most `most` of them, drawn by the seed and the folder's own names.
 fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> {
     let mut folders: Vec<PathBuf> = fs::read_dir(folder)
         .with_context(|| folder.display().to_string())?
@@ -113,7 +113,7 @@ fn name_of(folder: &Path) -> String {
     folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// So many of some levels at most: the first, the last, and some evenly between.
+/// At most `most` of some levels: the first, the last, and some evenly between.
 fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
     let (count, steps) = (levels.len(), most.saturating_sub(1).max(1));
     if count <= most {
@@ -126,13 +126,13 @@ fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
 struct Judge<'a> {
     survey: GameSurvey,
     levels: usize,
-    /// Rows that are known, by what decides them.
+    /// The known rows, by the digest of their inputs.
     known: BTreeMap<Digest, GameRow>,
     csv: Option<&'a Path>,
 }
 
 impl Judge<'_> {
-    /// The rows of a group. Those that are new are told, and written, as soon as they are there.
+    /// The rows of a group. New rows are printed and written as soon as they are finished.
     fn group(&mut self, group: &str, folders: &[PathBuf]) -> anyhow::Result<Vec<GameRow>> {
         let mut rows = Vec::new();
         for folder in folders {

@@ -9,7 +9,7 @@ use std::fmt;
 use std::fs::{self, OpenOptions};
 use std::path::Path;
 
-/// A row of a game, flat; the columns of the file.
+/// The row of a game as flat data: the columns of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Record {
     group: String,
@@ -107,7 +107,7 @@ impl Record {
 }
 
 impl fmt::Display for Record {
-    /// One line for whoever waits.
+    /// Writes a line of progress.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:<18} {} of {} won", self.game, self.won, self.levels)?;
         if let (Some(strongest), Some(wins), Some(plays), Some(floor), Some(lost)) =
@@ -127,7 +127,7 @@ impl fmt::Display for Record {
     }
 }
 
-/// The rows of a file, by what decides them; none of a file that is not there.
+/// The rows of a file, by the digest of their inputs; empty if the file does not exist.
 pub(super) fn read(path: &Path) -> anyhow::Result<BTreeMap<Digest, GameRow>> {
     if !path.exists() {
         return Ok(BTreeMap::new());
@@ -140,7 +140,7 @@ pub(super) fn read(path: &Path) -> anyhow::Result<BTreeMap<Digest, GameRow>> {
     rows.collect()
 }
 
-/// Adds a line to a file, and the names of the columns to a new one.
+/// Appends a line to a file, and the column names first if it is new.
 pub(super) fn append(path: &Path, record: &Record) -> anyhow::Result<()> {
     let new = fs::metadata(path).map_or(true, |found| found.len() == 0);
     let file = OpenOptions::new().create(true).append(true).open(path);

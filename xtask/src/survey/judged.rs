@@ -1,4 +1,4 @@
-//! What is measured of one level.
+//! The measurements of one level.
 
 use super::Made;
 use agents::{Budget, DoNothing, Limits, Planner, PortfolioConfig, Random, Solution, play, solve};
@@ -7,7 +7,7 @@ use engine::{Analysis, Digest, Level, Outcome, Seed, SpriteType};
 use generators::levels::{Likeness, cover};
 use std::collections::BTreeSet;
 
-/// Whether a level can be won.
+/// The result of the search for a win.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Found {
     Won,
@@ -15,27 +15,27 @@ pub(super) enum Found {
     Unknown,
 }
 
-/// What is measured of one level.
+/// The measurements of one level.
 pub(super) struct Judged {
     pub(super) made: bool,
     pub(super) found: Found,
-    /// Ticks of the witness.
+    /// The ticks of the witness.
     pub(super) ticks: usize,
-    /// Share of episodes won by doing nothing.
+    /// The share of episodes won by doing nothing.
     pub(super) idle: f64,
-    /// Share of episodes won by random play.
+    /// The share of episodes won by random play.
     pub(super) random: f64,
-    /// What is missing, if anything.
+    /// The names of missing things, if any.
     pub(super) missing: Vec<String>,
     pub(super) fits_size: bool,
     pub(super) fits_cover: bool,
     pub(super) cover: f64,
-    /// The same for a level and its reflections and rotations.
+    /// A digest that is equal for a level and its reflections and rotations.
     pub(super) form: Option<Digest>,
     pub(super) milliseconds: f64,
 }
 
-/// Who measures.
+/// The judge, which takes the measurements.
 pub(super) struct Judge<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) likeness: &'a Likeness,
@@ -127,7 +127,7 @@ impl Judged {
         }
     }
 
-    /// Whether neither doing nothing nor random play wins often.
+    /// Returns `true` if neither doing nothing nor random play wins often.
     pub(super) fn is_hard(&self) -> bool {
         self.made && self.idle <= 0.1 && self.random <= 0.1
     }
@@ -168,7 +168,7 @@ impl Judged {
     }
 }
 
-/// What the goals, or things that are placed, ask for and is not there: by name.
+/// The names of things that the goals or placed things require and that are missing.
 fn missing(analysis: &Analysis, level: &Level) -> Vec<String> {
     let game = analysis.game();
     let count = |stype: SpriteType| {
@@ -190,7 +190,7 @@ fn missing(analysis: &Analysis, level: &Level) -> Vec<String> {
     for requirement in analysis.requirements() {
         let asked = match requirement.reason {
             Reason::Avatar | Reason::Goal(_) => true,
-            // Other rules may make what is missing.
+            // Other rules may create missing things.
             Reason::Means(_) => false,
             Reason::Lock(stype) | Reason::Portal(stype) => count(stype) > 0,
         };

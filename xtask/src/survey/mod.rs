@@ -1,4 +1,4 @@
-//! `cargo xtask survey`: what are the levels of the constructive generator like, game by game?
+//! `cargo xtask survey`: measures the levels of the constructive generator, game by game.
 
 mod judged;
 mod table;
@@ -18,8 +18,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use table::Row;
 
-/// Makes levels for every game of a folder with the constructive generator and measures them: made, winnable with a witness,
-/// won by doing nothing or at random, complete, of the size and cover of the game's own levels, fast, different.
+/// Makes levels for every game of a folder with the constructive generator and measures them: made, winnable with a
+/// witness, won by doing nothing or at random, complete, of the size and cover of the game's own levels, fast,
+/// different.
 ///
 /// Example: cargo xtask survey --games corpora --count 5 --png sheets
 #[derive(clap::Args)]
@@ -33,7 +34,7 @@ pub(crate) struct Args {
     /// Levels for each game
     #[arg(long, value_name = "N", default_value_t = 20)]
     count: u64,
-    /// From 0.0, the easiest, to 1.0, the hardest
+    /// Difficulty from 0.0, the easiest, to 1.0, the hardest
     #[arg(long, value_name = "D", default_value_t = LevelConfig::default().difficulty)]
     difficulty: f64,
     /// Forward-model calls for the witness of a level; 0: levels are not solved
@@ -42,7 +43,7 @@ pub(crate) struct Args {
     /// Episodes of doing nothing, and of random play, for a level
     #[arg(long, value_name = "N", default_value_t = 20)]
     plays: u64,
-    /// Text that all seeds come from
+    /// Text that all seeds are derived from
     #[arg(long, value_name = "TEXT", default_value = "survey")]
     seed: String,
     /// Learn nothing from the games' own levels
@@ -54,10 +55,10 @@ pub(crate) struct Args {
     /// Threads; all cores if not given. Changes no result
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
-    /// One line a level
+    /// One line per level
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Where to draw a contact sheet for each game
+    /// Folder for a contact sheet of each game
     #[arg(long, value_name = "DIR")]
     png: Option<PathBuf>,
 }
@@ -69,7 +70,7 @@ struct Subject {
     own: Vec<Level>,
 }
 
-/// A level, or why there is none, with the milliseconds that making it took.
+/// A level, or the reason why there is none, with the milliseconds that making it took.
 struct Made {
     level: Result<Level, String>,
     milliseconds: f64,
@@ -141,7 +142,7 @@ fn subjects(args: &Args) -> anyhow::Result<Vec<Subject>> {
     Ok(subjects)
 }
 
-/// The levels of one game, on one thread, so that the time is that of one level.
+/// Makes the levels of one game on one thread, so that the time is that of one level.
 fn make(subject: &Subject, args: &Args) -> Vec<Made> {
     let own = if args.unlearnt { &[] } else { &subject.own[..] };
     let examples = Examples::of(subject.analysis.game(), own);
@@ -163,9 +164,9 @@ fn make(subject: &Subject, args: &Args) -> Vec<Made> {
     (0..args.count).map(one).collect()
 }
 
-/// Levels side by side on a sheet.
+/// The number of levels in a row of a sheet.
 const COLUMNS: usize = 5;
-/// The longer side of a level on a sheet, pixels.
+/// The longer side of a level on a sheet, in pixels.
 const SIDE: u32 = 300;
 
 fn draw(subject: &Subject, made: &[Made], judged: &[Judged], folder: &Path) -> anyhow::Result<()> {

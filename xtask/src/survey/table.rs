@@ -1,4 +1,4 @@
-//! The table: a row for each game, and one for all together.
+//! The table: a row for each game, and one for the total.
 
 use super::Made;
 use super::judged::{Found, Judged};
@@ -6,7 +6,7 @@ use engine::Digest;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// What is counted of the levels of a game.
+/// The counts over the levels of a game.
 #[derive(Clone, Default)]
 pub(super) struct Row {
     name: String,
@@ -20,14 +20,14 @@ pub(super) struct Row {
     size: usize,
     cover: usize,
     same: usize,
-    /// The most for one level.
+    /// The maximum for one level.
     milliseconds: f64,
-    /// What was missing, or went wrong.
+    /// The things that were missing or went wrong.
     notes: BTreeSet<String>,
 }
 
 impl Row {
-    /// The columns of a row, percentages but for the time and the number of doubles.
+    /// The columns of a row; percentages except the time and the number of duplicates.
     pub(super) const HEAD: &str = "game               levels  made   won impossible unknown  hard whole  size cover    ms same  missing";
 
     pub(super) fn of(name: &str, made: &[Made], judged: &[Judged], known: &[Digest]) -> Row {

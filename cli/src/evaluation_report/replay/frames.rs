@@ -1,23 +1,23 @@
-//! Boards of an episode as what changes from one to the next.
+//! Boards of an episode, stored as differences from one to the next.
 
 use render::{Picture, Tile, svg_tile};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::fmt::Write;
 
-/// The tiles that the boards of a game are made of, each once in the page.
+/// The tiles of a game's boards, each stored once in the page.
 pub(super) struct Tiles {
-    /// What their ids begin with.
+    /// The prefix of their ids.
     pub(super) prefix: String,
     known: Vec<Tile>,
 }
 
 impl Tiles {
-    /// None yet.
+    /// An empty set of tiles.
     pub(super) fn new(prefix: String) -> Tiles {
         Tiles { prefix, known: Vec::new() }
     }
 
-    /// SVG groups, each with its id.
+    /// Returns the SVG groups, each with its id.
     pub(super) fn symbols(&self) -> String {
         let symbol = |(at, tile)| svg_tile(&format!("{}{at}", self.prefix), tile);
         self.known.iter().enumerate().map(symbol).collect()
@@ -34,16 +34,17 @@ impl Tiles {
 /// A tile, and its left and top edge, width and height in pixels.
 type Mark = (usize, [i32; 4]);
 
-/// Boards one after the other.
+/// A sequence of boards.
 pub(super) struct Boards {
     cell: i32,
     last: Vec<Mark>,
-    /// By board: what of the one before is replaced, from its end to its beginning. The first replaces nothing by everything.
+    /// By board: the replacements that turn the previous board into it, from its end to its beginning. The first
+    /// replaces nothing by everything.
     pub(super) changes: Vec<String>,
 }
 
 impl Boards {
-    /// None yet; a cell has so many pixels.
+    /// An empty sequence, for cells of `cell` pixels.
     pub(super) fn new(cell: u32) -> Boards {
         Boards { cell: cell.cast_signed(), last: Vec::new(), changes: Vec::new() }
     }
@@ -60,8 +61,9 @@ impl Boards {
     }
 }
 
-/// What turns one board into the next: `AT COUNT MARK…` for each stretch that is replaced, in lines, the last stretch first, so
-/// that places before it stay as they are. A mark is `TILE,X,Y`, with width and height after it if it does not fill a cell.
+/// Returns the change from one board to the next: `AT COUNT MARK…` for each replaced stretch, in lines, the last
+/// stretch first, so that positions before it stay valid. A mark is `TILE,X,Y`, with width and height after it if it
+/// does not fill a cell.
 fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
     let mut text = String::new();
     for op in capture_diff_slices(Algorithm::Myers, from, to).iter().rev() {
@@ -87,7 +89,7 @@ fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
 mod tests {
     use super::*;
 
-    /// What the page's script does with a change.
+    /// Applies a change as the page's script does.
     fn applied(marks: &[Mark], change: &str, cell: i32) -> Vec<Mark> {
         let mut marks = marks.to_vec();
         for line in change.lines() {

@@ -1,4 +1,4 @@
-//! Some episodes step by step: the boards, and beside each what the player was told and said.
+//! Some episodes step by step: the boards, and beside each the prompts and answers.
 
 mod frames;
 mod talk;
@@ -15,13 +15,13 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use talk::{Talk, talks};
 
-/// Of a longer episode, the first and the last decisions are shown.
+/// The first and last decisions of a longer episode that are shown.
 const FIRST: usize = 200;
 const LAST: usize = 100;
-/// Pixels of a cell of the boards that change, and of the longer side of the still ones.
+/// Pixels of a cell of the animated boards, and of the longer side of the still ones.
 const CELL: u32 = 20;
 const STILL: u32 = 220;
-/// Still boards of an episode, start and end among them.
+/// The number of still boards of an episode, including start and end.
 const STILLS: usize = 4;
 
 /// All replays of a page.
@@ -31,7 +31,7 @@ pub(super) struct Replays {
     symbols: String,
     /// By player.
     players: Vec<PlayerReplays>,
-    /// What is not shown.
+    /// A note on the omitted episodes.
     note: String,
 }
 
@@ -47,27 +47,27 @@ struct PlayerReplays {
 struct Replay {
     /// Game, level and run.
     title: String,
-    /// How it went.
+    /// The result of the episode.
     result: String,
-    /// Whether it was won.
+    /// `true` if it was won.
     won: bool,
     /// Pixels of the board.
     size: [u32; 2],
-    /// For the script: tiles, changes from board to board, what is said below each.
+    /// The data of the script: tiles, changes from board to board, the text below each.
     data: String,
     /// A few of the boards.
     stills: Vec<Figure<'static>>,
-    /// Every action, equal ones in a row counted.
+    /// Every action, with equal ones in a row counted.
     actions: String,
-    /// What the player was told before its first decision.
+    /// The prompt before the player's first decision.
     told: Vec<String>,
-    /// What was said at each decision; empty for players without words.
+    /// The texts of each decision; empty for players without text.
     decisions: Vec<Decision>,
-    /// Decisions in the middle that are left out.
+    /// The number of omitted decisions in the middle.
     skipped: usize,
 }
 
-/// A decision with words.
+/// A decision with texts.
 #[derive(Serialize)]
 struct Decision {
     /// The board that was seen, counted from 0 among those shown.
@@ -75,12 +75,12 @@ struct Decision {
     /// Counted from 0.
     step: usize,
     action: String,
-    /// What was wrong with the choice, if anything was.
+    /// The problem of the choice, if any.
     validity: &'static str,
     talk: Talk,
 }
 
-/// What the script of the page reads.
+/// The input of the page's script.
 #[derive(Serialize)]
 struct Data<'a> {
     cell: u32,
@@ -96,9 +96,9 @@ struct Candidate<'a> {
 }
 
 impl Replays {
-    /// The first run of `levels` levels for each player, the same levels for all as far as they were played: the first level of
-    /// each game in turn, then the second. Players with words come first where there is no room, in bytes, for all. Cost: O(steps)
-    /// of play and drawing for each.
+    /// Returns the first run of `levels` levels for each player, the same levels for all if they were played: the
+    /// first level of each game in turn, then the second. Players with texts come first if there is no room, in
+    /// bytes, for all. Cost: O(steps) of play and drawing for each.
     pub(super) fn of(evaluations: &[Evaluation], levels: usize, room: usize) -> Result<Replays, Failure> {
         let (players, mut left_out) = (candidates(evaluations, levels), 0);
         let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();
@@ -130,7 +130,7 @@ impl Replays {
         Ok(Replays { symbols, players, note: note(levels, left_out) })
     }
 
-    /// Whether there is any.
+    /// Returns `true` if there is any replay.
     pub(super) fn is_some(&self) -> bool {
         !self.players.is_empty()
     }
@@ -152,7 +152,7 @@ fn note(levels: usize, left_out: u64) -> String {
 /// A player's episodes by level and game.
 type OnLevels<'a> = BTreeMap<(usize, &'a str), Candidate<'a>>;
 
-/// By player, models first: the episodes that may be shown.
+/// Returns, by player, models first, the episodes that may be shown.
 fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Candidate<'_>>)> {
     let mut wanted: BTreeSet<(usize, &str)> = BTreeSet::new();
     for evaluation in evaluations {
@@ -178,7 +178,7 @@ fn candidates(evaluations: &[Evaluation], levels: usize) -> Vec<(String, Vec<Can
 }
 
 impl Replay {
-    /// Plays and draws an episode; none if nothing was played.
+    /// Replays and draws an episode; none if nothing was played.
     fn of(candidate: &Candidate<'_>, tiles: &mut Tiles) -> Result<Option<Replay>, Failure> {
         let Candidate { evaluation, task } = candidate;
         let log = evaluation.events(task).map_err(crate::verbs::evaluate::failure)?;
@@ -253,7 +253,7 @@ impl Replay {
         }))
     }
 
-    /// About what it takes of the page.
+    /// Returns its approximate size in the page, in bytes.
     fn bytes(&self) -> usize {
         let talk = |talk: &Talk| {
             let answers = talk.answers.iter();
@@ -268,7 +268,7 @@ impl Replay {
     }
 }
 
-/// Whether the board before this decision is one of the still ones, and what it is called.
+/// Returns the heading of the still board before this decision, if there is one.
 fn still(decision: usize, steps: usize) -> Option<&'static str> {
     if decision == 0 {
         return Some("the start");
@@ -303,7 +303,7 @@ fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String 
     format!("{how} {}, score {}", words::many(steps as u64, "step"), words::short(state.score()))
 }
 
-/// What is wrong with a choice.
+/// Returns the problem of a choice.
 fn told(validity: Validity) -> &'static str {
     match validity {
         Validity::Valid => "",

@@ -1,38 +1,38 @@
-//! What was said at each decision of an episode.
+//! The messages at each decision of an episode.
 
 use crate::page::words;
 use evaluation::client::{Finish, Role};
 use evaluation::log::{Event, Reply, ReplyClass};
 use serde::Serialize;
 
-/// Letters of an answer, of reasoning and of what was shown, at most.
+/// The most letters of an answer, of reasoning and of a prompt.
 const ANSWER: usize = 1_500;
 const REASONING: usize = 1_500;
 const SHOWN: usize = 6_000;
 
-/// What was said at a decision.
+/// The messages at a decision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Talk {
-    /// What the player was told for the first time, whoever said it before; not its own words.
+    /// The messages that the player saw for the first time, except its own.
     pub(super) shown: Vec<String>,
-    /// Its answers: several if it was asked again.
+    /// Its answers: several if the request was repeated.
     pub(super) answers: Vec<Answer>,
 }
 
 /// An answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Answer {
-    /// The words.
+    /// The text.
     pub(super) text: String,
-    /// What it thought, where that is known.
+    /// The reasoning, if it is known.
     pub(super) reasoning: Option<String>,
-    /// What it is worth, in a word; empty for the format that was asked for.
+    /// Its validity, in a word; empty for the requested format.
     pub(super) class: &'static str,
     /// Tokens and time, in words.
     pub(super) cost: String,
 }
 
-/// What was said at each decision, in order; nothing where a decision was made without words.
+/// Returns the messages at each decision, in order; empty for a decision without text.
 pub(super) fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current) = (Vec::new(), Talk::default());
     for event in log {
@@ -82,7 +82,7 @@ impl Answer {
     }
 }
 
-/// The first letters of a text, and how many more there are.
+/// Returns the first letters of a text, and the number of further ones.
 fn cut(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         None => text.trim_end().to_owned(),

@@ -1,9 +1,9 @@
-//! SVG text in the making.
+//! A builder of SVG text.
 
 use crate::page::facts::number;
 use std::fmt::Write;
 
-/// The edge of a text that its place names.
+/// The edge of a text that lies at its position.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -11,13 +11,13 @@ pub(super) enum Anchor {
     End,
 }
 
-/// A drawing; what is drawn later lies above.
+/// A drawing; later shapes lie above earlier ones.
 pub(super) struct Canvas {
     text: String,
 }
 
 impl Canvas {
-    /// An empty drawing of this kind and size in pixels; `label` says what it is to those who cannot see it.
+    /// Creates an empty drawing of this kind and size in pixels; `label` describes it for people who cannot see it.
     pub(super) fn new(kind: &str, width: f64, height: f64, label: &str) -> Canvas {
         let (width, height, label) = (number(width), number(height), escaped(label));
         let text = format!(
@@ -27,7 +27,7 @@ impl Canvas {
         Canvas { text }
     }
 
-    /// Opens a group of this class; `title` is told when it is pointed at.
+    /// Opens a group of this class; `title` is its tooltip.
     pub(super) fn open(&mut self, class: &str, title: &str) {
         let _ = write!(self.text, "<g class=\"{class}\">");
         if !title.is_empty() {
@@ -58,12 +58,12 @@ impl Canvas {
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{ways}\"/>");
     }
 
-    /// What lies within these points.
+    /// The area within these points.
     pub(super) fn area(&mut self, points: &[[f64; 2]], class: &str) {
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{}Z\"/>", way(points));
     }
 
-    /// Words whose foot is at this place.
+    /// Text whose baseline is at this position.
     pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, class: &str, words: &str) {
         let (x, y, words) = (number(x), number(y), escaped(words));
         let anchor = match anchor {
@@ -75,7 +75,7 @@ impl Canvas {
         let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\"{anchor}{class}>{words}</text>");
     }
 
-    /// A place where a value is missing: grey, hatched, with a dash.
+    /// A position where a value is missing: grey, hatched, with a dash.
     pub(super) fn missing(&mut self, [x, y, w, h]: [f64; 4], title: &str) {
         self.open("none", title);
         self.rect([x, y, w, h]);
@@ -89,14 +89,14 @@ impl Canvas {
         self.close();
     }
 
-    /// The SVG.
+    /// Returns the SVG.
     pub(super) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }
 }
 
-/// The straight line through these points.
+/// Returns the path through these points.
 fn way(points: &[[f64; 2]]) -> String {
     let point = |(at, [x, y]): (usize, &[f64; 2])| {
         format!("{}{} {}", if at == 0 { 'M' } else { 'L' }, number(*x), number(*y))

@@ -1,4 +1,4 @@
-//! Shares with their intervals, a line each.
+//! Forest plots: shares with their intervals, a line each.
 
 use super::canvas::{Anchor, Canvas};
 use super::{Label, shortened};
@@ -11,30 +11,30 @@ const RIGHT: f64 = 160.0;
 /// Pixels of a line, and of the scale's marks.
 const LINE: f64 = 28.0;
 const FOOT: f64 = 24.0;
-/// Letters of a name, at most.
+/// The most letters of a name.
 const LETTERS: usize = 18;
 
-/// What a forest plot shows: shares from 0 to 1.
+/// The data of a forest plot: shares from 0 to 1.
 pub(crate) struct Forest<'a> {
-    /// What it is, in words.
+    /// Its description.
     pub(crate) label: &'a str,
-    /// The lines, in the order in which they are drawn.
+    /// The lines, in drawing order.
     pub(crate) rows: &'a [ForestRow],
 }
 
 /// A line.
 pub(crate) struct ForestRow {
-    /// Whose share it is.
+    /// The subject of the share.
     pub(crate) label: Label,
-    /// The share and its interval; none of nothing.
+    /// The share and its interval; none if there are no cases.
     pub(crate) share: Option<(f64, [f64; 2])>,
-    /// Of how many.
+    /// The number of cases.
     pub(crate) of: String,
-    /// Whether it is a mark to compare with rather than a subject.
+    /// `true` for a reference to compare with, not a subject.
     pub(crate) reference: bool,
 }
 
-/// Draws it, with a line at one half. Cost: O(rows).
+/// Draws the plot, with a line at one half. Cost: O(rows).
 pub(crate) fn forest(plot: &Forest<'_>) -> String {
     let foot = plot.rows.len() as f64 * LINE + 4.0;
     let mut canvas = Canvas::new("forest", LEFT + PLANE + RIGHT, foot + FOOT, plot.label);

@@ -1,4 +1,4 @@
-//! A value for each row and column, as a colour and in digits.
+//! Heat maps: a value for each row and column, as a colour and in digits.
 
 use super::canvas::{Anchor, Canvas};
 use super::{Label, shortened, step};
@@ -7,16 +7,16 @@ use super::{Label, shortened, step};
 const LEFT: f64 = 142.0;
 const CELL: [f64; 2] = [38.0, 28.0];
 const TOP: f64 = 36.0;
-/// Between two groups of columns.
+/// The gap between two groups of columns.
 const GAP: f64 = 8.0;
-/// Letters of a row's name, at most.
+/// The most letters of a row's name.
 const LETTERS: usize = 18;
 
-/// What a heat map shows.
+/// The data of a heat map.
 pub(crate) struct HeatMap<'a> {
-    /// What it is, in words.
+    /// Its description.
     pub(crate) label: &'a str,
-    /// Who each row is about.
+    /// The subject of each row.
     pub(crate) rows: &'a [Label],
     /// The groups of columns, each with the names of its columns: a game with its levels.
     pub(crate) groups: &'a [(String, Vec<String>)],
@@ -28,7 +28,7 @@ pub(crate) struct HeatMap<'a> {
     pub(crate) show: fn(f64) -> String,
 }
 
-/// Draws it. Cost: O(cells).
+/// Draws the heat map. Cost: O(cells).
 pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
     let columns: usize = map.groups.iter().map(|(_, names)| names.len()).sum();
     let gaps = map.groups.len().saturating_sub(1) as f64 * GAP;
@@ -50,7 +50,7 @@ pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
     }
     let (mut left, mut column) = (LEFT, 0);
     for (group, names) in map.groups {
-        // A name has about seven pixels a letter, and may stand over the gap.
+        // A letter of a name is about seven pixels wide, and the name may extend over the gap.
         let room = (names.len() as f64 * CELL[0] / 6.6) as usize;
         canvas.text(left + 2.0, 14.0, Anchor::Start, "head", &shortened(group, room.max(4)));
         for name in names {

@@ -1,4 +1,4 @@
-//! Correlations of measures, each pair once.
+//! Correlation matrices of measures, with each pair once.
 
 use super::canvas::{Anchor, Canvas};
 use super::step;
@@ -8,17 +8,17 @@ const LEFT: f64 = 128.0;
 const CELL: [f64; 2] = [74.0, 46.0];
 const FOOT: f64 = 24.0;
 
-/// What a matrix shows.
+/// The data of a correlation matrix.
 pub(crate) struct Matrix<'a> {
-    /// What it is, in words.
+    /// Its description.
     pub(crate) label: &'a str,
     /// The measures.
     pub(crate) names: &'a [String],
-    /// By row and column below the diagonal: the coefficient, -1 to 1, and what is said under it; `None` is missing.
+    /// By row and column below the diagonal: the coefficient, -1 to 1, and the text under it; `None` is missing.
     pub(crate) cells: &'a [Vec<Option<(f64, String)>>],
 }
 
-/// Draws what is below the diagonal. Cost: O(cells).
+/// Draws the part below the diagonal. Cost: O(cells).
 pub(crate) fn matrix(matrix: &Matrix<'_>) -> String {
     let count = matrix.names.len();
     let sides = count.saturating_sub(1) as f64;

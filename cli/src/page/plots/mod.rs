@@ -1,8 +1,9 @@
 //! Plots as SVG inside a page: pure functions of plain numbers, the same bytes for the same numbers.
 //!
-//! Colours are classes that `plots.css` gives a light and a dark meaning: `q0` to `q10` from little to much, in one hue whose
-//! lightness alone tells them apart, so that every eye can; `d0` to `d10` from blue over neutral to orange, for what may be
-//! negative. Every value is written in words too. What is missing is grey and hatched, never a colour of the scale.
+//! Colours are classes with a light and a dark variant in `plots.css`: `q0` to `q10` is a sequential scale of one hue
+//! that differs in lightness alone, so that it is readable for every kind of colour vision; `d0` to `d10` is a
+//! diverging scale from blue over neutral to orange, for values that may be negative. Every value is written as text
+//! too. Missing values are grey and hatched, never a colour of the scale.
 
 mod canvas;
 mod forest;
@@ -15,22 +16,23 @@ pub(crate) use heat_map::{HeatMap, heat_map};
 pub(crate) use matrix::{Matrix, matrix};
 pub(crate) use violin::{Violin, Violins, violins};
 
-/// What stands beside a row of a plot: two lines, the second perhaps empty.
+/// The label of a row of a plot: two lines, the second perhaps empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// What it is called.
+    /// Its name.
     pub(crate) name: String,
-    /// What sets it apart from others of that name.
+    /// The note that distinguishes it from others of that name.
     pub(crate) note: String,
 }
 
-/// The step of a scale that a value stands on: 0 at `low` and below, 10 at `high` and above.
+/// Returns the step of a value on a scale: 0 at `low` and below, 10 at `high` and above.
 fn step(value: f64, low: f64, high: f64) -> usize {
     let part = if high > low { (value - low) / (high - low) } else { 0.5 };
     (part.clamp(0.0, 1.0) * 10.0).round() as usize
 }
 
-/// A text of at most so many letters: its middle is left out if it is longer, for models differ in their first and last letters.
+/// Shortens a text to at most `letters` letters by leaving out its middle, because models differ in their first and
+/// last letters.
 fn shortened(text: &str, letters: usize) -> String {
     let all: Vec<char> = text.chars().collect();
     if all.len() <= letters {

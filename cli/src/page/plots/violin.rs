@@ -1,4 +1,4 @@
-//! How values are spread, beside each other.
+//! Violin plots: distributions of values, beside each other.
 
 use super::canvas::{Anchor, Canvas};
 use crate::page::words;
@@ -12,31 +12,32 @@ const PLACE: f64 = 104.0;
 const FOOT: f64 = 54.0;
 /// Half the width of the widest violin.
 const HALF: f64 = 46.0;
-/// Places at which a density is taken.
+/// The number of points at which a density is evaluated.
 const POINTS: usize = 48;
-/// Up to so many values are drawn as dots too.
+/// The most values that are drawn as dots too.
 const DOTS: usize = 30;
 
-/// What violins show.
+/// The data of a violin plot.
 pub(crate) struct Violins<'a> {
-    /// What it is, in words.
+    /// Its description.
     pub(crate) label: &'a str,
     /// The groups, from left to right.
     pub(crate) groups: &'a [Violin<'a>],
-    /// The values at the foot and at the top.
+    /// The values at the bottom and at the top.
     pub(crate) scale: [f64; 2],
 }
 
 /// A group.
 pub(crate) struct Violin<'a> {
-    /// What it is called.
+    /// Its name.
     pub(crate) name: &'a str,
-    /// Its values; those that are no numbers are left out.
+    /// Its values; those that are not finite numbers are left out.
     pub(crate) values: &'a [f64],
 }
 
-/// Draws them: densities by Gaussian kernels of Silverman's width (Density Estimation, 1986, equation 3.31), each as wide as
-/// the others at its widest; box from the lower to the upper quartile, a line at the median. Cost: O(values).
+/// Draws the violins: densities by Gaussian kernels of Silverman's width (Density Estimation, 1986, equation 3.31),
+/// all of the same maximum width; a box from the lower to the upper quartile, and a line at the median. Cost:
+/// O(values).
 pub(crate) fn violins(plot: &Violins<'_>) -> String {
     let [low, high] = plot.scale;
     let width = LEFT + plot.groups.len() as f64 * PLACE + 8.0;
@@ -78,7 +79,7 @@ pub(crate) fn violins(plot: &Violins<'_>) -> String {
     canvas.finish()
 }
 
-/// The edge of a violin, up its right side and down its left.
+/// Returns the outline of a violin, up its right side and down its left.
 fn outline(sorted: &[f64], [low, high]: [f64; 2], middle: f64, up: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     let (first, last) = (sorted[0], sorted[sorted.len() - 1]);
     let width = bandwidth(sorted).max((high - low) / 60.0);

@@ -1,4 +1,4 @@
-//! Files and folders that interrupted runs have left behind, each recognised by what only arcade makes.
+//! Files and folders that interrupted runs left behind, each recognised by something that only arcade makes.
 
 use crate::failure::Failure;
 use crate::verbs::verify::failure;
@@ -19,11 +19,11 @@ pub(super) struct Leftover {
 pub(super) enum Kind {
     /// The folder of a release, report or export that was not finished.
     Unfinished(Abandoned),
-    /// An interrupted mint with finished lots.
+    /// An interrupted mint with finished jobs.
     Interrupted(Abandoned),
-    /// A shard of a release, in words.
+    /// A shard of a release, with its description.
     Shard(String),
-    /// A file that was not finished; as long as it is open, nobody takes it for abandoned.
+    /// An unfinished file; while it is open, no other process considers it abandoned.
     File(#[expect(dead_code, reason = "it holds the lock")] File),
     /// The scratch folder of a player.
     Scratch,
@@ -42,7 +42,7 @@ impl Kind {
 }
 
 impl Leftover {
-    /// The leftover at this path; none if it is anything else, or in use.
+    /// Returns the leftover at this path; none if it is anything else, or in use.
     pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
         let Ok(found) = fs::symlink_metadata(path) else { return Ok(None) };
         let kind = if found.is_file() {
@@ -69,7 +69,7 @@ impl Leftover {
         }
     }
 
-    /// Bytes of disk that its files take.
+    /// Returns the disk space of its files in bytes.
     pub(super) fn bytes(&self) -> u64 {
         let (mut bytes, mut waiting) = (0, vec![self.path.clone()]);
         while let Some(path) = waiting.pop() {
@@ -97,7 +97,7 @@ impl Leftover {
     }
 }
 
-/// Opens and locks an unfinished file of [`whole_file`](crate::whole_file) that nobody writes.
+/// Opens and locks an unfinished file of [`whole_file`](crate::whole_file) that nobody is writing.
 fn unfinished_file(path: &Path) -> Option<File> {
     let drawn = path.file_name()?.to_str()?.strip_prefix(UNFINISHED.0)?.strip_suffix(UNFINISHED.1)?;
     if !is_drawn(drawn) {
@@ -107,18 +107,18 @@ fn unfinished_file(path: &Path) -> Option<File> {
     file.try_lock().ok().map(|()| file)
 }
 
-/// Returns whether the text may be the part of a scratch name that was drawn at random.
+/// Returns `true` if the text may be the random part of a scratch name.
 fn is_drawn(text: &str) -> bool {
     text.len() == 6 && text.chars().all(|character| character.is_ascii_alphanumeric())
 }
 
 /// The beginning of the names of players' scratch folders.
 const SCRATCH: &str = "arcade-player-";
-/// A folder that was touched since may be of a player that is just starting.
+/// The age from which a scratch folder is no longer one of a player that is just starting.
 const SETTLED: Duration = Duration::from_secs(3600);
 
-/// The scratch folders of players that are gone, in the system's temporary folder. Where processes cannot be asked for
-/// their folders, none are found.
+/// Returns the scratch folders of players that are gone, in the system's temporary folder. On systems that do not
+/// list the folders of processes, none are found.
 pub(super) fn scratch() -> Vec<Leftover> {
     let Some(used) = working_folders() else { return Vec::new() };
     let Ok(place) = fs::canonicalize(std::env::temp_dir()) else { return Vec::new() };
@@ -129,7 +129,7 @@ pub(super) fn scratch() -> Vec<Leftover> {
     paths.into_iter().map(|path| Leftover { path, kind: Kind::Scratch }).collect()
 }
 
-/// Returns whether this is a scratch folder of this user's players, untouched for an hour.
+/// Returns `true` for a scratch folder of this user's players, untouched for an hour.
 fn is_scratch(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let Ok(found) = fs::symlink_metadata(path) else { return false };
@@ -145,11 +145,11 @@ fn is_settled(touched: SystemTime) -> bool {
     now.duration_since(touched).is_ok_and(|age| age > SETTLED)
 }
 
-/// Returns whether it belongs to the user who runs this.
+/// Returns `true` if it belongs to the user who runs this.
 #[cfg(unix)]
 fn is_own(found: &fs::Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;
-    // What a process makes in /proc belongs to its user.
+    // The entries of a process in /proc belong to its user.
     fs::metadata("/proc/self").is_ok_and(|own| own.uid() == found.uid())
 }
 
@@ -158,7 +158,7 @@ fn is_own(_found: &fs::Metadata) -> bool {
     false
 }
 
-/// The folders that running processes work in; none where the system does not say.
+/// Returns the working folders of running processes; none if the system does not list them.
 fn working_folders() -> Option<Vec<PathBuf>> {
     let processes = fs::read_dir("/proc").ok()?;
     let folders: Vec<PathBuf> =

@@ -1,4 +1,4 @@
-//! `arcade clean`: removes what interrupted runs have left behind.
+//! `arcade clean`: removes files that interrupted runs left behind.
 
 mod leftover;
 
@@ -12,23 +12,24 @@ use snapshots::MANIFEST_FILE;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Removes what runs that were killed have left behind: unfinished `.partial` folders and files, and the scratch folders of
+/// Removes files that killed runs left behind: unfinished `.partial` folders and files, and the scratch folders of
 /// players.
 ///
-/// Looks through the folders and all folders in them, and through the system's temporary folder for scratch of players.
-/// Removed is only what arcade has certainly made and no running process uses; links are never followed. Interrupted mints
-/// with finished lots, which --resume goes on with, and shards, which `arcade merge` joins, are listed; a flag removes them.
+/// Searches the folders and all folders in them, and the system's temporary folder for scratch of players. It removes
+/// only files that arcade has certainly made and no running process uses; it never follows links. Interrupted mints
+/// with finished jobs, which --resume goes on with, and shards, which `arcade merge` joins, are listed; a flag
+/// removes them.
 ///
 /// Example: arcade clean releases --dry-run
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Folders to look through; this one if none are given
+    /// Folders to search; this one if none are given
     #[arg(value_name = "DIR")]
     folders: Vec<PathBuf>,
-    /// Say what would be removed, and remove nothing
+    /// Print what would be removed, and remove nothing
     #[arg(long)]
     dry_run: bool,
-    /// Also remove interrupted mints that --resume could go on with
+    /// Also remove interrupted mints that --resume could continue
     #[arg(long)]
     interrupted: bool,
     /// Also remove shards
@@ -83,7 +84,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Why a leftover is kept, with the next move; none if it is to be removed.
+/// Returns the reason why a leftover is kept, with advice; none if it is to be removed.
 fn kept(args: &Args, kind: &Kind) -> Option<&'static str> {
     match kind {
         Kind::Interrupted(_) if !args.interrupted => {
@@ -96,12 +97,12 @@ fn kept(args: &Args, kind: &Kind) -> Option<&'static str> {
     }
 }
 
-/// Adds what was left in the folder and in all folders below.
+/// Adds the leftovers in the folder and in all folders below.
 fn look_through(folder: &Path, console: &Console, found: &mut Vec<Leftover>) -> Result<(), Failure> {
     let mut waiting = vec![folder.to_path_buf()];
     while let Some(folder) = waiting.pop() {
         if fs::symlink_metadata(folder.join(MANIFEST_FILE)).is_ok() {
-            // A release is complete: nothing of ours is unfinished in it.
+            // A release is complete: there are no leftovers in it.
             continue;
         }
         let entries = match sorted_entries(&folder) {

@@ -1,12 +1,12 @@
-//! A person as a player: sees what a language model is shown, and types actions.
+//! A person as a player: sees the prompt of a language model, and types actions.
 
 use evaluation::prompt::{Past, Prompter};
 use evaluation::{Agent, Choice, Halt, Journal, Turn, Validity};
 use std::io::{BufRead, Write};
 use std::sync::Arc;
 
-/// Reads actions, a line each, from standard input. What is shown goes to standard error, so that answers of the verb can be
-/// piped on.
+/// Reads actions, a line each, from standard input. Prompts go to standard error, so that the answers of the verb can
+/// be piped.
 pub(crate) struct Human {
     prompter: Arc<Prompter>,
     past: Vec<Past>,

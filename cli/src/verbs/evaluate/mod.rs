@@ -1,4 +1,4 @@
-//! `arcade evaluate`: how well does a player do on these games?
+//! `arcade evaluate`: measures a player on games.
 
 mod human;
 mod model;
@@ -28,12 +28,14 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Has a player play a snapshot or games, and records every episode.
+/// Lets a player play a snapshot or games, and records every episode.
 ///
-/// The results folder holds settings, games and a log for each episode; `arcade report` makes tables and a page of it.
+/// The results folder holds settings, games and a log for each episode; `arcade report` makes tables and a page of
+/// it.
 ///
-/// Exit status 0: all episodes have ended. 1: a cap was met before; raise it and --resume. 2: malformed. 3: network, server
-/// or disk failed; --resume goes on. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume goes on.
+/// Exit status 0: all episodes have ended. 1: a cap was reached before; raise it and --resume. 2: malformed. 3:
+/// network, server or disk failed; --resume goes on. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume goes
+/// on.
 ///
 /// Example: arcade evaluate releases/starter --player mcts:100 --out results/mcts
 #[derive(clap::Args)]
@@ -41,48 +43,49 @@ pub(crate) struct Args {
     /// A snapshot's folder or .tar.zst; or games, folders of games, corpus games by name, `corpus` for all of them
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
-    /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (see `arcade docs planners`), `replay:FILE`,
-    /// `human`, `reflex` (see `arcade docs serve-player`); or a program of yours, `"cmd:python3 my_agent.py"` (see `arcade docs agents`)
+    /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (see
+    /// `arcade docs planners`), `replay:FILE`, `human`, `reflex` (see `arcade docs serve-player`); or a program of yours,
+    /// `"cmd:python3 my_agent.py"` (see `arcade docs agents`)
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
     player: Option<String>,
-    /// Only these of the games
+    /// Only these games
     #[arg(long, value_name = "GAME", value_delimiter = ',')]
     games: Vec<String>,
     /// Only these levels, by number
     #[arg(long, value_name = "N", value_delimiter = ',')]
     levels: Vec<usize>,
-    /// Forward-model calls of a decision, for planners whose name has none
+    /// Forward-model calls of a decision, for planners without a number of their own
     #[arg(long, value_name = "CALLS", default_value_t = 1000)]
     budget: u64,
     /// Episodes on each level
     #[arg(long, value_name = "N", default_value_t = 1)]
     runs: u64,
-    /// Decisions of an episode at most
+    /// The most decisions of an episode
     #[arg(long, value_name = "N", default_value_t = 1000)]
     max_steps: u64,
-    /// Text that the games' chance comes from: the same for every player, so that runs are paired
+    /// Text to derive the games' randomness from: the same for every player, so that runs are paired
     #[arg(long, value_name = "TEXT", default_value = "evaluate")]
     seed: String,
     /// Folder for the results, absent or empty; default: results/ and the player's name
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Go on with what is in the folder
+    /// Resume the evaluation in the folder
     #[arg(long)]
     resume: bool,
     /// Load games as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
-    /// Episodes at a time of players that are no models, at most as many as there are; all cores if not given. Changes no result
+    /// Concurrent episodes of players other than models; all cores if not given. Changes no result
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
-    /// Only say what it would take
+    /// Only print the forecast
     #[arg(long)]
     dry_run: bool,
     #[command(flatten)]
     model: ModelArgs,
 }
 
-/// Who plays, as it was asked for.
+/// The player as requested.
 enum Asked {
     Planner(PlannerSpec),
     Replay(Replay),
@@ -92,13 +95,13 @@ enum Asked {
     Model(Box<model::Asked>),
 }
 
-/// Who plays, ready for it.
+/// The player, ready to play.
 enum Ready {
     Planner(PlannerSpec, Budget),
     Replay(Replay),
     Human(Prompters),
     Prompted(PromptPlayer, Prompters),
-    /// A command line, and seconds for an answer.
+    /// A command line, and the seconds for an answer.
     Process(String, u64),
     Model(Box<model::Ready>),
 }
@@ -168,7 +171,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     told(console, &folder, &evaluation.settings.entrant, &tally, &ready)
 }
 
-/// Says what it would take, and what it could show.
+/// Prints the expected effort, and the differences that the evaluation could show.
 fn forecast(asked: &Asked, settings: &Settings, subjects: &[Subject], console: &Console) -> Answer {
     let tasks = run::tasks(settings, subjects);
     let (mut document, text) = match asked {
@@ -192,7 +195,7 @@ fn forecast(asked: &Asked, settings: &Settings, subjects: &[Subject], console: &
 }
 
 impl Asked {
-    /// Who plays, as results call it.
+    /// Returns the player as results name it.
     fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let (name, details) = match self {
             Asked::Model(model) => return model.entrant(subjects),
@@ -254,7 +257,7 @@ impl Ready {
         }
     }
 
-    /// Charges what earlier runs of the evaluation have spent.
+    /// Charges the expenses of earlier runs of the evaluation.
     fn charge_past(&self, evaluation: &Evaluation) -> Result<(), Failure> {
         if let Ready::Model(model) = self {
             for task in evaluation.tasks() {
@@ -264,7 +267,7 @@ impl Ready {
         Ok(())
     }
 
-    /// Episodes at a time: never more than there are. Those of models wait most of the time.
+    /// Returns the number of concurrent episodes, at most their number. Episodes of models wait most of the time.
     fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let asked = match self {
             Ready::Model(_) => args.model.concurrency.get(),
@@ -283,13 +286,13 @@ impl Ready {
     }
 }
 
-/// Ends the programs that play.
+/// Ends the programs of players.
 fn end_players() {
     #[cfg(unix)]
     evaluation::player::process::end_all();
 }
 
-/// Refuses flags that would change nothing: whoever gives them expects that they do.
+/// Refuses flags that would have no effect: a user who gives them expects one.
 fn refuse_idle_flags(args: &Args, asked: &Asked) -> Result<(), Failure> {
     if matches!(asked, Asked::Model(_)) {
         return match args.jobs {
@@ -346,7 +349,7 @@ fn asked(args: &Args) -> Result<Asked, Failure> {
     name.parse().map(Asked::Planner).map_err(Failure::malformed)
 }
 
-/// A program as a player.
+/// Makes a player of a program.
 fn process(command: &str, timeout: u64) -> Result<Process, String> {
     let timeout = Duration::from_secs(timeout);
     Process::new(
@@ -355,7 +358,7 @@ fn process(command: &str, timeout: u64) -> Result<Process, String> {
     )
 }
 
-/// `results/` and who plays.
+/// Returns `results/` with the player's name.
 fn default_folder(entrant: &Entrant) -> PathBuf {
     let parts: Vec<&str> = [Some(entrant.name.as_str()), entrant.mode.as_deref()]
         .into_iter()
@@ -369,7 +372,7 @@ fn file_name(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' }).collect()
 }
 
-/// What came of it.
+/// Prints the result.
 fn told(console: &Console, folder: &Path, entrant: &Entrant, tally: &Tally, ready: &Ready) -> Answer {
     let spent = match ready {
         Ready::Model(model) => {
@@ -413,7 +416,7 @@ pub(crate) fn failure(error: EvaluationError) -> Failure {
     }
 }
 
-/// Episodes that are played, and how many were won.
+/// A progress bar with the episodes played and won.
 struct Bar {
     bar: ProgressBar,
     won: AtomicU64,

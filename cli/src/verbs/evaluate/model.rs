@@ -1,4 +1,4 @@
-//! The flags of language models, and what they ask for.
+//! The flags of language models, and the settings that they select.
 
 use crate::failure::Failure;
 use crate::input::read_text;
@@ -15,19 +15,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Advice is text for a prompt.
+/// The largest text of advice for a prompt, in bytes.
 const MAX_STRATEGY: usize = 1 << 16;
-/// Tokens that dry runs take an answer to have, where nothing is said.
+/// The tokens that dry runs assume for an answer, unless a limit is given.
 const ANSWER_TOKENS: u64 = 100;
 
-/// Which model, how it is asked, and what that may cost.
+/// The model, its requests, and their cost limits.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Language models")]
 pub(crate) struct ModelArgs {
     /// A language model: `openai:ID`, `anthropic:ID`, `gemini:ID`; any name with --base-url (see `arcade docs models`)
     #[arg(long, value_name = "ID")]
     pub(crate) model: Option<String>,
-    /// Where an OpenAI-compatible server answers: vLLM, llama.cpp, Ollama, `arcade serve-player`
+    /// Base URL of an OpenAI-compatible server: vLLM, llama.cpp, Ollama, `arcade serve-player`
     #[arg(long, value_name = "URL", requires = "model")]
     base_url: Option<String>,
     /// The environment variable that holds the key, if not the provider's usual one
@@ -39,63 +39,63 @@ pub(crate) struct ModelArgs {
     /// Nucleus sampling; not sent if not given
     #[arg(long, value_name = "P", requires = "model")]
     top_p: Option<f64>,
-    /// Tokens of an answer at most, reasoning included
+    /// The most tokens of an answer, reasoning included
     #[arg(long, value_name = "N", requires = "model")]
     max_output_tokens: Option<u32>,
     /// The provider's sampling seed
     #[arg(long, value_name = "N", requires = "model")]
     sampling_seed: Option<u64>,
-    /// `low`, `medium`, `high`, or what the provider knows
+    /// `low`, `medium`, `high`, or another value of the provider
     #[arg(long, value_name = "EFFORT", requires = "model")]
     reasoning_effort: Option<String>,
-    /// How often it is asked again after an answer without a usable action
+    /// Number of repeated requests after an answer without a usable action
     #[arg(long, value_name = "N", default_value_t = 1)]
     reasks: u32,
-    /// US dollars that may be spent, by the table of prices
+    /// The most US dollars to spend, by the table of prices
     #[arg(long, value_name = "USD", requires = "model")]
     max_cost: Option<f64>,
-    /// Tokens that may be spent, of prompts and answers
+    /// The most tokens to spend, of prompts and answers
     #[arg(long, value_name = "N", requires = "model")]
     max_tokens: Option<u64>,
-    /// Requests that may be answered
+    /// The most requests to be answered
     #[arg(long, value_name = "N", requires = "model")]
     max_requests: Option<u64>,
-    /// Prices that come before the embedded ones, TOML
+    /// Prices that override the embedded ones, TOML
     #[arg(long, value_name = "FILE", requires = "model")]
     prices: Option<PathBuf>,
     /// Folder of a cache of answers, kept between evaluations
     #[arg(long, value_name = "DIR", requires = "model")]
     cache: Option<PathBuf>,
-    /// Requests, and with them episodes, at a time
+    /// Concurrent requests, and with them episodes
     #[arg(long, value_name = "N", default_value = "4")]
     pub(crate) concurrency: NonZeroUsize,
-    /// Requests that may begin in a minute
+    /// The most requests to begin in a minute
     #[arg(long, value_name = "N", requires = "model")]
     requests_per_minute: Option<NonZeroU64>,
-    /// Tokens of a minute's requests and answers
+    /// The most tokens of a minute's requests and answers
     #[arg(long, value_name = "N", requires = "model")]
     tokens_per_minute: Option<NonZeroU64>,
-    /// Tries of a request in all
+    /// The most tries of a request
     #[arg(long, value_name = "N", default_value = "8")]
     tries: NonZeroU32,
-    /// Seconds that a try, or an answer of a program, may take
+    /// The most seconds of a try, or of an answer of a program
     #[arg(long, value_name = "S", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     pub(crate) timeout: u64,
     #[command(flatten)]
     pub(crate) prompt: PromptArgs,
 }
 
-/// What is shown of the game, and how.
+/// The content and the form of prompts.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
-    /// Whether earlier turns are shown
+    /// Earlier turns in prompts: left out or shown
     #[arg(long, value_enum, default_value = "zero-shot")]
     mode: ModeName,
-    /// Whose composition prompts have
+    /// The composition of prompts
     #[arg(long, value_enum, default_value = "standard")]
     prompt_style: StyleName,
-    /// How the rules are told
+    /// The form of the rules in prompts
     #[arg(long, value_enum, default_value = "described")]
     rules: RulesName,
     /// Aids beyond the default
@@ -104,19 +104,19 @@ pub(crate) struct PromptArgs {
     /// Aids to leave out
     #[arg(long, value_enum, value_delimiter = ',', value_name = "AID")]
     without: Vec<Aid>,
-    /// Sprites go by names that tell nothing
+    /// Give sprites meaningless names
     #[arg(long)]
     masked_names: bool,
-    /// Each state of the avatar has its own character, and none is told to be the player's
+    /// Give each state of the avatar its own character, and do not reveal which one is the player's
     #[arg(long)]
     identity_tracking: bool,
-    /// The characters of the board are drawn, by this number
+    /// Shuffle the characters of the board, seeded by this number
     #[arg(long, value_name = "N")]
     shuffle_symbols: Option<u64>,
-    /// Advice that is added word by word
+    /// Advice to add verbatim
     #[arg(long, value_name = "FILE")]
     strategy: Option<PathBuf>,
-    /// Tokens of a conversation at most: older turns are left out beyond it
+    /// The most tokens of a conversation: older turns are left out beyond it
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     history_tokens: u64,
 }
@@ -140,24 +140,24 @@ enum RulesName {
     None,
 }
 
-/// A part of a prompt that can be had or left out.
+/// An optional part of a prompt.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
 enum Aid {
-    /// What the characters of the board stand for
+    /// The meaning of the characters of the board
     Legend,
-    /// What the keys do
+    /// The effects of the keys
     Meanings,
-    /// Where the avatar is and where it faces
+    /// The position of the avatar and the way it faces
     Position,
-    /// What came of the action before
+    /// The result of the previous action
     Feedback,
     /// The board, a character a cell
     Grid,
-    /// What lies around the avatar, and the nearest things
+    /// The cells around the avatar, and the nearest things
     Grounding,
-    /// All things by place
+    /// All things by position
     Coordinates,
-    /// The board once more, turned by a quarter
+    /// The board once more, rotated by a quarter turn
     Rotated,
     /// A line of JSON
     Json,
@@ -166,7 +166,7 @@ enum Aid {
 }
 
 impl PromptArgs {
-    /// The settings of prompts that are asked for.
+    /// Returns the prompt settings of the flags.
     pub(crate) fn settings(&self) -> Result<PromptSettings, Failure> {
         let strategy = self.strategy.as_deref().map(|path| read_text(path, MAX_STRATEGY)).transpose()?;
         let mut settings = PromptSettings {
@@ -222,7 +222,7 @@ impl Aid {
 }
 
 impl ModelArgs {
-    /// The first flag that was given and that only a language model has a use for.
+    /// Returns the first given flag that has an effect on language models only.
     pub(crate) fn idle_without_model(&self) -> Option<&'static str> {
         let given = [
             ("--base-url", self.base_url.is_some()),
@@ -273,10 +273,10 @@ impl ModelArgs {
     }
 }
 
-/// Who writes the prompts of each game, by its id.
+/// The prompters of the games, by game id.
 pub(crate) type Prompters = BTreeMap<String, Arc<Prompter>>;
 
-/// Those of these games.
+/// Makes the prompters of these games.
 pub(crate) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Result<Prompters, Failure> {
     let prompter = |subject: &Subject| {
         let prompter = Prompter::new(subject, settings.clone()).map_err(failure)?;
@@ -285,7 +285,7 @@ pub(crate) fn prompters(subjects: &[Subject], settings: &PromptSettings) -> Resu
     subjects.iter().map(prompter).collect()
 }
 
-/// A model that was asked for, not yet connected.
+/// A requested model, not yet connected.
 pub(crate) struct Asked {
     options: ModelOptions,
     settings: ModelSettings,
@@ -299,9 +299,9 @@ pub(crate) struct Ready {
     prompters: Prompters,
     decoding: Decoding,
     reasks: u32,
-    /// True if its price is known: without one, nobody knows what was spent.
+    /// `true` if its price is known: otherwise the cost is unknown.
     pub(crate) is_priced: bool,
-    /// What is spent.
+    /// The expenses so far, and their caps.
     pub(crate) caps: Arc<client::Caps>,
 }
 
@@ -313,18 +313,18 @@ pub(crate) struct Forecast {
     input_tokens: u64,
     cacheable_tokens: u64,
     output_tokens: u64,
-    /// US dollars; none if the price is not known.
+    /// US dollars; none if the price is unknown.
     cost: Option<f64>,
     cost_if_cached: Option<f64>,
     /// Tokens that an answer is assumed to have.
     answer_tokens: u64,
-    /// Tokens that an answer can have; none if nothing bounds it.
+    /// The most tokens that an answer can have; none if there is no limit.
     max_answer_tokens: Option<u64>,
-    /// Tokens of answers that are all as long as they can be.
+    /// Tokens if all answers are as long as possible.
     max_output_tokens: Option<u64>,
-    /// US dollars with these.
+    /// US dollars if all answers are as long as possible.
     max_cost: Option<f64>,
-    /// What of it goes beyond a cap.
+    /// The part that exceeds a cap.
     forbidden: Option<String>,
 }
 
@@ -337,7 +337,7 @@ impl Asked {
         Ok(Asked { options, settings, prompts, reasks })
     }
 
-    /// Who plays, as results call it.
+    /// Returns the player as results name it.
     pub(crate) fn entrant(&self, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let digest =
             subjects.first().map(|subject| self.prompter(subject).map(|own| own.digest())).transpose()?;
@@ -362,7 +362,7 @@ impl Asked {
         Prompter::new(subject, self.prompts.clone()).map_err(failure)
     }
 
-    /// Connects, as far as that goes without a request: a missing key is told before anything is written.
+    /// Connects without sending a request: a missing key is reported before anything is written.
     pub(crate) fn connect(&self, subjects: &[Subject]) -> Result<Ready, Failure> {
         let connection = client::connect(&self.options).map_err(failure)?;
         Ok(Ready {
@@ -375,7 +375,7 @@ impl Asked {
         })
     }
 
-    /// What these episodes take if each of them takes all its steps and no answer is asked for again.
+    /// Estimates the cost if each of these episodes takes all its steps and no request is repeated.
     pub(crate) fn forecast(&self, tasks: &[Task<'_>]) -> Result<Forecast, Failure> {
         let price = client::price(&self.options).map_err(failure)?;
         let most = self.settings.decoding.max_output_tokens.map(u64::from);
@@ -420,7 +420,7 @@ impl Asked {
     }
 }
 
-/// Tokens of earlier turns in the prompts of so many steps: `turn` more with every step, up to `room`.
+/// Returns the tokens of earlier turns in the prompts of `steps` steps: `turn` more with every step, up to `room`.
 fn history(steps: u64, turn: u64, room: u64) -> u64 {
     let Some(most) = room.checked_div(turn) else { return 0 };
     let growing = steps.min(most + 1);

@@ -1,4 +1,4 @@
-//! What is evaluated: the games of a snapshot, or games as the user names them.
+//! The subjects of an evaluation: the games of a snapshot, or games as the user names them.
 
 use crate::diagnostics;
 use crate::embedded;
@@ -13,26 +13,26 @@ use snapshots::{Integrity, MANIFEST_FILE, check_integrity};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Names of games that a message lists.
+/// The most names of games that a message lists.
 const LISTED: usize = 12;
 
-/// A card of a game with many levels has some hundred kilobytes.
+/// The largest card: one of a game with many levels has some hundred kilobytes.
 const MAX_CARD: usize = 1 << 24;
 
-/// The games, and the root digest of the snapshot if all of them are from one.
+/// The games, and the root digest of the snapshot if all of them come from one.
 pub(crate) struct Subjects {
     pub(crate) snapshot: Option<Digest>,
     pub(crate) games: Vec<Subject>,
 }
 
-/// Which part of what is named is wanted.
+/// The selected part of the named games.
 pub(crate) struct Choice<'a> {
     pub(crate) games: &'a [String],
     pub(crate) levels: &'a [usize],
     pub(crate) as_reference: bool,
 }
 
-/// Reads what the user names: a snapshot's folder, or games.
+/// Reads the named subjects: a snapshot's folder, or games.
 pub(crate) fn read(names: &[String], choice: &Choice<'_>) -> Result<Subjects, Failure> {
     let (mut snapshot, mut games): (_, Vec<Subject>) = (None, Vec::new());
     for name in names {
@@ -88,7 +88,7 @@ fn of_input(input: &GameInput, choice: &Choice<'_>) -> Result<Option<Subject>, F
     })
 }
 
-/// Suggestions for a name that no game has: a similar id or title, one that it is a part of, or else what there is.
+/// Returns suggestions for an unknown game: a similar id or title, one that contains the name, or else a list of all.
 fn help_with(unknown: &str, games: &[Subject]) -> String {
     let names =
         || games.iter().flat_map(|game| [(game.id.as_str(), game), (game.facts.title.as_str(), game)]);
@@ -105,7 +105,7 @@ fn help_with(unknown: &str, games: &[Subject]) -> String {
     format!("there are {}{more}", listed.join(", "))
 }
 
-/// Returns whether there is a release: a folder with a manifest, or an archive.
+/// Returns `true` if there is a release: a folder with a manifest, or an archive.
 fn is_snapshot(place: &Path) -> bool {
     let is_file = place.metadata().is_ok_and(|found| found.is_file());
     let is_called_archive = place.to_string_lossy().ends_with(".tar.zst");
@@ -122,7 +122,7 @@ enum Files<'a> {
 }
 
 impl<'a> Files<'a> {
-    /// Opens the release at `place`, with what is wrong with it.
+    /// Opens the release at `place`, and returns its problems too.
     fn open(place: &'a Path) -> Result<(Integrity, Files<'a>), Failure> {
         if place.is_dir() {
             return Ok((check_integrity(place).map_err(verify::failure)?, Files::Folder(place)));
@@ -131,7 +131,7 @@ impl<'a> Files<'a> {
         Ok((archive.integrity.clone(), Files::Archive(Box::new(archive))))
     }
 
-    /// A text of the release, of at most `limit` bytes.
+    /// Reads a text of the release, of at most `limit` bytes.
     fn text(&self, path: &str, limit: usize) -> Result<String, Failure> {
         let archive = match self {
             Files::Folder(root) => return read_text(&root.join(path), limit),
@@ -191,7 +191,7 @@ impl Choice<'_> {
     }
 }
 
-/// A name of a folder or file as the name of a folder of ours: the last part that says something.
+/// Returns the last meaningful part of the name of a folder or file, as the name of a folder.
 fn slug(title: &str) -> String {
     let path = Path::new(title);
     let parts = path.iter().rev().filter_map(|part| part.to_str());

@@ -22,36 +22,38 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use validators::{Criteria, GameForm, Panel};
 
-/// Writes new games: rules, a fiction, and levels from easy to hard. The same flags give the same bytes, on any number of
-/// threads.
+/// Makes new games: rules, a theme, and levels from easy to hard. The same flags give the same bytes, on any number
+/// of threads.
 ///
-/// Each game comes with an episode that wins each of its levels, and has shown that neither idle nor random players win, that
-/// skill pays, that every rule is used and matters, and that it is near to no corpus game and no other of the set. The folder
-/// holds a folder for each, as a release does: game.vgdl, lvl0.txt and so on, card.json, witness/; `arcade play DIR/GAME` and
-/// `arcade run DIR` take it as it is. It is complete or absent.
+/// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random
+/// players win, that skill pays, that every rule is used and matters, and that the game is not near to any corpus
+/// game or any other of the set. The folder holds a folder for each game, as a release does: game.vgdl, lvl0.txt and
+/// so on, card.json, witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or
+/// absent.
 ///
-/// Exit status 0: all games that were asked for. 1: fewer, or none. 2: a flag is malformed.
+/// Exit status 0: all requested games. 1: fewer, or none. 2: a flag is malformed.
 ///
 /// Example: arcade generate games --method search --count 5 --seed autumn --out new-games
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// constructive: patterns that go together; search: each game improved step by step; evolutionary: an archive of games that
-    /// differ
+    /// constructive: combined patterns; search: each game improved step by step; evolutionary: an archive of
+    /// different games
     #[arg(long, value_name = "METHOD", default_value = "constructive")]
     method: Method,
-    /// Games
+    /// Number of games
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     count: u32,
-    /// Text that the seeds come from
+    /// Text to derive the seeds from
     #[arg(long, value_name = "TEXT", default_value = "games")]
     seed: String,
-    /// Games of this kind only, such as shooter or rescue. May be given again
+    /// Only games of this kind, such as shooter or rescue. May be given again
     #[arg(long, value_name = "KIND", value_parser = kind)]
     kind: Vec<Kind>,
-    /// Levels of each game
+    /// Number of levels of each game
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=20))]
     levels: u32,
-    /// Write a report on the games here, judged afresh: report.html, report.json, sheet.png. The folder must be absent or empty
+    /// Write a report on the games here, judged again: report.html, report.json, sheet.png. The folder must be absent
+    /// or empty
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     /// Threads; all cores if not given. Changes no byte
@@ -75,7 +77,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let order = order(args);
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
-    // Before minutes of work: is there a place to write to?
+    // Check the place to write to before minutes of work.
     let draft = protected::draft(&args.out)?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
     let bar = Bar(console.progress(u64::from(args.count), "games"));
@@ -117,7 +119,7 @@ fn order(args: &Args) -> GameOrder {
     }
 }
 
-/// The corpus games, which new games have to differ from.
+/// Returns the corpus games, which new games have to differ from.
 fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     let compile = |game: &snapshots::CorpusGame| {
         let compiled = Game::from_source(&game.source);
@@ -128,7 +130,8 @@ fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     embedded::corpus()?.games.iter().map(compile).collect()
 }
 
-/// Judges the games afresh, with other dice and twice as many plays as a release asks for, and writes the report on them.
+/// Judges the games again, with other seeds and twice as many plays as a release requires, and writes the report on
+/// them.
 fn report(
     args: &Args,
     draft: Draft,
@@ -186,7 +189,7 @@ impl Progress for Bar {
     }
 }
 
-/// A game, its card, its levels and the episodes that win them.
+/// Writes a game, its card, its levels and the episodes that win them.
 fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     let folder = &made.card.id;
     draft.write(&format!("{folder}/game.vgdl"), made.text.as_bytes()).map_err(failure)?;
@@ -201,7 +204,7 @@ fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is told of the games: the same bytes for the same flags.
+/// Returns the answer for programs: the same bytes for the same flags.
 fn document(args: &Args, set: &GameSet) -> serde_json::Value {
     let cards: Vec<&Card> = set.games.iter().map(|game| &game.card).collect();
     json!({
@@ -216,7 +219,7 @@ fn document(args: &Args, set: &GameSet) -> serde_json::Value {
     })
 }
 
-/// The games, for a person.
+/// Returns the answer for people.
 fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     let mut text = String::new();
     let width = set.games.iter().map(|game| game.card.title.chars().count()).max().unwrap_or(0);

@@ -25,12 +25,12 @@ use validators::{Difficulty, RuleRef};
 
 /// Makes new levels for a game. The same flags give the same bytes, on any number of threads.
 ///
-/// `search` and `evolutionary` levels come with an episode that wins, and are won neither by doing nothing nor, more than now
-/// and then, by random keys. `constructive` ones are instant and judged by nobody, unless something is asked that has to be
-/// measured: a difficulty, a length, a rule. The folder holds the game, its new levels, and levels.json on each of them:
-/// `arcade validate DIR` and `arcade play DIR` take it as it is. It is complete or absent.
+/// `search` and `evolutionary` levels come with an episode that wins, and are won neither by doing nothing nor, more
+/// than rarely, by random keys. `constructive` levels are instant and not judged, unless a property is requested that
+/// has to be measured: a difficulty, a length, a rule. The folder holds the game, its new levels, and levels.json on
+/// each of them: `arcade validate DIR` and `arcade play DIR` accept it directly. It is complete or absent.
 ///
-/// Exit status 0: all levels that were asked for. 1: fewer, or none. 2: the game or a flag is malformed.
+/// Exit status 0: all requested levels. 1: fewer, or none. 2: the game or a flag is malformed.
 ///
 /// Example: arcade generate levels --game hailglass --method search --count 5 --difficulty hard --out new-levels
 #[derive(clap::Args)]
@@ -38,32 +38,33 @@ pub(crate) struct Args {
     /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
     #[arg(long, value_name = "GAME")]
     game: String,
-    /// constructive: instant; search: each level by itself, improved step by step; evolutionary: an archive of levels that differ
+    /// constructive: instant; search: each level improved step by step; evolutionary: an archive of different levels
     #[arg(long, value_name = "METHOD", default_value = "search")]
     method: Method,
-    /// Levels
+    /// Number of levels
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     count: u32,
-    /// Text that the seeds come from
+    /// Text to derive the seeds from
     #[arg(long, value_name = "TEXT", default_value = "levels")]
     seed: String,
-    /// How hard, as a ladder of players finds: very_easy, easy, medium, hard, very_hard
+    /// Difficulty, as measured by a ladder of players: very_easy, easy, medium, hard, very_hard
     #[arg(long, value_name = "LABEL")]
     difficulty: Option<Difficulty>,
-    /// Columns and rows, the border included: 12x9. If left out, sizes like those of the game's own levels
+    /// Columns and rows, the border included: 12x9. By default sizes like those of the game's own levels
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(usize, usize)>,
-    /// Ticks that the shortest win found takes at least
+    /// The least ticks of the shortest win found
     #[arg(long, value_name = "TICKS")]
     min_solution: Option<usize>,
-    /// A rule that the win has to use: its two sprites (`box hole`), with the effect if need be, or its line in the
+    /// A rule that the win has to use: its two sprites (`box hole`), with the effect if necessary, or its line in the
     /// InteractionSet, from 1. May be given again
     #[arg(long, value_name = "RULE")]
     uses: Vec<String>,
-    /// Exactly so many sprites of a type: `box=3`. May be given again
+    /// Exact number of sprites of a type: `box=3`. May be given again
     #[arg(long, value_name = "TYPE=N", value_parser = count)]
     with: Vec<(String, usize)>,
-    /// Write a report on the levels here, judged afresh: report.html, report.json, sheet.png. The folder must be absent or empty
+    /// Write a report on the levels here, judged again: report.html, report.json, sheet.png. The folder must be
+    /// absent or empty
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     /// Threads; all cores if not given. Changes no byte
@@ -97,7 +98,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let game = input.compile(args.as_reference)?;
     let examples = examples(&input, &game)?;
     let order = order(args, &examples, &game)?;
-    // Before minutes of work: is there a place to write to?
+    // Check the place to write to before minutes of work.
     let draft = protected::draft(&args.out)?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
     let bar = Bar(console.progress(u64::from(args.count), "levels"));
@@ -134,12 +135,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(set.levels.len() == args.count as usize)
 }
 
-/// The answer for programs where not one level was made.
+/// Returns the answer for programs if no level was made.
 fn none(error: &LevelsError) -> serde_json::Value {
     json!({ "levels": [], "reason": error.to_string() })
 }
 
-/// The levels that the game comes with.
+/// Returns the levels that the game comes with.
 fn examples(input: &GameInput, game: &Game) -> Result<Vec<Level>, Failure> {
     let check = |named: Named| {
         let level = game.level(&named.text);
@@ -177,10 +178,10 @@ fn stype(game: &Game, name: &str) -> Result<SpriteType, Failure> {
     })
 }
 
-/// Levels without a difficulty asked for, to compare control with.
+/// Levels made without a requested difficulty, to compare with.
 const POOL: u32 = 60;
 
-/// Judges the levels afresh and writes the report on them.
+/// Judges the levels again and writes the report on them.
 fn report(
     args: &Args,
     draft: Draft,
@@ -203,7 +204,7 @@ fn report(
         None => Vec::new(),
     };
     let pool = survey.judge(&plain(&pool));
-    // What random keys win can bear no label here: only levels that meet the criteria can be picked.
+    // Levels that random keys win get no label here: only levels that meet the criteria can be chosen.
     let fit = pool.iter().filter(|judged| judged.report.passes());
     let pool: Vec<Difficulty> = fit.filter_map(|judged| judged.label()).collect();
     let report = LevelSetReport::of(&Sample {
@@ -236,7 +237,7 @@ impl Progress for Bar {
     }
 }
 
-/// The game, its levels and the episodes that win them.
+/// Writes the game, its levels and the episodes that win them.
 fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure> {
     draft.write("game.vgdl", input.source.text.as_bytes()).map_err(failure)?;
     for (number, made) in set.levels.iter().enumerate() {
@@ -250,7 +251,7 @@ fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure
     Ok(())
 }
 
-/// What is told of the levels: the same bytes for the same flags.
+/// Returns the answer for programs: the same bytes for the same flags.
 fn document(args: &Args, game: &Game, set: &LevelSet) -> serde_json::Value {
     let levels: Vec<serde_json::Value> = set.levels.iter().enumerate().map(level).collect();
     json!({
@@ -289,7 +290,7 @@ fn level((number, made): (usize, &MadeLevel)) -> serde_json::Value {
     })
 }
 
-/// The levels, for a person.
+/// Returns the answer for people.
 fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
     let mut text = String::new();
     for (number, made) in set.levels.iter().enumerate() {

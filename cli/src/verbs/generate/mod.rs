@@ -29,7 +29,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
 }
 
-/// JSON for people and programs.
+/// Returns formatted JSON, for people and programs.
 fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
     let mut text = serde_json::to_vec_pretty(value)
         .map_err(|error| Failure::environment(error, "what was found cannot be written as JSON"))?;

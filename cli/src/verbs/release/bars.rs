@@ -5,7 +5,7 @@ use indicatif::ProgressBar;
 use snapshots::mint::{FrozenGame, Progress};
 use std::sync::Mutex;
 
-/// Told of the lots.
+/// Receives the progress of the jobs.
 pub(crate) struct Bars<'a> {
     bar: ProgressBar,
     console: &'a Console,
@@ -13,7 +13,7 @@ pub(crate) struct Bars<'a> {
     said: Mutex<Said>,
 }
 
-/// What was said where there is no bar.
+/// The progress last reported where there is no bar.
 #[derive(Default)]
 struct Said {
     lots: u64,
@@ -37,7 +37,7 @@ impl Progress for Bars<'_> {
     fn begin(&self, lots: usize, made: usize) {
         self.bar.set_length(lots as u64);
         self.bar.set_position(made as u64);
-        // What was made before says nothing about how long the rest takes.
+        // Jobs finished earlier say nothing about the time of the rest.
         self.bar.reset_eta();
         if let Ok(mut said) = self.said.lock() {
             *said = Said { lots: lots as u64, found: made as u64, ..Said::default() };
@@ -56,7 +56,7 @@ impl Progress for Bars<'_> {
         said.made += 1;
         let open = said.lots - said.found;
         let tenths = 10 * said.made / open.max(1);
-        // Few lots are soon done.
+        // A few jobs are soon done.
         if self.bar.is_hidden() && open >= 20 && tenths > said.tenths {
             said.tenths = tenths;
             let left = self.started.seconds() / said.made as f64 * (open - said.made) as f64;

@@ -28,8 +28,8 @@ use summary::summary;
 
 /// Mints a snapshot of new, verified games and levels from a recipe: the same bytes from the same recipe, always.
 ///
-/// The folder is complete or absent: until everything is minted, nothing is there but `<out>.partial`, from which an
-/// interrupted mint goes on with --resume. With --shard, only a slice is made, for `arcade merge`.
+/// The folder is complete or absent: until everything is minted, there is only `<out>.partial`, from which an
+/// interrupted mint resumes with --resume. With --shard, only a slice is made, for `arcade merge`.
 ///
 /// Example: arcade release starter --out my-benchmark
 #[derive(clap::Args)]
@@ -43,25 +43,25 @@ pub(crate) struct Args {
     /// Threads; all cores if not given. Changes no byte
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
-    /// Make the K-th of N slices only
+    /// Make only the K-th of N slices
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
-    /// Go on where an interrupted mint stopped
+    /// Resume an interrupted mint
     #[arg(long)]
     resume: bool,
-    /// Say what would be minted, and what it would cost; mint nothing. With --resume, what is left to be minted
+    /// Print what would be minted and its cost, but mint nothing. With --resume, the part that is left
     #[arg(long)]
     dry_run: bool,
-    /// The folder of the release before: nothing that it, or one before it, holds is minted again
+    /// The folder of the previous release: nothing that it, or one before it, holds is minted again
     #[arg(long, value_name = "DIR")]
     parent: Option<PathBuf>,
-    /// The secret of a sealed release, as --commit made it
+    /// The secret of a sealed release, as made by --commit
     #[arg(long, value_name = "FILE")]
     secret: Option<PathBuf>,
-    /// Draw a secret for this recipe, write it to the file --out, and say what to commit to
+    /// Draw a secret for this recipe, write it to the file --out, and print the commitment
     #[arg(long, conflicts_with_all = ["shard", "resume", "dry_run", "secret", "reveal"])]
     commit: bool,
-    /// Join a sealed release with the part that was held back, this folder, if both are what was committed to
+    /// Join a sealed release with its held-back part, this folder, if both match their commitments
     #[arg(long, value_name = "DIR", conflicts_with_all = ["shard", "resume", "dry_run", "secret", "parent"])]
     reveal: Option<PathBuf>,
 }
@@ -71,7 +71,7 @@ impl Args {
         self.recipe.as_deref().unwrap_or(Path::new("starter"))
     }
 
-    /// The command that goes on with this mint after it was interrupted.
+    /// Returns the command that resumes this mint after an interruption.
     fn resumed(&self, out: &Path) -> String {
         let mut command = vec!["release".into(), self.recipe().as_os_str().to_owned()];
         let shard = self.shard.map(|shard| PathBuf::from(shard.to_string()));
@@ -89,7 +89,7 @@ impl Args {
     }
 }
 
-/// Seconds of one core from which a mint is worth saying how to go on with it.
+/// Seconds of one core from which a mint prints how to resume it.
 const LONG: f64 = 30.0;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -134,7 +134,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.dry_run {
         return outline::outline(&plan, &lots, &recipe, &out, args.resume, console);
     }
-    // Before minutes of minting: is there a place to write to?
+    // Check the place to write to before minutes of minting.
     let mut draft = if args.resume { Draft::resume(&out) } else { Draft::create(&out) }.map_err(failure)?;
     match (plan.is_sealed(), args.shard) {
         (true, Some(_)) => draft.keep_secret().map_err(failure)?,
@@ -143,7 +143,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let minted = mint(args, &plan, &lots, secret.as_ref(), draft, &out, console);
     minted.map_err(|failure| match failure {
-        // What is made is there.
+        // The finished jobs are kept.
         Failure::Environment(_) => Failure::Environment(anyhow::anyhow!(
             "{failure}\nwhat is minted so far is kept; when that is repaired, go on with: {}",
             args.resumed(&out)
@@ -152,7 +152,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     })
 }
 
-/// Checks whether `out` is what this plan, or this shard of it, comes to: nothing is left to be done then.
+/// Returns `true` if `out` already holds the result of this plan, or of this shard of it.
 fn complete(plan: &Plan<'_>, recipe: &Recipe, shard: Option<Shard>, out: &Path) -> Result<bool, Failure> {
     if let Some(shard) = shard {
         return shard.is_whole(plan, out).map_err(failure);
@@ -169,7 +169,7 @@ fn complete(plan: &Plan<'_>, recipe: &Recipe, shard: Option<Shard>, out: &Path) 
         && (minted_by.generation, minted_by.semantics) == (CURRENT.generation, CURRENT.semantics))
 }
 
-/// Makes the lots, and of them the shard or the release.
+/// Runs the jobs, and makes the shard or the release of them.
 fn mint(
     args: &Args,
     plan: &Plan<'_>,
@@ -214,7 +214,7 @@ fn mint(
     finished.publish(draft, Some(started.seconds()), args.jobs, console)
 }
 
-/// A release all of whose lots are made.
+/// A release whose jobs are all finished.
 pub(crate) struct Finished<'a> {
     pub(crate) plan: &'a Plan<'a>,
     pub(crate) secret: Option<&'a Secret>,
@@ -223,7 +223,7 @@ pub(crate) struct Finished<'a> {
 }
 
 impl Finished<'_> {
-    /// Lays the release out, publishes it and tells of it.
+    /// Lays the release out, publishes it and reports it.
     pub(crate) fn publish(
         &self,
         draft: Draft,
@@ -258,7 +258,7 @@ impl Finished<'_> {
     }
 }
 
-/// Lets a recipe follow the release in a folder.
+/// Makes a recipe the successor of the release in a folder.
 fn follow_parent(recipe: &mut Recipe, parent: &Path) -> Result<(), Failure> {
     follow(recipe, parent).map_err(|error| match error {
         snapshots::AncestryError::Snapshot(error) => failure(error),
@@ -266,12 +266,12 @@ fn follow_parent(recipe: &mut Recipe, parent: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Returns whether a recipe is a file, not the name of one that the binary carries.
+/// Returns `true` if a recipe is a file, not the name of one that the binary carries.
 fn is_file(recipe: &Path) -> bool {
     recipe.extension().is_some_and(|extension| extension == "toml")
 }
 
-/// The recipe that the user names, read by `read`.
+/// Finds the recipe that the user names, read by `read`.
 fn find_recipe(path: &Path, read: impl Fn(&str) -> Result<Recipe, RecipeError>) -> Result<Recipe, Failure> {
     let name = path.to_string_lossy();
     let (shown, text) = if is_file(path) {

@@ -1,4 +1,4 @@
-//! `arcade release --dry-run`: what would be minted, and what it would cost.
+//! `arcade release --dry-run`: the contents and the cost of a mint.
 
 use super::mint_failure;
 use crate::console::Console;
@@ -10,7 +10,7 @@ use snapshots::mint::{Lot, LotFolder, MintError, Plan};
 use snapshots::{Draft, Recipe, SnapshotError, check_vacant};
 use std::path::Path;
 
-/// Tells what would be minted, or, with `resume`, what is left to be.
+/// Prints the contents of a mint, or, with `resume`, the rest of it.
 pub(super) fn outline(
     plan: &Plan<'_>,
     lots: &[Lot],
@@ -87,28 +87,28 @@ pub(super) fn outline(
     Ok(true)
 }
 
-/// The lots that an interrupted mint has made.
+/// Returns, for each job, `true` if an interrupted mint has finished it.
 fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crate::failure::Failure> {
     let Some(folder) = Draft::lots_of(out) else { return Ok(vec![false; names.len()]) };
     let digest = plan.digest().map_err(failure)?;
     match LotFolder::there(&folder, digest, names) {
-        // A mint into this place would say so; a plan is no mint.
+        // A mint into this place would fail; a plan is not a mint.
         Err(SnapshotError::OtherPlan { .. }) => Ok(vec![false; names.len()]),
         there => there.map_err(|error| mint_failure(MintError::Snapshot(error))),
     }
 }
 
-/// The share by which a mint is cheaper or dearer than the estimate, at most, on a machine like the one that was measured.
+/// The greatest deviation from the estimate, as a share, on a machine like the one that was measured.
 const SPREAD: f64 = 0.25;
 
-/// The least and the most that is to be expected.
+/// Returns the least and the greatest seconds to expect.
 fn spread(seconds: f64) -> (f64, f64) {
-    // A sum of nothing may be -0.
+    // An empty sum may be -0.
     let seconds = seconds.abs();
     (seconds * (1.0 - SPREAD), seconds * (1.0 + SPREAD))
 }
 
-/// A range of seconds in the unit that people use.
+/// Formats a range of seconds in a suitable unit.
 fn words((least, most): (f64, f64)) -> String {
     match most {
         _ if most < 120.0 => format!("{least:.0} to {most:.0} seconds"),
@@ -117,7 +117,7 @@ fn words((least, most): (f64, f64)) -> String {
     }
 }
 
-/// Tells what is known of a sealed release without its secret.
+/// Prints the public facts of a sealed release, without its secret.
 pub(super) fn without_secret(recipe: &Recipe, console: &Console) -> Answer {
     console.document(&json!({ "recipe": recipe }))?;
     let games = recipe.generated.games + recipe.corpus.games;

@@ -14,7 +14,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Draws a secret for a recipe and writes it to a file that only its owner reads.
+/// Draws a secret for a recipe and writes it to a file that only its owner can read.
 pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, console: &Console) -> Answer {
     let mut recipe = find_recipe(file, Recipe::to_commit)?;
     if let Some(parent) = parent {
@@ -48,7 +48,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     console.document(&json!({
         "name": name, "commitment": commitment, "recipe": recipe.committed(), "secret": shown,
     }))?;
-    // What the binary carries cannot be changed: it is copied to a file first.
+    // A recipe of the binary cannot be changed: it is copied to a file first.
     let copy = (!is_file(file)).then(|| PathBuf::from(format!("{}.toml", file.display())));
     if let Some(copy) = &copy {
         let show = shell::command([OsStr::new("recipes"), OsStr::new("show"), file.as_os_str()]);
@@ -70,12 +70,12 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     Ok(true)
 }
 
-/// Writes the new file at `place`; if not all of it can be written, no file is left that would be in the way.
+/// Writes the new file at `place`; if it cannot be written completely, it is removed, so that it is not in the way.
 fn fill(mut file: File, place: &Path, bytes: &[u8]) -> std::io::Result<()> {
     file.write_all(bytes).and_then(|()| file.sync_all()).inspect_err(|_| drop(fs::remove_file(place)))
 }
 
-/// Chance from the operating system.
+/// Returns random bytes of the operating system.
 fn entropy() -> std::io::Result<[u8; 64]> {
     let mut chance = [0; 64];
     File::open("/dev/urandom")?.read_exact(&mut chance)?;
@@ -87,7 +87,8 @@ pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
     read_secret(file).map_err(failure)
 }
 
-/// Reads a recipe to be minted. One without seed or commitment, where a secret is given, is told the commitment of that secret.
+/// Reads a recipe to be minted. If it has neither seed nor commitment and a secret is given, it gets the commitment
+/// of that secret.
 pub(super) fn recipe(text: &str, secret: Option<&Secret>) -> Result<Recipe, RecipeError> {
     Recipe::from_toml(text).map_err(|error| match (error, secret) {
         (RecipeError::Value { key: "seed", .. }, Some(secret)) => RecipeError::Value {
@@ -114,7 +115,7 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
             "--reveal needs --out, a folder for the whole release: {usage}"
         )));
     };
-    // Both parts lie in one folder, so that this is named in their place.
+    // If both parts lie in one folder, the error names the folder.
     for (folder, part, file) in [(public, "public", MANIFEST_FILE), (held, "held", "secret.json")] {
         if paths::look(&folder.join(file))?.is_some() {
             continue;
@@ -163,7 +164,7 @@ pub(super) fn reveal(public: Option<&Path>, held: &Path, out: Option<&Path>, con
 mod tests {
     use super::*;
 
-    /// An empty secret would have to be removed by hand, because none is ever overwritten.
+    /// An empty secret would have to be removed by hand, because a secret is never overwritten.
     #[test]
     fn what_cannot_be_written_is_not_left() {
         let home = tempfile::tempdir().expect("temporary folder");

@@ -8,7 +8,7 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::Path;
 
-/// The minted release in words.
+/// Returns the minted release in words.
 pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> String {
     let Minted { manifest, cards, card } = minted;
     let tally = &card.tally;
@@ -75,7 +75,7 @@ pub(super) fn summary(minted: &Minted, out: &Path, seconds: Option<f64>) -> Stri
     text
 }
 
-/// One new level, as text: something to look at.
+/// Returns one new level as text, as an illustration.
 fn showpiece(minted: &Minted, out: &Path) -> Option<String> {
     let new = |card: &&Card| matches!(card.origin, Origin::Generated { .. });
     let card = minted.cards.iter().find(new).or_else(|| minted.cards.first())?;

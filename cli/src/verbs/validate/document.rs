@@ -15,12 +15,12 @@ pub(super) struct Document<'a> {
     pub(super) criteria: Option<&'a Criteria>,
     pub(super) problems: Vec<Placed>,
     pub(super) levels: Vec<LevelDocument<'a>>,
-    /// Of the game over all its levels.
+    /// Judgements on the game over all its levels.
     pub(super) judgements: &'a [Judgement],
 }
 
 impl Document<'_> {
-    /// The answer for a game that does not compile, with what is certain of its levels.
+    /// Returns the answer for a game that does not compile, with the certain problems of its levels.
     pub(super) fn of_malformed(
         source: &Named,
         problems: &[Diagnostic],
@@ -45,9 +45,9 @@ pub(super) struct LevelDocument<'a> {
     pub(super) digest: Option<Digest>,
     pub(super) passes: bool,
     pub(super) problems: Vec<Placed>,
-    /// The level's characters, from the top.
+    /// The level's characters, from top to bottom.
     pub(super) board: Vec<String>,
-    /// Terminations that win and can never hold in the level, whatever is played, with the cause.
+    /// Winning terminations that can never hold in the level, with the cause.
     pub(super) out_of_reach: Vec<String>,
     #[serde(flatten)]
     pub(super) report: Option<&'a Report>,
@@ -55,7 +55,7 @@ pub(super) struct LevelDocument<'a> {
 }
 
 impl LevelDocument<'_> {
-    /// The problems of a level that are certain although its game does not compile.
+    /// Returns the problems of a level that are certain although its game does not compile.
     pub(super) fn of_malformed_game(level: &Named, problems: &[Diagnostic]) -> LevelDocument<'static> {
         LevelDocument {
             level: level.name.clone(),
@@ -70,7 +70,7 @@ impl LevelDocument<'_> {
     }
 }
 
-/// Fills in the line numbers of the rules that evidence is about.
+/// Fills in the line numbers of the rules in evidence.
 pub(super) fn locate(finding: &mut Finding, source: &Named) {
     for rule in finding.evidence.iter_mut().filter_map(|seen| seen.rule.as_mut()) {
         rule.line = Some(line_and_column(&source.text, rule.span.start).0);

@@ -1,4 +1,4 @@
-//! `arcade validate`: is this game or level well-formed, winnable, fair and worth playing?
+//! `arcade validate`: judges whether a game or level is well-formed, winnable, fair and worth playing.
 
 mod document;
 mod text;
@@ -15,12 +15,12 @@ use validators::{Criteria, Panel, Report};
 
 /// Judges a game and its levels: all problems of all files first, then each criterion of a release.
 ///
-/// The verdict comes first, a line for each level and one for the game; then the reasons, each with what was seen and what
-/// to try. Whether every rule is used is asked of the game over all its levels, if no level is left out. See
-/// `arcade docs validate` for what each criterion asks.
+/// The verdict comes first, a line for each level and one for the game; then the reasons, each with the observations
+/// and advice. The use of every rule is checked for the game over all its levels, if no level is left out. See
+/// `arcade docs validate` for the criteria.
 ///
-/// Exit status 0: every level and the game meet every criterion. 1: one does not, or could not be shown to. 2: a file is
-/// malformed.
+/// Exit status 0: every level and the game meet every criterion. 1: one does not, or could not be shown to. 2: a file
+/// is malformed.
 ///
 /// Example: arcade validate my-game/ --witness win.json
 #[derive(clap::Args)]
@@ -28,13 +28,13 @@ pub(crate) struct Args {
     /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
-    /// Level files, or numbers of the game's own levels; all of those if none is named
+    /// Level files, or numbers of the game's own levels; by default all of those
     #[arg(value_name = "LEVEL")]
     levels: Vec<String>,
-    /// Forward-model calls to find a win, for each level; all else that is asked takes some eight times as many at most
+    /// Forward-model calls to find a win, for each level; all other criteria take at most about eight times as many
     #[arg(long, value_name = "CALLS", default_value_t = Criteria::default().budget, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     budget: u64,
-    /// Text that the judges' seed comes from
+    /// Text to derive the validators' seed from
     #[arg(long, value_name = "TEXT", default_value = "validate")]
     seed: String,
     /// Load the game as the reference engine does: overlook faults that it overlooks
@@ -45,7 +45,7 @@ pub(crate) struct Args {
     witness: Option<PathBuf>,
 }
 
-/// A level, and what was found of it: problems of its text, or judgements.
+/// A level, and its findings: problems of its text, or judgements.
 struct Judged<'a> {
     named: &'a Named,
     level: Result<Level, Diagnostics>,
@@ -53,7 +53,7 @@ struct Judged<'a> {
 }
 
 impl<'a> Judged<'a> {
-    /// Judges a level. The seed is the level's own, so that it gets the same answer alone and among others.
+    /// Judges a level. The seed depends on the level, so that it gets the same answer alone and among others.
     fn of(game: &Game, named: &'a Named, panel: &Panel, seed: Seed) -> Judged<'a> {
         let level = game.level(&named.text);
         let judge = |level: &Level| panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         .collect();
     let sound: Vec<Level> = judged.iter().filter_map(|judged| judged.level.clone().ok()).collect();
     let reports: Vec<Report> = judged.iter().filter_map(|judged| judged.report.clone()).collect();
-    // What concerns the game over all its levels cannot be asked of some of them.
+    // Criteria of the game over all its levels need all of them.
     let all = sound.len() == judged.len() && judged.len() >= input.count();
     let mut of_game = if all { panel.judge_together(&game, &sound, &reports, seed) } else { Vec::new() };
     bar.finish_and_clear();
@@ -151,7 +151,7 @@ fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {
     }
 }
 
-/// The problems of a game that does not compile, and those of its levels that are certain all the same.
+/// Returns the problems of a game that does not compile, and the certain problems of its levels.
 fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diagnostic]) -> Failure {
     let mut told = vec![diagnostics::in_words(&input.source, problems)];
     let mapping = Some(&input.source.text).filter(|_| !args.as_reference);

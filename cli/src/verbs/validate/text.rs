@@ -5,16 +5,16 @@ use crate::input::Named;
 use std::fmt::Write;
 use validators::{Board, Difficulty, Evidence, Fared, Judgement, Ladder, Rate, Report, Verdict};
 
-/// Widest board that is shown.
+/// The widest board to show.
 const WIDEST: usize = 100;
-/// Boards of a level that are shown at most.
+/// The most boards of a level to show.
 const MOST_BOARDS: usize = 2;
-/// Pieces of evidence of one criterion that are shown at most.
+/// The most pieces of evidence of one criterion to show.
 const MOST_SEEN: usize = 6;
-/// Links of a chain of causes that are shown at most.
+/// The most links of a chain of causes to show.
 const MOST_LINKS: usize = 16;
 
-/// The whole answer.
+/// Returns the whole answer.
 pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
     let mut text = String::new();
     let names = document.levels.iter().map(|level| level.level.len());
@@ -54,7 +54,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named) -> String {
     text
 }
 
-/// The verdict on a level, in one line.
+/// Returns the verdict on a level, in one line.
 fn headline(level: &LevelDocument<'_>) -> String {
     let Some(report) = level.report else { return "is no level of this game".to_owned() };
     if let Some(judgement) = report.first_obstacle() {
@@ -69,7 +69,7 @@ fn headline(level: &LevelDocument<'_>) -> String {
     format!("passes{won}{hard}")
 }
 
-/// What keeps something from passing, in one line.
+/// Returns the reason why a criterion is not passed, in one line.
 fn obstacle(Judgement { criterion, finding }: &Judgement) -> String {
     match &finding.verdict {
         Verdict::Fail { reason, .. } => format!("FAILS {criterion}: {}", reason.0),
@@ -90,7 +90,7 @@ fn reasons(text: &mut String, report: &Report, level: &LevelDocument<'_>, source
     }
 }
 
-/// One criterion: the answer, and what was seen.
+/// Writes one criterion: the answer and the evidence.
 fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &mut usize) {
     let Judgement { criterion, finding } = judgement;
     let mark = match &finding.verdict {
@@ -109,16 +109,16 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     };
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
-    // The reason has said what the first one says.
+    // The reason repeats the first evidence.
     let told = |seen: &&Evidence| {
         seen.rule.is_some() || *criterion == "winnable" || !words.contains(seen.text.as_str())
     };
-    // A ladder says in a table what its evidence says in words.
+    // The table of a ladder says the same as its evidence.
     let told = |seen: &&Evidence| told(seen) && mark != "-" && !(finding.ladder.is_some() && mark == "pass");
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(told).collect();
     let most = if *criterion == "winnable" { MOST_LINKS } else { MOST_SEEN };
     for seen in shown.iter().take(most) {
-        // A chain of causes is told link by link, each with its place.
+        // A chain of causes is written link by link, each with its position.
         let said = if *criterion == "winnable" { "" } else { &words };
         evidence(text, seen, said, source);
         if let Some(seen) = seen.board.as_ref().filter(|_| *boards < MOST_BOARDS && mark != "pass") {
@@ -136,7 +136,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     }
 }
 
-/// Returns whether a criterion was left out, as there is nothing that it could be asked of.
+/// Returns `true` if a criterion was skipped because it does not apply.
 fn is_not_asked(finding: &validators::Finding) -> bool {
     finding.evidence.first().is_some_and(|seen| seen.text.starts_with("not asked"))
 }
@@ -145,7 +145,7 @@ fn is_broken_off(seen: &Evidence) -> bool {
     seen.text.ends_with("by the budget")
 }
 
-/// What a verdict says beside yes, no and unknown.
+/// Returns the text of a verdict beside its mark.
 fn answer(criterion: &str, finding: &validators::Finding) -> String {
     match &finding.verdict {
         Verdict::Pass { witness: Some(witness) } => {
@@ -158,7 +158,7 @@ fn answer(criterion: &str, finding: &validators::Finding) -> String {
             "no win found: the budget allows no search".to_owned()
         }
         Verdict::Unknown { spent: 0 } => "nothing to judge without a win".to_owned(),
-        // What the budget broke off comes first.
+        // Work that the budget broke off comes first.
         Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_broken_off) => {
             finding.evidence[0].text.clone()
         }
@@ -180,7 +180,7 @@ fn answer(criterion: &str, finding: &validators::Finding) -> String {
     }
 }
 
-/// A thing that was seen: in words, with its tick, cell and line.
+/// Writes a piece of evidence: its text, with tick, cell and line.
 fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
     let mut parts = Vec::new();
     if !said.contains(seen.text.as_str()) {
@@ -203,7 +203,7 @@ fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
     }
 }
 
-/// How the board looked, with a legend.
+/// Writes a board with a legend.
 fn moment(text: &mut String, Board { rows, legend }: &Board) {
     board(text, rows);
     let legend: Vec<String> = legend.iter().map(|(symbol, name)| format!("{symbol} {name}")).collect();
@@ -218,7 +218,7 @@ fn board(text: &mut String, rows: &[String]) {
     }
 }
 
-/// How the players of a ladder fared.
+/// Writes the results of the players of a ladder.
 fn climbed(text: &mut String, ladder: &Ladder) {
     let ease = ladder.ease.map_or(String::new(), |ease| format!(" (ease {ease:.2})"));
     let who = match ladder.difficulty {

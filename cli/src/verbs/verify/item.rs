@@ -13,7 +13,7 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
 
-/// Writes the proof for an item of a snapshot that verifies, and says so.
+/// Writes the proof for an item of a snapshot that verifies, and returns a message.
 pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String, Failure> {
     let proof = ItemProof::of(manifest, id).map_err(malformed)?;
     let bytes = proof.to_bytes().map_err(malformed)?;
@@ -25,7 +25,7 @@ pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String
         _ => unwritable(error, file),
     })?;
     open.write_all(&bytes).and_then(|()| open.sync_all()).map_err(|error| {
-        // Half a proof is none.
+        // An incomplete proof is useless.
         drop(fs::remove_file(file));
         unwritable(error, file)
     })?;
@@ -36,7 +36,7 @@ fn unwritable(error: std::io::Error, file: &Path) -> Failure {
     Failure::write(file, error)
 }
 
-/// Checks an item by its proof, against a root that comes from elsewhere.
+/// Checks an item by its proof, against a root from another source.
 pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console: &Console) -> Answer {
     let bytes = read(file)?;
     let proof = ItemProof::parse(&bytes)
@@ -63,7 +63,7 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
     let io = |action, path: &Path, source| SnapshotError::Io { action, path: path.to_path_buf(), source };
     let found = fs::metadata(place).map_err(|source| io("examine", place, source))?;
     if found.is_dir() {
-        // The game's own folder, or whatever it still lies in.
+        // The game's own folder, or a folder that contains it.
         let inside = place.join("games").join(id);
         let top = if inside.is_dir() { inside } else { place.to_path_buf() };
         let prefix = format!("games/{id}/");
@@ -94,11 +94,11 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
         return Err(SnapshotError::TooLarge { path: place.to_path_buf(), limit });
     }
     let content = fs::read(place).map_err(|source| io("read", place, source))?;
-    // One file can be no more than one of the item's.
+    // A single file can be only one of the item's files.
     proof.check(id, root, |path| Ok((path == id).then(|| Digest::of(&content))))
 }
 
-/// The proof's bytes, not many more than it may have.
+/// Reads the proof, with a limit on its size.
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     let io = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => Failure::malformed(format_args!("`{}` does not exist", file.display())),

@@ -1,4 +1,4 @@
-//! `arcade verify`: is this snapshot what it claims to be?
+//! `arcade verify`: checks that a snapshot is what it claims to be.
 
 mod item;
 
@@ -18,16 +18,16 @@ use std::path::{Path, PathBuf};
 
 /// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
 ///
-/// Without --root, this shows that the snapshot is consistent in itself; that it is the one that was published, only the
-/// published root shows. Witnesses of another arcade's semantics cannot be replayed here: the answer is no, unless
-/// --accept-unreplayed is given. Replays may take 2147483648 units of work and 2097152 for each level, ten to
-/// sixty seconds of one core; --max-work sets another bound (`arcade docs limits`).
+/// Without --root, this shows only that the snapshot is consistent in itself; only the published root shows that it
+/// is the published one. Witnesses of another arcade's semantics cannot be replayed here: the answer is no, unless
+/// --accept-unreplayed is given. Replays may take 2147483648 units of work and 2097152 for each level, ten to sixty
+/// seconds of one core; --max-work sets another bound (`arcade docs limits`).
 ///
 /// With --chain, follows the roots back through the releases before it. With --item and --write-proof, writes a small
-/// file that proves one file or one game; with --item, --proof and --root, checks such a proof against the file or the
-/// game's folder alone.
+/// file that proves one file or one game; with --item, --proof and --root, checks such a proof against the file or
+/// the game's folder alone.
 ///
-/// Exit status 0: sound. 1: not, with every problem named, or not replayed. 2: not a snapshot.
+/// Exit status 0: sound. 1: not sound, with every problem named, or not replayed. 2: not a snapshot.
 ///
 /// Example: arcade verify releases/starter
 #[derive(clap::Args)]
@@ -35,30 +35,30 @@ pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst; with --proof, the item's file or the game's folder
     #[arg(value_name = "SNAPSHOT")]
     snapshot: PathBuf,
-    /// Snapshots, or folders of snapshots, among which those before this one are looked for
+    /// Snapshots, or folders of snapshots, to search for the releases before this one
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "proof")]
     chain: Vec<PathBuf>,
     /// A file of the snapshot, such as games/x/lvl0.txt, or a game's folder name for all of its files
     #[arg(long, value_name = "ID")]
     item: Option<String>,
-    /// Writes the proof that the item is in the snapshot
+    /// Write the proof that the item is in the snapshot
     #[arg(long, value_name = "FILE", requires = "item", conflicts_with = "proof")]
     write_proof: Option<PathBuf>,
-    /// Checks this proof for the item, without the rest of the snapshot
+    /// Check this proof for the item, without the rest of the snapshot
     #[arg(long, value_name = "FILE", requires = "item", requires = "root")]
     proof: Option<PathBuf>,
-    /// The root that was published, to compare with
+    /// The published root, to compare with
     #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
-    /// Takes a snapshot of other semantics for sound although its witnesses were not replayed
+    /// Accept a snapshot of other semantics as sound although its witnesses were not replayed
     #[arg(long)]
     accept_unreplayed: bool,
-    /// Units of work that all replays together may take, instead of the bound above
+    /// The most units of work of all replays together, instead of the bound above
     #[arg(long, value_name = "UNITS", value_parser = clap::value_parser!(u64).range(1..))]
     max_work: Option<u64>,
 }
 
-/// Reads a digest as a user gives it, in capitals too.
+/// Reads a digest from the user, also in capitals.
 fn digest(text: &str) -> Result<Digest, String> {
     text.to_ascii_lowercase().parse::<Digest>().map_err(|error| error.to_string())
 }
@@ -68,7 +68,7 @@ fn digest(text: &str) -> Result<Digest, String> {
 struct Document<'a> {
     #[serde(flatten)]
     verification: &'a Verification,
-    /// True if the root was compared with one from elsewhere.
+    /// `true` if the root was compared with one from another source.
     root_compared: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     chain: Option<&'a Chain>,
@@ -190,7 +190,7 @@ fn say_chain(chain: &Chain, console: &Console) {
     }
 }
 
-/// Whether there is a manifest or an archive, and it is damaged: that is an answer.
+/// Returns `true` if there is a manifest or an archive, but it is damaged: that is an answer.
 fn damage(error: &SnapshotError) -> bool {
     matches!(
         error,
@@ -212,12 +212,12 @@ fn damaged(error: SnapshotError, snapshot: &Path, console: &Console) -> Answer {
     Ok(false)
 }
 
-/// A problem may quote what a stranger wrote, which must not look like a line of our own.
+/// Makes a problem one line: it may quote untrusted text, which must not look like a line of our own.
 fn one_line(problem: &str) -> String {
     problem.replace('\n', "\\n")
 }
 
-/// Says of a snapshot that is used without a question that its witnesses were not replayed, if they were not.
+/// Prints a remark on a snapshot whose witnesses were not replayed, for verbs that use it without verifying.
 pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     if manifest.semantics != engine::SEMANTICS {
         console.remark(format_args!(
@@ -229,7 +229,7 @@ pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     }
 }
 
-/// A folder that is no snapshot, or is not there, is a malformed question; a disk that fails is not.
+/// A folder that is not a snapshot, or does not exist, is a malformed question; a disk failure is not.
 pub(crate) fn failure(error: SnapshotError) -> Failure {
     match error {
         SnapshotError::Io { action: "examine" | "list" | "open" | "read", ref path, ref source }
@@ -251,7 +251,7 @@ fn absent(path: &Path) -> Failure {
     })
 }
 
-/// Names what is there instead of a snapshot, and what a snapshot is.
+/// Names what was found instead of a snapshot, and explains what a snapshot is.
 fn no_snapshot(path: &Path) -> Failure {
     let shown = path.display();
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);

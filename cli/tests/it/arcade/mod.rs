@@ -14,14 +14,14 @@ pub(crate) static TINY: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
-/// The binary under test, in a folder of its own.
+/// Returns a command for the binary under test, in its own folder.
 pub(crate) fn arcade(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_arcade"));
     command.current_dir(folder);
     command
 }
 
-/// Runs with these arguments and expects this exit status; what it printed is shown if it is another.
+/// Runs with these arguments and expects this exit status; on another one, shows the output.
 #[track_caller]
 pub(crate) fn run(folder: &Path, args: &[&str], status: i32) -> Output {
     let output = arcade(folder).args(args).output().expect("the binary starts");
@@ -34,7 +34,8 @@ pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// The reference's games and traces, which are not part of the repository; None (and a note) where they are missing.
+/// Returns the reference's games and traces, which are not part of the repository; None (and a note) if they are
+/// missing.
 #[allow(clippy::print_stdout, reason = "a skipped test says so")]
 pub(crate) fn reference() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/gvgai");
@@ -45,7 +46,7 @@ pub(crate) fn reference() -> Option<PathBuf> {
     found.then_some(folder)
 }
 
-/// All files of a folder with their content.
+/// Returns all files of a folder with their content.
 pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -63,7 +64,7 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// A copy of a folder, to be tampered with.
+/// Copies a folder, to tamper with it.
 pub(crate) fn copy_tree(from: &Path, to: &Path) {
     for (name, content) in files(from) {
         let path = to.join(name);

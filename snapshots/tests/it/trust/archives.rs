@@ -1,4 +1,4 @@
-//! Archives: the same release gives the same bytes, and no other bytes are taken for it.
+//! Archives: the same release gives the same bytes, and no other bytes are accepted.
 
 use super::small::{Small, home, small};
 use snapshots::archive::{Archive, pack};
@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::Path;
 use tar::{Builder, EntryType, Header};
 
-/// A release as entries of an archive, to be altered before they are packed by hand.
+/// A release as archive entries, to be altered before they are packed by hand.
 struct Entries {
     name: String,
     list: Vec<(Header, Vec<u8>)>,
@@ -56,7 +56,7 @@ impl Entries {
     }
 }
 
-/// Compressed and sealed as an archive is.
+/// Compresses and seals bytes as in an archive.
 pub(crate) fn compress(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = zstd::Encoder::new(Vec::new(), 3).expect("in memory");
     encoder.window_log(23).expect("legal");
@@ -67,7 +67,7 @@ pub(crate) fn compress(bytes: &[u8]) -> Vec<u8> {
     seal(&encoder.finish().expect("in memory"))
 }
 
-/// With the frame at its end that tells of accidents.
+/// Appends the frame that detects accidental damage.
 fn seal(compressed: &[u8]) -> Vec<u8> {
     let digest = engine::Digest::of(compressed);
     [compressed, &[0x50, 0x2a, 0x4d, 0x18, 32, 0, 0, 0], digest.as_bytes()].concat()
@@ -98,14 +98,14 @@ fn packed_and_unpacked_a_release_is_the_same() {
     let second = pack(&other, &home.path().join("second.tar.zst")).expect("packed");
     assert_eq!(second, packed);
     assert_eq!(fs::read(&file).expect("there"), fs::read(home.path().join("second.tar.zst")).expect("there"));
-    // What is between the lines of zstd is the tar that the page of the format describes.
+    // Inside the zstd frame is the tar that the page of the format describes.
     let mut tar = Vec::new();
     zstd::stream::copy_decode(fs::File::open(&file).expect("there"), &mut tar).expect("zstd");
     assert_eq!(tar, Entries::of(&release).tar());
     assert_eq!(engine::Digest::of(&tar), packed.digest);
 }
 
-/// The digest of the archive of a fixed release: it moves only with the format.
+/// The digest of the archive of a fixed release: it changes only with the format.
 #[test]
 fn packing_is_fixed() {
     let home = home();
@@ -124,7 +124,7 @@ fn packing_is_careful() {
     assert!(matches!(pack(&folder, &file), Err(SnapshotError::Taken { .. })));
     assert_eq!(fs::read(&file).expect("there"), b"mine");
     fs::remove_file(&file).expect("removed");
-    // What a killed run left is replaced, and nothing else: not what is empty, nor what begins as an archive does.
+    // Only leftovers of a killed run are replaced: not an empty file, nor one that begins like an archive.
     let partial = home.path().join("mole.tar.zst.partial");
     for mine in [&b"mine"[..], b"", &[&b"\x28\xb5\x2f\xfd"[..], &[7; 100_000]].concat()] {
         fs::write(&partial, mine).expect("written");
@@ -142,7 +142,7 @@ fn packing_is_careful() {
     assert!(!home.path().join("b.tar.zst").exists());
 }
 
-/// A way to spoil a list of entries.
+/// An alteration of a list of entries.
 type Change<'a> = &'a dyn Fn(&mut Entries);
 
 #[track_caller]
@@ -226,7 +226,7 @@ fn headers_that_no_release_has() {
     check(&kind(EntryType::XGlobalHeader), "MANIFEST.json", "pax");
 }
 
-/// Names are written into the header as they are: the `tar` crate would refuse some of them.
+/// Names are written into the header verbatim, because the `tar` crate would refuse some of them.
 #[test]
 fn names_that_lead_elsewhere() {
     let name = |path: &'static str| {
@@ -321,10 +321,10 @@ fn ends() {
         let passed = verify(&file).is_ok_and(|verification| verification.problems.is_empty());
         assert!(!passed, "cut to {length} of {} bytes", sound.len());
     }
-    // Other ways to compress the same bytes are not ours.
+    // Other ways to compress the same bytes are not accepted.
     let plain = zstd::encode_all(&tar[..], 3).expect("in memory");
     check_bytes(&file, &plain, "mole.tar.zst", "not as packed");
-    // By its name an archive, it is a damaged one; by another name, it is none.
+    // A file with the name of an archive is a damaged archive; with another name, it is no archive.
     fs::write(&file, "BasicGame").expect("written");
     assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
     fs::write(&file, "").expect("written");
@@ -334,7 +334,7 @@ fn ends() {
     assert!(matches!(verify(&file), Err(SnapshotError::NotASnapshot { .. })));
 }
 
-/// Little that says it is much is refused before it is unpacked.
+/// A small file that claims a large content is refused before it is unpacked.
 #[test]
 fn bombs() {
     let home = home();
@@ -342,7 +342,7 @@ fn bombs() {
     let zeros = compress(&vec![0; 64 << 20]);
     assert!(zeros.len() < 16_384);
     check_bytes(&file, &zeros, "mole.tar.zst", "it would unpack to 67108864 bytes");
-    // A frame that says less than it holds, and one that says more.
+    // A frame that states less than it holds, and one that states more.
     let tar = Entries::of(&small("mole", None)).tar();
     let sound = compress(&tar);
     let mut lies = sound[..sound.len() - 40].to_vec();
@@ -352,13 +352,14 @@ fn bombs() {
         fs::write(&file, seal(&lies)).expect("written");
         assert!(!verify(&file).is_ok_and(|verification| verification.problems.is_empty()), "{size}");
     }
-    // An entry that says it is large.
+    // An entry that claims to be large.
     check(&|e| e.list[0].0.set_size(1 << 40), "MANIFEST.json", "larger than 67108864 bytes");
     check(&|e| e.list[0].0.set_size(1 << 20), "MANIFEST.json", "too short");
     check(&|e| e.list[2].0.set_size(1 << 40), "README.md", "wrong size (1099511627776 bytes");
 }
 
-/// Half a megabyte that took three gigabytes: a manifest of 99,999 items, each in 124 folders of its own.
+/// A regression: half a megabyte took three gigabytes, with a manifest of 99,999 items, each in 124 folders of its
+/// own.
 #[test]
 fn manifests_of_deep_paths() {
     let honest = small("mole", None);
@@ -386,12 +387,12 @@ fn manifests_of_deep_paths() {
     let memory = allocation_counter::measure(|| error = verify(&file).err());
     let error = error.expect("too deep").to_string();
     assert!(error.contains("more than 16 components"), "{error}");
-    // The manifest's bytes while they come, and its items once.
+    // The manifest's bytes as they arrive, and its items once.
     assert!(memory.bytes_max < 4 * size, "{memory:?}, for {size} bytes");
 }
 
-/// A recipe may be any JSON. One that nests deeply would be indented to hundreds of times its size, and is not read that
-/// far; here within the ratio that archives may have, 14 MB in some 2 kB.
+/// A recipe may be any JSON. A deeply nested one would be indented to hundreds of times its size, so reading stops
+/// early; this one is within the ratio that archives may have, with 14 MB in some 2 kB.
 #[test]
 fn recipes_that_nest_deeply() {
     let honest = small("mole", None);
@@ -415,7 +416,7 @@ fn recipes_that_nest_deeply() {
     }
 }
 
-/// What is wide and flat costs as much as it is large, and is read.
+/// The cost of a wide and flat recipe is proportional to its size, so it is accepted.
 #[test]
 fn recipes_that_are_wide() {
     let mut wide = small("mole", None);

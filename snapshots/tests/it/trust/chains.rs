@@ -72,13 +72,13 @@ fn archives_are_links_too() {
     let [first, second, third] = three().map(|release| release.write_in(&home));
     let archive = home.path().join("2026-12.tar.zst");
     pack(&first, &archive).expect("packed");
-    // The same release twice is one.
+    // The same release twice counts as one.
     check(&third, &[home.path().to_path_buf()], &["2027-02", "2027-01", "2026-12"], &[]);
     fs::remove_dir_all(first).expect("removed");
     check(&third, &[second, archive], &["2027-02", "2027-01", "2026-12"], &[]);
 }
 
-/// Somebody's own archives beside the releases are none of the chain, and a release's archive is, however damaged.
+/// Unrelated archives beside the releases are ignored, but a release's archive is not, however damaged.
 #[test]
 fn other_archives_are_left_alone() {
     let home = home();
@@ -94,7 +94,7 @@ fn other_archives_are_left_alone() {
         fs::write(&backup, content).expect("written");
         check(&second, &all, &["2027-01", "2026-12"], &[]);
     }
-    // Named, it is asked about.
+    // A file that is named explicitly is not ignored.
     let chain = ask(&second, &[place.clone(), backup.clone()]).expect("readable");
     assert!(chain.problems[0].contains("backup.tar.zst"), "{:?}", chain.problems);
     fs::remove_file(&backup).expect("removed");
@@ -137,11 +137,11 @@ fn two_histories_are_told() {
     let chain = ask(&places[2], &all).expect("readable");
     assert!(chain.problems[0].contains("`2027-01-b`") && chain.problems[0].contains("two histories"));
     assert!(chain.complete && chain.others == 1);
-    // From the fork, the others are the other history.
+    // Seen from the fork, the others are the other history.
     check(&places[3], &all, &["2027-01-b", "2026-12"], &["two histories"]);
 }
 
-/// A rival that follows a release which is not there stays no secret.
+/// The follower of an absent rival is reported.
 #[test]
 fn the_follower_of_an_absent_rival_is_told() {
     let home = home();
@@ -155,7 +155,7 @@ fn the_follower_of_an_absent_rival_is_told() {
     check(&places[2], &places, &["2027-02", "2027-01", "2026-12"], &[]);
 }
 
-/// The recipe of a release and its canary, changed by a forger.
+/// Changes a release's recipe, and its canary accordingly, as a forger would.
 fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
     alter(&mut release.manifest.recipe);
     let text = to_canonical_json(&release.manifest.recipe).expect("plain data");
@@ -167,7 +167,7 @@ fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
     release.seal();
 }
 
-/// A release states to know what the parent has, and holds what is new.
+/// A release must list what its parent holds, and repeat none of it.
 #[test]
 fn what_is_known_is_what_the_parent_holds() {
     let first = small("2026-12", None);
@@ -186,7 +186,7 @@ fn what_is_known_is_what_the_parent_holds() {
     known(&|known| known["games"] = json!(["BasicGame"]), not_known);
     known(&|known| known["releases"] = json!(["2026-11"]), not_known);
 
-    // A copy of the parent that states honestly what it knows.
+    // A copy of the parent whose list of known games is honest.
     let home = home();
     let mut copy = first.clone();
     let recipe = honest.manifest.recipe.clone();
@@ -198,7 +198,7 @@ fn what_is_known_is_what_the_parent_holds() {
     check(&copy, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[words]);
 }
 
-/// Archives are read one after the other, and not kept: memory for one file of one.
+/// Archives are read one after the other and not kept: the memory is that for one file of one.
 #[test]
 fn archives_of_a_chain_are_not_kept() {
     let home = home();

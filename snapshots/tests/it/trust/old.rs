@@ -1,4 +1,4 @@
-//! Releases of other versions, as they are stored in `tests/suite/snapshots`: they stay readable for ever.
+//! Releases of other versions, stored in `tests/suite/snapshots`: they must stay readable.
 
 use snapshots::chain::{Link, follow};
 use snapshots::{Kind, SnapshotError, Witnesses, check_integrity, verify};
@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// Digest of the archive of `format-1`.
+/// The digest of the archive of `format-1`.
 pub(crate) const FORMAT_1_ARCHIVE: &str = "b1b84cca97d2f13874c28fa0c97487cad52e766e6512c8883ec05278c03efae4";
 
 fn stored(name: &str) -> PathBuf {
@@ -19,12 +19,12 @@ fn format_1_is_read() {
     let verification = verify(&place).expect("readable");
     assert!(verification.problems.is_empty(), "{:?}", verification.problems);
     assert_eq!((verification.games, verification.levels), (1, 1));
-    // Stored under semantics 2; this test outlives them.
+    // Stored under semantics 2; this test must keep passing under later semantics.
     assert_eq!(verification.manifest.semantics, 2);
     assert_eq!(verification.witnesses, of_one_level(2));
 }
 
-/// The witnesses of a release of one level under these semantics.
+/// The expected result for the witnesses of a release of one level under these semantics.
 fn of_one_level(semantics: u32) -> Witnesses {
     match semantics == engine::SEMANTICS {
         true => Witnesses::Replayed(1),
@@ -32,7 +32,8 @@ fn of_one_level(semantics: u32) -> Witnesses {
     }
 }
 
-/// From format 2 on the manifest names the version; the sealed release holds its commitment and the seeds of its chance fast.
+/// From format 2 on, the manifest names the version. The sealed release pins its commitment and the seeds of its
+/// episodes.
 #[test]
 fn format_2_is_read() {
     for (name, kind) in [("format-2", Kind::Open), ("sealed", Kind::Sealed)] {
@@ -44,7 +45,7 @@ fn format_2_is_read() {
     }
 }
 
-/// Its witness has the hashes of other semantics: replayed here, it would fail.
+/// Its witness has the hashes of other semantics, so replaying it here would fail.
 #[test]
 fn witnesses_of_other_semantics_are_not_replayed() {
     let verification = verify(&stored("other-semantics")).expect("readable");
@@ -61,7 +62,7 @@ fn other_generations_verify_like_any() {
     assert_eq!(verification.manifest.parent, Some(verify(&stored("format-1")).expect("readable").root));
 }
 
-/// The stored releases follow each other, across versions.
+/// The stored releases form a chain across versions.
 #[test]
 fn the_chain_crosses_versions() {
     let newest = verify(&stored("other-semantics")).expect("readable");
@@ -72,7 +73,7 @@ fn the_chain_crosses_versions() {
     assert_eq!(names, ["other-semantics", "other-generation", "format-1"]);
 }
 
-/// Old releases are checked like new ones: all but the replay.
+/// Old releases are checked like new ones, except for the replay.
 #[test]
 fn old_releases_are_tampered_with_in_vain() {
     let home = super::small::home();

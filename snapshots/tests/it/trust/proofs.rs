@@ -10,7 +10,7 @@ fn digest_of(release: &super::small::Small, path: &str) -> Option<Digest> {
     release.files.iter().find(|(known, _)| known == path).map(|(_, content)| Digest::of(content))
 }
 
-/// All that speaks against the proof, for the release's own files.
+/// All objections to the proof, given the release's own files.
 fn against(proof: &ItemProof, id: &str, root: &Digest) -> Vec<String> {
     let release = small("mole", None);
     let Ok(problems) = proof.check(id, root, |path| Ok::<_, Infallible>(digest_of(&release, path)));
@@ -36,7 +36,7 @@ fn every_file_and_the_game_are_proved() {
     assert!(
         against(&ItemProof::parse(&proof.to_bytes().expect("small")).expect("sound"), game, &root).is_empty()
     );
-    // Of two wrong files both are named, with the digests.
+    // If two files are wrong, both are named, with the digests.
     let Ok(problems) = proof.check(game, &root, |path| {
         Ok::<_, Infallible>((!path.ends_with("card.json")).then(|| Digest::of(b"other")))
     });
@@ -100,8 +100,8 @@ fn hostile_proofs_are_refused_in_words() {
     refuse(&written(&twice), "`README.md` is listed twice");
 }
 
-/// No changed character of a proof goes unnoticed, except in the release's name, which is a label, and in the number of
-/// leaves, which a path to the root does not bind (RFC 6962).
+/// Every changed character of a proof is detected, except in the release's name, which is a label, and in the number
+/// of leaves, which a path to the root does not bind (RFC 6962).
 #[test]
 fn every_character_counts() {
     let release = small("mole", None);
@@ -121,7 +121,7 @@ fn every_character_counts() {
     }
 }
 
-/// The leaf that stands for the manifest's header is under every root, but it is no file.
+/// The leaf of the manifest's header is under every root, but it is not a file.
 #[test]
 fn the_header_is_no_file_of_a_release() {
     let release = small("mole", None);
@@ -141,7 +141,7 @@ fn the_header_is_no_file_of_a_release() {
     }
 }
 
-/// The files of a game have their places in one release.
+/// The files of a game must have positions in one tree.
 #[test]
 fn files_of_a_game_are_of_one_tree() {
     let release = small("mole", None);

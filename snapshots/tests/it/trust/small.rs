@@ -1,4 +1,4 @@
-//! The smallest release that there can be: a game, a level, a witness that wins it.
+//! The smallest possible release: a game, a level, and a witness that wins it.
 
 use engine::{Action, Digest, Episode, Game, Outcome, Seed};
 use serde::Serialize;
@@ -32,7 +32,8 @@ BasicGame
         SpriteCounter stype=door limit=0 win=True
 ";
 
-/// A tunnel from the mole to the door. Releases of a chain have one each, because none may hold what came before.
+/// A tunnel from the mole to the door. Each release of a chain has a different one, because none may repeat its
+/// ancestors.
 fn tunnel(name: &str) -> String {
     let length = match name {
         "2027-01" => 3,
@@ -49,11 +50,11 @@ fn tunnel(name: &str) -> String {
 #[derive(Clone)]
 pub(crate) struct Small {
     pub(crate) manifest: Manifest,
-    /// All files but the manifest, by path.
+    /// All files except the manifest, by path.
     pub(crate) files: Vec<(String, Vec<u8>)>,
 }
 
-/// The release of this name, after that one.
+/// The release of this name, following `parent`.
 pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
     let mut recipe = Recipe::from_toml(&format!(
         "name = '{name}'\ndescription = 'A mole.'\nseed = 'a mole in the dark'\n[corpus]\ngames = 1\nlevels = 1\n"
@@ -181,7 +182,7 @@ pub(crate) fn witness(mark: &str, episode: Episode, path: &[(&str, u64)]) -> Wit
 }
 
 impl Small {
-    /// Writes it to a folder.
+    /// Writes the release to a folder.
     pub(crate) fn write(&self, out: &Path) {
         let draft = Draft::create(out).expect("vacant");
         for (path, content) in &self.files {
@@ -191,14 +192,14 @@ impl Small {
         draft.commit().expect("published");
     }
 
-    /// Writes it to the folder of its name in `home`.
+    /// Writes the release to the folder of its name in `home`.
     pub(crate) fn write_in(&self, home: &TempDir) -> PathBuf {
         let out = home.path().join(&self.manifest.name);
         self.write(&out);
         out
     }
 
-    /// States the files that are there now, and the root over them, as a forger would.
+    /// Updates the manifest to the current files, with the root over them, as a forger would.
     pub(crate) fn seal(&mut self) {
         self.manifest.items =
             self.files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect();

@@ -1,4 +1,4 @@
-//! What a release says of itself, by a forger who states the digests of what is there.
+//! False statements of a release about itself, by a forger who updates all digests.
 
 use super::small::{Small, home, json, small, witness, won};
 use engine::Digest;
@@ -12,7 +12,7 @@ use snapshots::{
 };
 use std::fs;
 
-/// The file at the path that ends so, changed.
+/// Changes the file whose path has this ending.
 fn change(release: &mut Small, end: &str, change: impl Fn(String) -> String) {
     let (_, content) = release.files.iter_mut().find(|(path, _)| path.ends_with(end)).expect("there");
     *content = change(String::from_utf8(content.clone()).expect("a text")).into_bytes();
@@ -77,18 +77,18 @@ fn cards_tell_of_the_episode_that_wins() {
     );
 }
 
-/// A secret for the release `2026-12`, whose recipe says nothing but its name.
+/// A secret for the release `2026-12`, whose recipe contains only its name.
 fn secret(chance: u8) -> Secret {
     let recipe = Digest::of(&json(&json!({ "name": "2026-12" })));
     Secret::draw("2026-12", recipe, [chance; 64])
 }
 
-/// The same release sealed: its secret and witness are held back, or there.
+/// Seals the release: adds its secret and its withheld witness.
 fn seal(release: &mut Small) {
     seal_with(release, &secret(7), &secret(7));
 }
 
-/// Sealed with one secret, and its witness played under another.
+/// Seals the release with one secret, while its witness was played under another.
 fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
     let mark = canary(&secret.commitment());
     let old = std::mem::replace(&mut release.manifest.canary, mark.clone());
@@ -108,8 +108,8 @@ fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
     release.files.push((SECRET_FILE.to_owned(), json(secret)));
 }
 
-/// A secret that has nothing to do with the games, a recipe that was changed after it was committed to, a secret that was made
-/// up: each is told without minting again.
+/// A secret unrelated to the games, a recipe changed after the commitment, and a made-up secret are all detected
+/// without minting again.
 #[test]
 fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
     check(
@@ -136,7 +136,7 @@ fn a_secret_has_to_be_that_of_the_games_and_of_the_recipe() {
         },
         &["held/secret.json: it names no recipe"],
     );
-    // As releases of earlier generations were sealed.
+    // Sealed in the way of earlier generations.
     check(
         |release| {
             seal_with(release, &pair, &secret(8));
@@ -176,7 +176,8 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
     );
 }
 
-/// What is told of a release that is there is told before it is: the two parts are joined only if they belong together.
+/// Problems of the whole release are detected before the reveal: the two parts are merged only if they belong
+/// together.
 #[test]
 fn two_parts_that_do_not_belong_together_are_not_joined() {
     let joined = |secret: &Secret, played: &Secret, change: &dyn Fn(&mut Small)| {
@@ -220,7 +221,7 @@ fn verified(release: &mut Small, bounds: &Bounds) -> Verification {
     verify_within(&release.write_in(&home()), bounds).expect("readable")
 }
 
-/// At least these problems, whatever follows from them.
+/// Expects at least these problems, whatever follows from them.
 #[track_caller]
 fn complains(alter: impl FnOnce(&mut Small), words: &[&str]) {
     let mut release = small("2026-12", None);
@@ -231,7 +232,7 @@ fn complains(alter: impl FnOnce(&mut Small), words: &[&str]) {
     }
 }
 
-/// The card of the game, changed as JSON.
+/// Changes the card of the game as JSON.
 fn change_card(release: &mut Small, alter: impl Fn(&mut serde_json::Value)) {
     change(release, "/card.json", |text| {
         let mut card = serde_json::from_str(&text).expect("JSON");
@@ -251,7 +252,7 @@ fn semantics_that_never_were_are_no_excuse() {
     let number = snapshots::version::CURRENT.number;
     let expect = format!("is minted by version {number}, not 0.1.0");
     check(|release| release.manifest.version = Some("0.1.0".to_owned()), &[&expect]);
-    // Of a later arcade, and of an earlier one: these can be, and were not replayed here.
+    // A later and an earlier version: these are possible, and their witnesses are not replayed here.
     let later = (engine::SEMANTICS + 1, generators::GENERATION + 1, "0.99.0");
     for (semantics, generation, version) in [later, (2, 8, "0.8.0")] {
         let mut release = small("2026-12", None);
@@ -350,7 +351,7 @@ fn the_canary_is_that_of_the_recipe() {
     );
 }
 
-/// The level of the release again, so many times.
+/// Repeats the level of the release.
 fn repeat_level(release: &mut Small, times: usize) {
     change_card(release, |card| {
         let levels = (0..times).map(|number| {
@@ -369,7 +370,7 @@ fn repeat_level(release: &mut Small, times: usize) {
     }
 }
 
-/// The game of the release again, under another name.
+/// Repeats the game of the release under another name.
 fn repeat_game(release: &mut Small, name: &str) {
     for (path, content) in release.files.clone() {
         if path.contains("mole-") {
@@ -402,7 +403,7 @@ fn what_is_there_twice_is_a_problem_and_replayed_once() {
     assert_eq!(again.count(), 50);
 }
 
-/// The bound is on all replays together, and what is beyond it is not played.
+/// The bound holds for all replays together, and replays beyond it are not played.
 #[test]
 fn replays_are_bounded() {
     let work = verified(&mut small("2026-12", None), &Bounds::RELEASE).work;
@@ -413,11 +414,11 @@ fn replays_are_bounded() {
     assert_eq!(over.work, work - 1);
     let expect = format!("its witnesses take more than {} units of work to replay", work - 1);
     assert!(over.problems[0].contains(&expect), "{:?}", over.problems);
-    // What any release may take grows with what it declares.
+    // The bound for any release grows with the number of levels it declares.
     assert_eq!(Bounds::RELEASE.of(600), (1 << 31) + 600 * (1 << 21));
 }
 
-/// Refused before its first tick.
+/// Overlong witnesses are refused before the first tick.
 #[test]
 fn no_witness_is_longer_than_an_episode_can_be() {
     let lengthen = |release: &mut Small, times: usize| {
@@ -463,7 +464,7 @@ fn what_is_known_fits_the_parent() {
     assert!(problems.iter().any(|problem| problem.contains("but there is no parent")), "{problems:?}");
 }
 
-/// Solutions that are held back cannot be exported, and no empty ones are.
+/// Withheld solutions cannot be exported, not even as empty lists.
 #[test]
 fn no_solutions_of_what_is_sealed() {
     let sealed = |keep: bool| {

@@ -1,6 +1,6 @@
-//! Tampering: whatever is done to a release, `verify` says so, and names the file.
+//! Tampering: `verify` detects every mutation of a release, and names the file.
 //!
-//! A seeded sweep, so that a failure can be had again. On Unix, because of its links and sockets.
+//! The sweep is seeded, so that failures can be reproduced. It needs Unix for links and sockets.
 
 use super::archives::compress;
 use super::small::{Small, home, small};
@@ -14,12 +14,12 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Mutations of the folder, of the archive's bytes, and of the bytes inside.
+/// The number of mutations of the folder, of the archive's bytes, and of the bytes inside.
 const FOLDERS: u64 = 1400;
 const ARCHIVES: u64 = 600;
 const INSIDES: u64 = 600;
 
-/// The files of a release by path, the manifest among them.
+/// The files of a release by path, including the manifest.
 type Files = Vec<(String, Vec<u8>)>;
 
 fn original() -> (Small, Files) {
@@ -37,7 +37,7 @@ fn write(folder: &Path, files: &Files) {
     }
 }
 
-/// Makes the folder hold these files again and nothing else, beside which there is nothing. Much faster than a new one.
+/// Restores the folder to exactly these files, and removes everything beside it. Much faster than a new folder.
 fn heal(home: &TempDir, folder: &Path, files: &Files) {
     let mut open = vec![home.path().to_path_buf()];
     while let Some(next) = open.pop() {
@@ -71,7 +71,7 @@ fn heal(home: &TempDir, folder: &Path, files: &Files) {
     }
 }
 
-/// What `verify` has against the release at a place; empty if nothing.
+/// The objections of `verify` to the release at a place; empty if there are none.
 fn complaint(place: &Path) -> String {
     match verify(place) {
         Ok(verification) => verification.problems.join("\n"),
@@ -104,7 +104,7 @@ fn folders() {
     assert!(release.manifest.items.len() == 6);
 }
 
-/// What is done to a folder; each some forty times, with other draws.
+/// The kinds of mutations of a folder; each runs some forty times, with other draws.
 const KINDS: [&str; 31] = [
     "flip",
     "flip",
@@ -139,7 +139,7 @@ const KINDS: [&str; 31] = [
     "nest",
 ];
 
-/// Does it, and says which paths it may be named by.
+/// Applies a mutation, and returns the paths that may be reported for it.
 fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Vec<String> {
     let (name, content) = sampler.choose(files).clone();
     let other = loop {
@@ -205,7 +205,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
             fs::write(folder.join(name), &content).expect("written");
             return vec![name.escape_debug().to_string()];
         }
-        // Large without filling the disk: it must not be read.
+        // Large without filling the disk, so that reading it would be noticed.
         "huge" => {
             let file = fs::File::options().write(true).open(&path).expect("there");
             file.set_len((65 << 20) + sampler.below(1 << 30) as u64).expect("sparse");
@@ -221,7 +221,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
             std::os::unix::fs::symlink("../games", folder.join("games")).expect("linked");
             return vec!["games".into()];
         }
-        // To the same content a hard link does no harm; to another it is that other file.
+        // A hard link to the same content is harmless; a link to other content is that other file.
         "hard link" => {
             fs::remove_file(&path).expect("removed");
             fs::hard_link(folder.join(&other.0), &path).expect("linked");
@@ -235,7 +235,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
     vec![name]
 }
 
-/// Changes what the manifest says, in the form in which manifests are written.
+/// Changes the content of the manifest, in canonical form.
 fn tamper_with_manifest(kind: &str, folder: &Path, sampler: &mut Sampler) -> Vec<String> {
     let path = folder.join(MANIFEST_FILE);
     let text = fs::read_to_string(&path).expect("readable");
@@ -285,7 +285,7 @@ fn tamper_with_manifest(kind: &str, folder: &Path, sampler: &mut Sampler) -> Vec
     vec![MANIFEST_FILE.into()]
 }
 
-/// A forger who states what he has changed gets another root, and cannot make a loss a win.
+/// A forger who updates the manifest gets another root, and cannot turn a loss into a win.
 #[test]
 fn forgeries() {
     let honest = small("mole", None);
@@ -296,7 +296,7 @@ fn forgeries() {
             let place = sampler.below(forged.files.len());
             &mut forged.files[place]
         };
-        // The line feed at the end is no part of a level.
+        // The line feed at the end is not part of a level.
         let place = sampler.below(content.len() - 1);
         content[place] ^= 1 << sampler.below(7);
         let path = path.clone();
@@ -313,7 +313,7 @@ fn forgeries() {
     }
 }
 
-/// What lies in a draft, at any depth, is not published.
+/// The content of a draft, at any depth, is not a published release.
 #[test]
 fn drafts() {
     let home = home();
@@ -322,7 +322,7 @@ fn drafts() {
     fs::create_dir_all(&public).expect("created");
     let (_, files) = original();
     write(&public, &files);
-    // Somebody's own folder may be called so.
+    // A user's own folder may have such a name.
     assert_eq!(complaint(&public), "");
     fs::write(draft.join(".lock"), "").expect("written");
     for place in [public, draft.join("tree"), draft] {
@@ -331,7 +331,7 @@ fn drafts() {
     }
 }
 
-/// A change of the compressed bytes is told, also where it changes nothing of what is inside.
+/// A change of the compressed bytes is detected even if it does not change the content.
 #[test]
 fn archives() {
     let home = home();

@@ -1,15 +1,15 @@
-//! Games that nobody would write: any classes, any effects, any parameters, as long as they compile.
+//! Randomly generated games: any classes, effects and parameters that compile.
 
 use engine::{Sampler, SpriteClass};
 
-/// A game with a level, as texts. It need not compile.
+/// Returns a game with a level, as texts. It need not compile.
 pub(crate) fn game(sampler: &mut Sampler) -> (String, String) {
     let count = sampler.between(3, 7);
     let mut names: Vec<String> = (0..count).map(|number| format!("s{number}")).collect();
-    // A wall is solid, and there in every game.
+    // A wall is solid, and exists in every game.
     names.push("wall".to_owned());
     names.push("hero".to_owned());
-    // Now and then a game of jumps that might be meant.
+    // Sometimes a more plausible game of jumps.
     let jumps = sampler.ratio(1, 6);
     let mut sprites = String::new();
     let mut depth = 0;
@@ -22,7 +22,7 @@ pub(crate) fn game(sampler: &mut Sampler) -> (String, String) {
         if depth == 1 {
             continue;
         }
-        // Now and then the next one is its child.
+        // Sometimes the next type is its child.
         if sampler.ratio(1, 6) {
             depth = 0;
         }
@@ -52,7 +52,7 @@ pub(crate) fn game(sampler: &mut Sampler) -> (String, String) {
     (source, level(sampler, &symbols, jumps))
 }
 
-/// An avatar that falls, walks and jumps.
+/// Returns an avatar that falls, walks and jumps.
 fn jumper(sampler: &mut Sampler) -> String {
     let class = pick(sampler, &["PlatformerAvatar", "PlatformerAvatar", "WizardAvatar stype=wall"]);
     let (strength, gravity) =
@@ -72,11 +72,11 @@ fn pick<'a>(sampler: &mut Sampler, options: &[&'a str]) -> &'a str {
     options[sampler.below(options.len())]
 }
 
-/// A class with parameters.
+/// Returns a class with parameters.
 fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> String {
     let classes: Vec<SpriteClass> =
         SpriteClass::ALL.iter().copied().filter(|class| class.is_avatar() == hero).collect();
-    // Walls, things and what walks are worth more than the rest.
+    // Walls, things and walkers are more important than the rest.
     let plain = [SpriteClass::Immovable, SpriteClass::Passive, SpriteClass::Missile, SpriteClass::Resource];
     let class = match (hero, sampler.ratio(1, 2)) {
         (false, true) => *sampler.choose(&plain),
@@ -147,8 +147,8 @@ fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> String {
 /// Parameters that only some classes have.
 const OWN: [&str; 8] = ["limit", "value", "total", "prob", "spawnorientation", "cons", "spreadprob", "stype"];
 
-/// Every effect, with what it needs: N stands for a sprite, I for a small number, S for a speed, P for a probability, B
-/// for a truth value, E for an effect.
+/// Every effect, with its parameters: N stands for a sprite, I for a small number, S for a speed, P for a
+/// probability, B for a truth value, E for an effect.
 const EFFECTS: [&str; 72] = [
     "killSprite",
     "killSprite",

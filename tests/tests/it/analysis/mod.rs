@@ -1,4 +1,4 @@
-//! What the analysis proves holds in play: on the corpus, and on the reference's games where they are at hand.
+//! Tests of the analysis in play: its proofs hold on the corpus, and on the reference's games if they are available.
 
 mod invented;
 
@@ -10,10 +10,10 @@ use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
 use tests::workspace_root;
 
-/// Games that are made up, and ticks of each.
+/// The number of generated games, and ticks of each.
 const GAMES: usize = 4000;
 const TICKS: usize = 40;
-/// Games that are invented to be played; most of them compile.
+/// Generated games to be played; most of them compile.
 const INVENTED: u64 = 400;
 
 /// A game with its levels.
@@ -23,7 +23,7 @@ struct Case {
     levels: Vec<Level>,
 }
 
-/// The games in the folders of a folder, those that load; none, with a message, if it is missing.
+/// Returns the games in the subfolders of a folder that load; none, with a message, if it is missing.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn games(folder: &Path) -> Vec<Case> {
     let Ok(entries) = fs::read_dir(folder) else {
@@ -64,7 +64,7 @@ fn wander(
             let mut state = case.game.start(level, seed.child("chance", 0));
             visit(&case, &analysis, level, &state, &mut sampler);
             for _ in 0..ticks {
-                // Now and then one key is held down, as players do.
+                // Sometimes one key is held down, as players do.
                 let action = *sampler.choose(case.game.actions(&state));
                 for _ in 0..sampler.between(1, 4) {
                     case.game.step(&mut state, action);
@@ -78,7 +78,7 @@ fn wander(
     }
 }
 
-/// Where chance plays no part any more, other seeds with the same actions give the same sprites.
+/// Other seeds with the same actions give the same sprites once randomness plays no part any more.
 #[test]
 fn deterministic_states_have_one_future() {
     let (mut certain, mut turned) = (0, 0);
@@ -103,7 +103,7 @@ fn deterministic_states_have_one_future() {
     assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in games of chance");
 }
 
-/// What can only hold from the start does not come to hold, and the other way round.
+/// Goals that can only hold from the start do not come to hold later, and the other way round.
 #[test]
 fn goals_are_attained_as_proved() {
     let mut holds: Vec<bool> = Vec::new();
@@ -133,8 +133,8 @@ fn goals_are_attained_as_proved() {
     });
 }
 
-/// Games that nobody wrote are neither won nor lost after their first tick where that is proved impossible, and their
-/// sprites stay where they can be.
+/// Generated games are neither won nor lost after their first tick if that is proved impossible, and their sprites
+/// stay within their reach.
 #[test]
 fn any_game_ends_as_proved() {
     let mut sampler = Seed::from_text("ends").sampler();
@@ -173,7 +173,7 @@ fn any_game_ends_as_proved() {
     assert!(proofs > 1000 && ends > 50, "{proofs} proofs, {ends} ends");
 }
 
-/// Every sprite is where its type can be, whatever is played, in games that somebody wrote.
+/// Every sprite is where its type can be, whatever is played, in written games.
 #[test]
 fn sprites_are_where_they_can_be() {
     let mut reach = None;
@@ -187,7 +187,7 @@ fn sprites_are_where_they_can_be() {
     assert!(looked > 100_000, "{looked} cells");
 }
 
-/// Levels of our own can be won, and nothing that says otherwise is a proof.
+/// Levels of our own can be won, and no proof says otherwise.
 #[test]
 fn the_goals_of_the_corpus_are_in_reach() {
     for Case { name, game, levels } in games(&workspace_root().join("corpora")) {
@@ -199,7 +199,7 @@ fn the_goals_of_the_corpus_are_in_reach() {
     }
 }
 
-/// And in games that nobody would write.
+/// The same for generated games.
 #[test]
 fn sprites_of_invented_games_are_where_they_can_be() {
     let (mut played, mut narrow) = (0, 0);
@@ -230,14 +230,14 @@ fn sprites_of_invented_games_are_where_they_can_be() {
     );
 }
 
-/// Checks that all sprites of a state are where their types can be, and that it ends only as it can; how many cells they
-/// cover.
+/// Checks that all sprites of a state are where their types can be, and that it ends only as it can; returns the
+/// number of cells that they cover.
 fn look(Case { name, game, .. }: &Case, reach: &Reach, level: &Level, state: &State) -> u64 {
     let lost = state.outcome() == Outcome::Lost && state.tick() < engine::MAX_TICKS;
     assert!(reach.can_win() || state.outcome() != Outcome::Won, "{name} is won\n{level}");
     assert!(reach.can_lose() || !lost, "{name} is lost\n{level}");
     if matches!(state.outcome(), Outcome::Stopped(_)) {
-        // Stopped in the middle of a tick.
+        // The tick was stopped in the middle.
         return 0;
     }
     let (columns, rows) = state.size();
