@@ -1,11 +1,11 @@
 //! The ancestors of a release: the games and levels that a new release must not repeat.
 
-use crate::card::{Card, Origin};
 use crate::contents::Contents;
 use crate::manifest::Manifest;
 use crate::recipe::{Known, Recipe};
 use crate::{Digest, SnapshotError};
 use engine::{Analysis, Game, Seed, syntax};
+use forge::card::{Card, Origin};
 use generators::games::Masked;
 use generators::levels::Likeness;
 use std::collections::BTreeMap;

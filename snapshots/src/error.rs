@@ -3,9 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::canonical::CanonicalError;
 use crate::merkle::DuplicatePath;
 use crate::path::PathProblem;
+use report::canonical::CanonicalError;
 
 /// The reasons why a release folder cannot be written or read.
 #[derive(Debug, thiserror::Error)]

@@ -6,13 +6,13 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-use crate::canonical::to_canonical_json;
 use crate::error::SnapshotError;
 use crate::folder::Limits;
 use crate::manifest::{HEADER_LEAF, MANIFEST_FILE, Manifest};
 use crate::merkle::{self, Leaf, Proof};
 use crate::path::check_path;
 use engine::Digest;
+use report::canonical::to_canonical_json;
 
 /// The maximum size of a proof, in bytes: 4 MiB, enough for a game of some three thousand files.
 pub const MAX_PROOF: u64 = 4 << 20;

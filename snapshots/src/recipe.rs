@@ -2,7 +2,7 @@
 
 use crate::sealed::{self, Secret};
 use engine::{Digest, Game, Seed};
-use generators::levels::LevelConfig;
+use forge::games::Board;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GoalKind};
@@ -183,29 +183,6 @@ impl Known {
 
     fn is_empty(&self) -> bool {
         *self == Known::default()
-    }
-}
-
-/// The ranges that board sizes are drawn from, in cells, both ends inclusive.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Board {
-    /// Columns.
-    pub columns: (usize, usize),
-    /// Rows.
-    pub rows: (usize, usize),
-}
-
-impl Board {
-    /// The configuration for levels of these sizes.
-    pub fn levels(&self) -> LevelConfig {
-        LevelConfig { columns: self.columns, rows: self.rows, ..LevelConfig::default() }
-    }
-}
-
-impl Default for Board {
-    fn default() -> Board {
-        Board { columns: (10, 16), rows: (8, 11) }
     }
 }
 

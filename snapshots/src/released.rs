@@ -1,6 +1,5 @@
 //! The games of a verified release, parsed: the input of exports and comparisons.
 
-use crate::card::Card;
 use crate::contents::Contents;
 use crate::integrity::Integrity;
 use crate::manifest::{Kind, MANIFEST_FILE, Manifest};
@@ -9,6 +8,7 @@ use crate::verify::{Verification, verify};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
 use engine::{Episode, Game, Level};
+use forge::card::Card;
 use rayon::prelude::*;
 use std::path::Path;
 

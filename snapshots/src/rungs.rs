@@ -7,8 +7,8 @@
 //! confidence limits about effect measures: a general approach", 2008), as if the games of the two were independent
 //! samples. With fewer than about ten games, intervals are too narrow. The results are bit-identical on every machine.
 
-use crate::card::Card;
 use engine::Seed;
+use forge::card::Card;
 use serde::{Deserialize, Serialize};
 use statistics::{Interval, Z95, clustered_mean, wilson};
 use validators::Fared;
@@ -195,8 +195,8 @@ pub fn differences(ours: &[Card], theirs: &[Card]) -> Vec<RungDifference> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::card::{LevelCard, Origin};
     use engine::Digest;
+    use forge::card::{LevelCard, Origin};
     use validators::{Difficulty, Ladder, Rate};
 
     fn fared(player: &str, wins: u64, plays: u64) -> Fared {

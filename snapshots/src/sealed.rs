@@ -1,13 +1,14 @@
 //! Sealed releases: the seed is committed to beforehand and revealed later.
 
-use crate::canonical::{CanonicalError, canonical_digest};
 use crate::folder::{self, Limits};
 use crate::integrity::check_integrity;
 use crate::manifest::{MANIFEST_FILE, Manifest};
 use crate::papers::{self, PAPERS_LIMITS, PASSED_OVER};
-use crate::witness::{Step, Witness};
+use crate::witness::Witness;
 use crate::{Draft, SnapshotError};
 use engine::{Digest, Seed};
+use forge::games::Step;
+use report::canonical::{CanonicalError, canonical_digest};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeSet;

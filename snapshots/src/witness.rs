@@ -1,6 +1,7 @@
 //! `witness/lvl<n>.json`: an episode that proves that a level can be won.
 
 use engine::Episode;
+use forge::games::Step;
 use serde::{Deserialize, Serialize};
 
 /// The content of a witness file.
@@ -16,6 +17,3 @@ pub struct Witness {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Step>,
 }
-
-/// A step from a seed to a child: purpose and index.
-pub type Step = (String, u64);

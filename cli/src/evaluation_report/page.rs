@@ -8,7 +8,8 @@ use crate::failure::Failure;
 use crate::page::facts::Fact;
 use crate::page::words;
 use engine::Digest;
-use evaluation::study::{LeaderRow, Study, Table};
+use evaluation::study::{LeaderRow, Study};
+use report::Table;
 use serde::Serialize;
 
 const TEMPLATE: &str = include_str!("page.html");

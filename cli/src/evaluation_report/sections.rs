@@ -2,7 +2,8 @@
 
 use super::plots::{self, Group, Heats, Plot};
 use crate::page::words;
-use evaluation::study::{Study, Table, TableCell};
+use evaluation::study::Study;
+use report::{Table, TableCell};
 use serde::Serialize;
 
 /// The most rows of a table in the page; its file has all.

@@ -4,7 +4,8 @@ use super::Results;
 use crate::page::words;
 use evaluation::Evaluation;
 use evaluation::metrics::EpisodeStatus;
-use evaluation::study::{Study, Table, in_markdown};
+use evaluation::study::Study;
+use report::{Table, in_markdown};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The text at the head of page and Markdown.

@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use engine::{Analysis, Seed, State};
+use forge::games::report::ReportedGame;
 use render::{Looks, Picture, RenderError, Style, picture, png, sheet};
-use snapshots::games::report::ReportedGame;
 
 /// Games that are drawn at most; the tables tell of all.
 const MOST: usize = 120;

@@ -6,8 +6,8 @@ mod sections;
 
 use crate::failure::Failure;
 use crate::verbs::verify::failure;
+use forge::games::report::{GameSetReport, ReportedGame};
 use snapshots::Draft;
-use snapshots::games::report::{GameSetReport, ReportedGame};
 
 /// What the report does not hold, and its page needs.
 pub(crate) struct Showcase<'a> {

@@ -5,8 +5,8 @@ use super::{Showcase, sections};
 use crate::failure::Failure;
 use crate::page::facts::{Fact, Section};
 use crate::page::{Figure, words};
+use forge::games::report::{Difficulties, GameEntry, GameSetReport, Nearest, Variety};
 use serde::Serialize;
-use snapshots::games::report::{Difficulties, GameEntry, GameSetReport, Nearest, Variety};
 use std::collections::BTreeSet;
 use validators::Difficulty;
 

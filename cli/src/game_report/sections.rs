@@ -2,10 +2,10 @@
 
 use crate::page::facts::{Fact, Five, Section, five, section};
 use crate::page::words;
-use snapshots::games::report::{
+use forge::games::report::{
     Counted, Difficulties, GameSetReport, GamesCost, Mean, Novelty, Play, Rules, Skill, Variety,
 };
-use snapshots::levels::report::Share;
+use report::Share;
 
 /// What is looked at first.
 pub(super) fn headlines(report: &GameSetReport) -> Vec<Fact> {

@@ -1,8 +1,8 @@
 use super::*;
 use crate::embedded;
 use engine::{Game, Level, Seed};
+use forge::games::report::{GamesCost, GamesSample};
 use snapshots::CorpusGame;
-use snapshots::games::report::{GamesCost, GamesSample};
 use std::collections::BTreeMap;
 use std::path::Path;
 use validators::{Criteria, Panel};

@@ -4,8 +4,8 @@ use super::Pictures;
 use crate::failure::Failure;
 use crate::page::{Figure, words};
 use engine::{Game, Level, Seed};
+use forge::levels::report::{LevelRow, LevelSetReport};
 use render::{Looks, Picture, RenderError, Style, picture, png, sheet};
-use snapshots::levels::report::{LevelRow, LevelSetReport};
 
 /// Levels that are drawn at most; the tables tell of all.
 const MOST: usize = 120;

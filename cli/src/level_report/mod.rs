@@ -8,8 +8,8 @@ mod sections;
 use crate::failure::Failure;
 use crate::verbs::verify::failure;
 use engine::{Analysis, Level};
+use forge::levels::report::LevelSetReport;
 use snapshots::Draft;
-use snapshots::levels::report::LevelSetReport;
 
 /// What the report does not hold, and its pictures need.
 pub(crate) struct Pictures<'a> {

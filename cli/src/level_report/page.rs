@@ -5,8 +5,8 @@ use super::{Pictures, plots, sections};
 use crate::failure::Failure;
 use crate::page::facts::{Fact, Section};
 use crate::page::{Figure, words};
+use forge::levels::report::{BINS, Control, LevelRow, LevelSetReport, OF_PLAY, Range};
 use serde::Serialize;
-use snapshots::levels::report::{BINS, Control, LevelRow, LevelSetReport, OF_PLAY, Range};
 use std::collections::BTreeSet;
 
 const TEMPLATE: &str = include_str!("page.html");

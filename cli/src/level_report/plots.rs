@@ -2,7 +2,7 @@
 
 use crate::page::facts::number;
 use crate::page::words;
-use snapshots::levels::report::{Axis, BINS, Range};
+use forge::levels::report::{Axis, BINS, Range};
 use std::fmt::Write;
 
 /// Pixels of a heat map's plane.

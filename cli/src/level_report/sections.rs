@@ -2,7 +2,7 @@
 
 use crate::page::facts::{Beside, Fact, Section, five, section};
 use crate::page::words;
-use snapshots::levels::report::{
+use forge::levels::report::{
     Control, Diversity, Estimate, Expense, Fit, Hits, LevelSetReport, NEAR, Novelty, Rules, Share, Skill,
 };
 

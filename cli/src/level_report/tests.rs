@@ -1,7 +1,7 @@
 use super::*;
 use crate::input;
 use engine::Seed;
-use snapshots::levels::report::{Expense, Judged, Sample, Survey};
+use forge::levels::report::{Expense, Judged, Sample, Survey};
 use std::path::Path;
 use validators::{Criteria, Difficulty};
 

@@ -1,8 +1,8 @@
 //! Figures on a page: the answers to a question, each with its interval.
 
 use super::words;
+use report::{Quantiles, Share};
 use serde::Serialize;
-use snapshots::levels::report::{Quantiles, Share};
 
 /// A question with its answers.
 #[derive(Serialize)]

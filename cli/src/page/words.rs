@@ -1,6 +1,6 @@
 //! Figures in words.
 
-use snapshots::levels::report::{Quantiles, Share};
+use report::{Quantiles, Share};
 use validators::Difficulty;
 
 /// `95 %`, with a non-breaking space; a dash if there are no cases.

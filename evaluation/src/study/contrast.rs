@@ -3,8 +3,8 @@
 use crate::study::Study;
 use crate::study::player::{CONTEXTUAL, ZERO_SHOT};
 use crate::study::scores::Estimate;
-use crate::study::table::{Table, TableCell};
 use crate::study::{LEVEL, RESAMPLES, seed};
+use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{
     Stratum, Z95, benjamini_hochberg, clustered_difference, cohens_h, difference, fisher, stratified,

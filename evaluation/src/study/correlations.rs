@@ -2,7 +2,7 @@
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
-use crate::study::table::{Table, TableCell};
+use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{bonferroni, correlation_p, pearson, spearman};
 

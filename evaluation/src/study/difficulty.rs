@@ -2,7 +2,7 @@
 
 use crate::study::Study;
 use crate::study::scores::{Scores, mean};
-use crate::study::table::{Table, TableCell};
+use report::{Table, TableCell};
 use serde::Serialize;
 use std::fmt;
 

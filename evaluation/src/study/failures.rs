@@ -3,7 +3,7 @@
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
 use crate::study::scores::{StudyEpisode, mean};
-use crate::study::table::{Table, TableCell};
+use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{bonferroni, quantile, welch};
 use std::collections::BTreeMap;

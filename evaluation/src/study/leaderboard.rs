@@ -2,8 +2,8 @@
 
 use crate::metrics::{Choices, Spending};
 use crate::study::scores::{Estimate, Scores, mean};
-use crate::study::table::{Table, TableCell};
 use crate::study::{LEVEL, RESAMPLES, Study, seed};
+use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::clustered_mean;
 use std::collections::BTreeMap;

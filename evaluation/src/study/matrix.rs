@@ -3,7 +3,7 @@
 use crate::study::Study;
 use crate::study::player::{CONTEXTUAL, Player, ZERO_SHOT};
 use crate::study::scores::{Estimate, Scores, StudyEpisode};
-use crate::study::table::{Table, TableCell};
+use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::BTreeMap;
 

@@ -22,7 +22,6 @@ mod power;
 mod read;
 mod scores;
 mod sweep;
-mod table;
 mod taxonomy;
 mod times;
 
@@ -37,13 +36,13 @@ pub use power::{PowerRow, power, table as power_table};
 pub use read::PlayedLogs;
 pub use scores::{Estimate, Scores, StudyEpisode};
 pub use sweep::{Sweep, SweepRow};
-pub use table::{Table, TableCell, in_markdown};
 pub use taxonomy::TaxonomyRow;
 pub use times::TimeRow;
 
 use crate::metrics::EpisodeMetrics;
 use crate::subject::Subject;
 use engine::Seed;
+use report::Table;
 use serde::Serialize;
 
 /// The confidence level of all intervals.

@@ -1,7 +1,7 @@
 //! The statistical power of a number of episodes: planned before the run, or played.
 
 use crate::study::Study;
-use crate::study::table::{Table, TableCell};
+use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::Power;
 

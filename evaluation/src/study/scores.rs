@@ -1,7 +1,7 @@
 //! The scores of a set of episodes: of a player on a level, on a game, or on all.
 
 use crate::metrics::EpisodeMetrics;
-use crate::study::table::TableCell;
+use report::TableCell;
 use serde::Serialize;
 use statistics::{Interval, Z95, wilson};
 use std::collections::{BTreeMap, BTreeSet};

@@ -2,7 +2,7 @@
 
 use crate::study::Study;
 use crate::study::scores::{Estimate, Scores};
-use crate::study::table::{Table, TableCell};
+use report::{Table, TableCell};
 use serde::Serialize;
 
 /// The results of a player on all games of a kind.

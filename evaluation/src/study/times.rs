@@ -1,7 +1,7 @@
 //! The duration of decisions.
 
 use crate::study::Study;
-use crate::study::table::{Table, TableCell};
+use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::quantile;
 

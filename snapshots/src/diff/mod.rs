@@ -9,10 +9,10 @@ pub use items::{Change, Changes, Status};
 pub use neighbours::{Neighbours, Pair};
 pub use shifts::{DEALS, NumberShift, Share, Shift};
 
-use crate::card::Origin;
 use crate::released::{Released, ReleasedGame};
 use crate::rungs::{RungDifference, differences};
 use engine::{Analysis, Digest};
+use forge::card::Origin;
 use rayon::prelude::*;
 use serde::Serialize;
 use validators::{GameForm, GameKind};

@@ -1,8 +1,8 @@
 //! Distances between the games of one release and those of another, by their rules.
 
 use super::Compared;
-use crate::figures::Quantiles;
 use rayon::prelude::*;
+use report::Quantiles;
 use serde::Serialize;
 use validators::novelty::{NEAR, distance};
 

@@ -5,8 +5,8 @@
 //! Phipson and G. K. Smyth, "Permutation p-values should never be zero", 2010).
 
 use super::Compared;
-use crate::figures::Quantiles;
 use engine::Seed;
+use report::Quantiles;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

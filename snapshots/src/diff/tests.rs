@@ -1,11 +1,11 @@
 //! Releases of a few games whose differences are known.
 
 use super::*;
-use crate::card::Card;
 use crate::manifest::tests::example;
 use crate::released::ReleasedLevel;
 use crate::rungs::tests::card;
 use engine::Game;
+use forge::card::Card;
 
 /// A game of fetching gems. `names` are those of the gem, the foe and the ground character.
 fn source(names: [&str; 3], foe: &str) -> String {

@@ -2,7 +2,7 @@
 //! and the page (`docs/export.md`) follow this table.
 
 use super::item::Item;
-use crate::card::{LevelCard, Origin};
+use forge::card::{LevelCard, Origin};
 use validators::{Fared, Rate};
 
 /// The type of a column.

@@ -1,10 +1,10 @@
 //! The source of a row of an export: a level with its game, under the game's own theme or as a twin.
 
-use crate::card::{Card, LevelCard};
 use crate::manifest::Manifest;
 use crate::released::{ReleasedGame, ReleasedLevel};
 use crate::twin::{Twin, TwinError, TwinGame};
 use engine::{Analysis, Digest, Episode, Game};
+use forge::card::{Card, LevelCard};
 use std::borrow::Cow;
 use validators::{GameForm, GameKind};
 

@@ -12,9 +12,9 @@ mod table;
 
 pub use columns::{Column, Kind, Value, columns};
 
-use crate::card::Card;
 use crate::released::Released;
 use crate::twin::{self, Twin, TwinError};
+use forge::card::Card;
 use item::{Dress, Item};
 use page::Rows;
 use rayon::prelude::*;

@@ -4,8 +4,8 @@
 use super::columns::{Column, Kind};
 use super::item::Dress;
 use super::{Export, Format, SPLIT};
-use crate::card::{Card, Origin};
 use crate::released::Released;
+use forge::card::{Card, Origin};
 use std::fmt::Write;
 
 /// The rows that a card describes.

@@ -19,11 +19,11 @@ mod check;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
 use crate::error::SnapshotError;
 use crate::merkle::{self, Leaf};
 use crate::version::MintedBy;
 use engine::Digest;
+use report::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
 
 /// The snapshot format that this crate writes, and the newest that it reads.
 pub const FORMAT: u32 = 2;

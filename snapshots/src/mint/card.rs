@@ -1,10 +1,11 @@
 //! The `CARD.json` of a release: planned and achieved figures, the results of the ladder, novelty, and composition.
 
+use super::Plan;
 use super::select::{Bin, Contender, bins, is_new};
-use super::{Plan, Tally};
-use crate::card::{Card, Origin};
-use crate::figures::Quantiles;
 use crate::rungs::{RungRate, rates};
+use forge::Tally;
+use forge::card::{Card, Origin};
+use report::Quantiles;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write;

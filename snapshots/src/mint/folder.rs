@@ -3,15 +3,15 @@
 use super::card::ReleaseCard;
 use super::lot::FrozenGame;
 use super::{MintError, Plan};
-use crate::canonical::to_canonical_json;
-use crate::card::{Card, Origin};
-use crate::games::marked;
 use crate::manifest::{FORMAT, Item, Kind, Manifest};
 use crate::recipe::Recipe;
 use crate::sealed::{SECRET_FILE, Secret, held_witness};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
 use engine::syntax;
+use forge::card::{Card, Origin};
+use forge::games::marked;
+use report::canonical::to_canonical_json;
 use std::fmt::Write;
 
 /// The file that describes a release as a whole, for programs.

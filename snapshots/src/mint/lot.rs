@@ -1,11 +1,11 @@
 //! The result of a job, as data that can be stored and shipped.
 
-use super::tally::Tally;
-use crate::card::Card;
-use crate::games::FoundLevel;
-use crate::games::MadeGame;
-use crate::witness::Step;
 use engine::{Episode, Seed};
+use forge::Tally;
+use forge::card::Card;
+use forge::games::FoundLevel;
+use forge::games::MadeGame;
+use forge::games::Step;
 use serde::{Deserialize, Serialize};
 
 /// The games of a job; none if nothing passed.

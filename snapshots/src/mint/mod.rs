@@ -12,15 +12,15 @@ mod plan;
 mod select;
 mod shard;
 mod shelf;
-mod tally;
 
-use crate::card::Card;
 use crate::manifest::Manifest;
 use crate::recipe::RecipeError;
 use crate::sealed::Secret;
 use crate::{Digest, SnapshotError};
 pub use card::{Novelty, ReleaseCard, Rung};
 pub use folder::{RELEASE_CARD_FILE, Sink};
+use forge::Tally;
+use forge::card::Card;
 pub use lot::{FrozenGame, LotResult};
 pub use plan::{Lot, Plan};
 use rayon::prelude::*;
@@ -28,8 +28,6 @@ pub use select::Bin;
 use select::{Contender, select};
 pub use shard::{MergeError, SHARD_FILE, Shard, Shards};
 pub use shelf::{LotFolder, Memory, Shelf};
-pub use tally::Tally;
-pub(crate) use tally::reasons;
 use validators::CriteriaError;
 
 /// A release whose files have been written to the sink.
@@ -192,11 +190,11 @@ pub fn lay_out(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::card::Origin;
     use crate::corpus::{Corpus, CorpusCard, CorpusGame};
-    use crate::games::{GameEffort, GameOrder, make_games};
-    use crate::levels::Method;
     use crate::recipe::Recipe;
+    use forge::card::Origin;
+    use forge::games::{GameEffort, GameOrder, make_games};
+    use forge::levels::Method;
 
     /// A game of fetching the gem and leaving before time is up.
     pub(super) const FETCH: &str = "BasicGame
@@ -276,7 +274,8 @@ mod tests {
     #[test]
     fn every_way_of_making_games_leaves_a_way_from_the_seed_to_the_witness() {
         let check = |root: engine::Seed, game: &FrozenGame| {
-            let step = |seed: engine::Seed, (purpose, index): &crate::Step| seed.child(purpose, *index);
+            let step =
+                |seed: engine::Seed, (purpose, index): &forge::games::Step| seed.child(purpose, *index);
             assert_eq!(game.paths.len(), game.witnesses.len());
             for (path, witness) in game.paths.iter().zip(&game.witnesses) {
                 assert_eq!(path.iter().fold(root, step), witness.seed, "{path:?}");

@@ -7,12 +7,12 @@
 use super::MintError;
 use super::lot::FrozenGame;
 use super::plan::{Plan, apportion};
-use super::tally::reasons;
 use crate::Digest;
 use crate::ancestry::item;
-use crate::card::{Card, Origin};
 use crate::recipe::Recipe;
 use engine::{Analysis, Game};
+use forge::card::{Card, Origin};
+use forge::reasons;
 use generators::levels::Likeness;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

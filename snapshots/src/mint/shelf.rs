@@ -2,10 +2,10 @@
 //! process.
 
 use super::lot::LotResult;
-use crate::canonical::to_canonical_json;
 use crate::draft::sync::{create_folder, sync_folder};
 use crate::folder;
 use crate::{Digest, SnapshotError};
+use report::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -185,7 +185,7 @@ impl Shelf for LotFolder {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mint::Tally;
+    use forge::Tally;
 
     /// The names of the folder, of the plan's file and of the result are synced.
     #[test]

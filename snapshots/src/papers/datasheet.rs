@@ -1,10 +1,10 @@
 //! The datasheet of a release: the facts of its card under the headings of *Datasheets for Datasets* (Gebru et al.,
 //! 2021).
 
-use crate::card::Origin;
-use crate::figures::Quantiles;
 use crate::manifest::Kind;
 use crate::mint::{Minted, Rung};
+use forge::card::Origin;
+use report::Quantiles;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

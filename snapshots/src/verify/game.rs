@@ -2,13 +2,13 @@
 
 use super::numbers;
 use super::replay::{Meter, Replayed, replay};
-use crate::card::{Card, Origin};
 use crate::contents::Contents;
 use crate::manifest::{Kind, Manifest};
 use crate::sealed::{STRANGER, Secret, held_witness};
 use crate::witness::Witness;
 use crate::{Digest, SnapshotError};
 use engine::Game;
+use forge::card::{Card, Origin};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The maximum size of a `card.json`, in bytes: 1 MiB. Cards of twenty levels have a tenth of it.

@@ -3,8 +3,8 @@
 //! Nothing is replayed here, so a plausible number may still differ from the judges' result: `regenerate` detects
 //! that.
 
-use crate::card::LevelCard;
 use engine::{Level, MAX_TICKS};
+use forge::card::LevelCard;
 use statistics::{Z95, wilson};
 use validators::{Difficulty, Fared, Ladder, Rate};
 

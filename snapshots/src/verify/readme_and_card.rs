@@ -3,12 +3,12 @@
 use super::carries;
 use super::version::COMPLETE;
 use crate::SnapshotError;
-use crate::card::{Card, Origin};
 use crate::contents::Contents;
-use crate::figures::Quantiles;
 use crate::manifest::Manifest;
 use crate::mint::{RELEASE_CARD_FILE, ReleaseCard};
+use forge::card::{Card, Origin};
 use generators::GENERATION;
+use report::Quantiles;
 use serde_json::Value;
 use std::collections::BTreeMap;
 

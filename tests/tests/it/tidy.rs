@@ -18,14 +18,27 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("agents", &["engine"]),
     ("generators", &["engine"]),
     ("validators", &["engine", "agents", "statistics"]),
-    ("snapshots", &["engine", "agents", "generators", "validators", "statistics"]),
+    ("report", &["engine", "statistics"]),
+    ("forge", &["engine", "agents", "generators", "validators", "report", "statistics"]),
+    ("snapshots", &["engine", "agents", "generators", "validators", "forge", "report", "statistics"]),
     ("render", &["engine"]),
-    ("evaluation", &["engine", "agents", "render", "statistics"]),
+    ("evaluation", &["engine", "agents", "render", "report", "statistics"]),
     (
         "cli",
-        &["engine", "agents", "generators", "validators", "snapshots", "statistics", "render", "evaluation"],
+        &[
+            "engine",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "snapshots",
+            "report",
+            "statistics",
+            "render",
+            "evaluation",
+        ],
     ),
-    ("xtask", &["engine", "agents", "generators", "validators", "snapshots", "render", "statistics"]),
+    ("xtask", &["engine", "agents", "generators", "validators", "forge", "report", "render", "statistics"]),
 ];
 
 /// The crate that may depend on all others, because none depends on it.

@@ -2,8 +2,8 @@
 
 use anyhow::Context;
 use engine::Digest;
+use forge::games::survey::{Edge, GameRow};
 use serde::{Deserialize, Serialize};
-use snapshots::games::survey::{Edge, GameRow};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::fs::{self, OpenOptions};

@@ -1,6 +1,6 @@
 //! The comparison as a Markdown table.
 
-use snapshots::games::survey::{Comparison, Group, Line, Unit};
+use forge::games::survey::{Comparison, Group, Line, Unit};
 use std::fmt::Write;
 
 pub(super) fn markdown(comparison: &Comparison) -> String {

@@ -10,14 +10,14 @@ use crate::protected;
 use crate::verbs::release::in_pool;
 use crate::verbs::verify::failure;
 use engine::{Analysis, Game, Level, Seed, SpriteType};
+use forge::levels::report::{Expense, LevelSetReport, Sample, Survey};
+use forge::levels::{
+    LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels, unconstrained_pool,
+};
 use generators::levels::{Examples, LevelConfig};
 use indicatif::ProgressBar;
 use serde_json::json;
 use snapshots::Draft;
-use snapshots::levels::report::{Expense, LevelSetReport, Sample, Survey};
-use snapshots::levels::{
-    LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels, unconstrained_pool,
-};
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use crate::counted::count;
 use crate::shell;
-use snapshots::card::{Card, Origin};
+use forge::card::{Card, Origin};
 use snapshots::mint::Minted;
 use std::ffi::OsStr;
 use std::fmt::Write;

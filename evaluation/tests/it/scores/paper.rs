@@ -4,7 +4,8 @@
 use super::episode;
 use engine::Outcome;
 use evaluation::metrics::EpisodeMetrics;
-use evaluation::study::{CONTEXTUAL, Player, Scope, Study, TableCell, ZERO_SHOT};
+use evaluation::study::{CONTEXTUAL, Player, Scope, Study, ZERO_SHOT};
+use report::TableCell;
 use std::io::Write;
 use std::path::Path;
 

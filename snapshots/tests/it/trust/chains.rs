@@ -2,9 +2,9 @@
 
 use super::small::{Small, home, small};
 use engine::{Digest, Seed};
+use report::canonical::to_canonical_json;
 use serde_json::json;
 use snapshots::archive::pack;
-use snapshots::canonical::to_canonical_json;
 use snapshots::chain::{Chain, Link, follow};
 use snapshots::{SnapshotError, canary, verify};
 use std::fs;

@@ -1,11 +1,12 @@
 //! The smallest possible release: a game, a level, and a witness that wins it.
 
 use engine::{Action, Digest, Episode, Game, Outcome, Seed};
+use forge::Tally;
+use forge::card::{Card, LevelCard, Origin};
+use report::Quantiles;
+use report::canonical::to_canonical_json;
 use serde::Serialize;
-use snapshots::canonical::to_canonical_json;
-use snapshots::card::{Card, LevelCard, Origin};
-use snapshots::levels::report::Quantiles;
-use snapshots::mint::{Novelty, RELEASE_CARD_FILE, ReleaseCard, Tally};
+use snapshots::mint::{Novelty, RELEASE_CARD_FILE, ReleaseCard};
 use snapshots::{Draft, FORMAT, Item, Kind, MANIFEST_FILE, Manifest, Recipe, Witness, canary, follow};
 use statistics::{Z95, wilson};
 use std::collections::BTreeMap;

@@ -2,8 +2,8 @@
 
 use super::small::{Small, home, json, small, witness, won};
 use engine::Digest;
+use report::canonical::to_canonical_json;
 use serde_json::json;
-use snapshots::canonical::to_canonical_json;
 use snapshots::export::{Export, Format, export};
 use snapshots::released::Released;
 use snapshots::{

@@ -5,9 +5,9 @@
 use super::archives::compress;
 use super::small::{Small, home, small};
 use engine::{Sampler, Seed};
+use report::canonical::to_canonical_json;
 use serde_json::{Value, json};
 use snapshots::archive::pack;
-use snapshots::canonical::to_canonical_json;
 use snapshots::{MANIFEST_FILE, verify};
 use std::collections::BTreeMap;
 use std::fs;

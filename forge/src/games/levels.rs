@@ -1,7 +1,7 @@
 //! Levels for one game: candidates of the level generator until enough pass.
 
 use crate::card::LevelCard;
-use crate::mint::Tally;
+use crate::tally::Tally;
 use engine::{Digest, Episode, Game, Level, Seed};
 use generators::Generator;
 use generators::levels::{ConstructiveLevels, LevelConfig};
@@ -18,8 +18,8 @@ pub struct FoundLevel {
     pub difficulty: f64,
     /// Which candidate for its place it was, counted from 0.
     pub candidate: u32,
-    /// Where its judges' dice come from.
-    pub(crate) seed: Seed,
+    /// The seed of its judges.
+    pub seed: Seed,
 }
 
 /// The levels of a game, and what was found of all of them together.
@@ -34,23 +34,25 @@ pub struct FoundLevels {
 }
 
 /// The levels of one candidate game.
-pub(crate) struct Levels<'a> {
-    /// How many.
-    pub(crate) count: u32,
+pub struct Levels<'a> {
+    /// The number of levels.
+    pub count: u32,
     /// Candidates for each, at most.
-    pub(crate) tries: u32,
-    /// What they are to be like; each place asks for a difficulty of its own.
-    pub(crate) config: &'a LevelConfig,
-    pub(crate) criteria: &'a Criteria,
+    pub tries: u32,
+    /// The configuration of the generator; each place has a difficulty of its own.
+    pub config: &'a LevelConfig,
+    /// The criteria that each level and all levels together have to meet.
+    pub criteria: &'a Criteria,
     /// The judges of these criteria.
-    pub(crate) panel: &'a Panel,
-    pub(crate) seed: Seed,
+    pub panel: &'a Panel,
+    /// The seed of candidates and judges.
+    pub seed: Seed,
 }
 
 impl Levels<'_> {
     /// All levels that meet the criteria, with what was found of them together; None as soon as one cannot be had, or if the
     /// game does not meet a criterion on all of them together.
-    pub(crate) fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
+    pub fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
         let levels = self.each(game, tally)?;
         let together = self.together(game, &levels, self.seed.child("judges of the game", 0), tally)?;
         Some(self.told(game, levels, together, tally))

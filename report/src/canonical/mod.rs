@@ -83,10 +83,7 @@ pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, Can
 ///
 /// # Errors
 /// As for [`to_canonical_json`].
-pub(crate) fn is_canonical_json<T: Serialize + ?Sized>(
-    value: &T,
-    bytes: &[u8],
-) -> Result<bool, CanonicalError> {
+pub fn is_canonical_json<T: Serialize + ?Sized>(value: &T, bytes: &[u8]) -> Result<bool, CanonicalError> {
     let mut rest = Rest(bytes);
     Ok(write_all(value, &mut rest)?.is_ok() && rest.0.is_empty())
 }
@@ -95,7 +92,7 @@ pub(crate) fn is_canonical_json<T: Serialize + ?Sized>(
 ///
 /// # Errors
 /// As for [`to_canonical_json`].
-pub(crate) fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Digest, CanonicalError> {
+pub fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Digest, CanonicalError> {
     let mut hashed = Hashed(blake3::Hasher::new());
     write_all(value, &mut hashed)?.expect("a hasher takes all that is written to it");
     Ok(Digest::from_bytes(*hashed.0.finalize().as_bytes()))

@@ -1,7 +1,7 @@
 //! How many kinds of games are they?
 
 use super::entry::Judged;
-use crate::figures::Share;
+use report::Share;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::game_measures::{AvatarKind, GoalKind};

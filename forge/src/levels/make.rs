@@ -3,7 +3,7 @@
 use super::accept::{Gate, Judged};
 use super::look::Look;
 use super::order::{LevelOrder, Method};
-use crate::mint::reasons;
+use crate::tally::reasons;
 use engine::{Analysis, Digest, Game, Level, Seed};
 use generators::levels::{ConstructiveLevels, LevelConfig, LevelSearch, Likeness};
 use generators::{GenerateError, Generator};

@@ -17,10 +17,7 @@ mod shrink;
 pub mod report;
 pub mod survey;
 
-pub use candidate::MadeGame;
-pub(crate) use candidate::{Candidate, marked};
-pub(crate) use levels::Levels;
-pub use levels::{FoundLevel, FoundLevels};
-pub(crate) use make::make_one;
-pub use make::{GameSet, GamesError, Progress, make_games};
-pub use order::{GameEffort, GameOrder};
+pub use candidate::{Candidate, MadeGame, Step, marked};
+pub use levels::{FoundLevel, FoundLevels, Levels};
+pub use make::{GameSet, GamesError, Progress, make_games, make_one};
+pub use order::{Board, GameEffort, GameOrder};

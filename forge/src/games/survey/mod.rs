@@ -9,9 +9,9 @@ pub use compare::{Comparison, Group, LINES, Line, Unit};
 pub use edge::{Edge, SEARCH, ladder_order};
 pub use row::{GameRow, NO_LEVEL, NO_WIN};
 
-use crate::canonical::to_canonical_json;
 use engine::{Digest, Game, Level, Seed};
 use rayon::prelude::*;
+use report::canonical::to_canonical_json;
 use validators::{Criteria, CriteriaError, Panel, Report};
 
 /// A game to be judged.

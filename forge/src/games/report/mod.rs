@@ -18,11 +18,11 @@ pub use quality::{Play, Rules, Skill, Validity};
 pub use variety::{Counted, Kind, Variety};
 
 use super::survey::{GameRow, SurveyedGame};
-use crate::canonical::{CanonicalError, to_canonical_json};
-use crate::levels::report::Share;
 use engine::{Analysis, Digest, Game, Level, Seed};
 use entry::Judged;
 use rayon::prelude::*;
+use report::Share;
+use report::canonical::{CanonicalError, to_canonical_json};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::{Criteria, GameForm, GameKind, GameReport};

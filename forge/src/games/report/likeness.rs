@@ -1,9 +1,9 @@
 //! How far apart the games are by their rules: from each other, and from the corpus.
 
 use super::entry::{Judged, Nearest};
-use crate::figures::{Quantiles, Share};
 use engine::Digest;
 use rayon::prelude::*;
+use report::{Quantiles, Share};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use validators::novelty::{GameForm, distance};

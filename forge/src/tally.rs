@@ -22,14 +22,16 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub(crate) fn game_accepted(&mut self) {
+    /// Counts a game that passed.
+    pub fn game_accepted(&mut self) {
         self.games_tried += 1;
         self.games_accepted += 1;
     }
 
-    pub(crate) fn game_rejected(&mut self, why: &str) {
+    /// Counts a game that failed, by its reason up to the first colon.
+    pub fn game_rejected(&mut self, why: &str) {
         self.games_tried += 1;
-        // The generator's own words after the colon differ with every seed.
+        // After the colon the words of a generator differ with every seed.
         let kind = why.split(':').next().unwrap_or(why).to_owned();
         *self.rejections.entry(kind).or_default() += 1;
     }
@@ -54,7 +56,7 @@ impl Tally {
     }
 
     /// Adds the counts of another tally.
-    pub(crate) fn add(&mut self, other: &Tally) {
+    pub fn add(&mut self, other: &Tally) {
         self.games_tried += other.games_tried;
         self.games_accepted += other.games_accepted;
         self.levels_tried += other.levels_tried;
@@ -72,7 +74,7 @@ impl Tally {
 }
 
 /// Rejections in words, the most frequent first.
-pub(crate) fn reasons(rejections: &BTreeMap<String, u64>) -> String {
+pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
     let mut reasons: Vec<(&String, &u64)> = rejections.iter().collect();
     reasons.sort_by_key(|(why, count)| (std::cmp::Reverse(**count), *why));
     let words: Vec<String> = reasons.iter().map(|(why, count)| format!("{why} {count}")).collect();

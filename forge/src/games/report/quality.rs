@@ -3,9 +3,9 @@
 use super::ReportedGame;
 use super::entry::{Judged, obstacle};
 use super::figures::Mean;
-use crate::figures::{Quantiles, Share};
 use crate::games::survey::Edge;
 use crate::levels::report::PlayerRate;
+use report::{Quantiles, Share};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

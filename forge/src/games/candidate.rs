@@ -2,22 +2,31 @@
 
 use super::levels::{FoundLevel, FoundLevels};
 use crate::card::{Card, Origin};
-use crate::witness::Step;
 use engine::{Description, Episode, Game, syntax};
 use generators::GenerateError;
 use generators::games::GeneratedGame;
 use validators::Judgement;
 
+/// A step from a seed to a child: purpose and index.
+pub type Step = (String, u64);
+
 /// A candidate before it has levels.
 #[derive(Clone, Debug)]
-pub(crate) struct Candidate {
-    pub(crate) game: Game,
-    pub(crate) title: String,
-    pub(crate) description: String,
-    pub(crate) goal: String,
-    pub(crate) kind: String,
-    pub(crate) real_time: bool,
-    pub(crate) origin: Origin,
+pub struct Candidate {
+    /// The rules.
+    pub game: Game,
+    /// Title in the game's own fiction.
+    pub title: String,
+    /// A description of the game for people.
+    pub description: String,
+    /// The way to win, for people.
+    pub goal: String,
+    /// The kind of game.
+    pub kind: String,
+    /// `true` if anything moves unless the player acts.
+    pub real_time: bool,
+    /// The source of the game.
+    pub origin: Origin,
 }
 
 /// A game with its levels, all of which its judges let in.
@@ -36,7 +45,7 @@ pub struct MadeGame {
     /// The episode that wins each level.
     pub witnesses: Vec<Episode>,
     /// From the seed of the order to the one that the game's judges were given.
-    pub(crate) path: Vec<Step>,
+    pub path: Vec<Step>,
 }
 
 impl Candidate {
@@ -56,7 +65,7 @@ impl Candidate {
     }
 
     /// The game with its levels; none if its judges were not asked what cards tell.
-    pub(crate) fn finish(self, found: FoundLevels, canary: &str) -> Option<MadeGame> {
+    pub fn finish(self, found: FoundLevels, canary: &str) -> Option<MadeGame> {
         let Candidate { game, title, description, goal, kind, real_time, origin } = self;
         let mut tree = game.description().clone();
         tree.header.trivia.above.insert(0, title.clone());
@@ -84,7 +93,7 @@ impl Candidate {
 }
 
 /// The text of a game that is headed by its title, with the mark of a release below it; without, if there is none yet.
-pub(crate) fn marked(titled: &Description, canary: &str) -> String {
+pub fn marked(titled: &Description, canary: &str) -> String {
     let mut tree = titled.clone();
     if !canary.is_empty() {
         let below = tree.header.trivia.above.len().min(1);

@@ -1,13 +1,12 @@
 //! How games of each method are made.
 
-use super::candidate::MadeGame;
+use super::candidate::{MadeGame, Step};
 use super::gate::{Gate, NEAR_KNOWN};
 use super::look::{Looker, axes};
 use super::order::GameOrder;
 use crate::levels::Method;
-use crate::mint::Tally;
 use crate::striving::{Finalists, spread, strive};
-use crate::witness::Step;
+use crate::tally::Tally;
 use engine::{Analysis, Game, Seed};
 use generators::games::{GameConfig, GameGenome, GameVariation, Kind};
 use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Variation};
@@ -86,7 +85,7 @@ pub fn make_games(
 
 /// The game of this number of an order that is made one by one, if it can be made, whatever the others are like: known games
 /// only are kept apart from. Cost, and what decides it: as of [`make_games`].
-pub(crate) fn make_one(
+pub fn make_one(
     order: &GameOrder,
     known: &[GameForm],
     canary: &str,

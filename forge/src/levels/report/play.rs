@@ -1,8 +1,8 @@
 //! What the judges' verdicts and plays say of a set.
 
 use super::Judged;
-use crate::figures::{Estimate, Quantiles, Share};
 use engine::Game;
+use report::{Estimate, Quantiles, Share};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::{Fared, Ladder, Line, Verdict, is_guard};

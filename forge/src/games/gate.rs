@@ -4,7 +4,7 @@ use super::candidate::{Candidate, MadeGame};
 use super::levels::{FoundLevel, Levels};
 use super::order::GameOrder;
 use super::shrink::shrunk;
-use crate::mint::Tally;
+use crate::tally::Tally;
 use engine::{Analysis, Game, Seed};
 use generators::games::GameGenome;
 use std::collections::BTreeSet;

@@ -1,10 +1,10 @@
 //! How alike levels are: to each other, and to the game's own.
 
 use super::Judged;
-use crate::figures::{Estimate, Quantiles, Share};
 use engine::Digest;
 use generators::levels::Likeness;
 use rayon::prelude::*;
+use report::{Estimate, Quantiles, Share};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 

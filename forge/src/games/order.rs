@@ -1,8 +1,9 @@
 //! What is asked of a set of games.
 
 use crate::levels::Method;
-use crate::recipe::Board;
 use generators::games::Kind;
+use generators::levels::LevelConfig;
+use serde::{Deserialize, Serialize};
 use validators::{Criteria, CriteriaError};
 
 /// What is asked of a set of games.
@@ -28,6 +29,29 @@ pub struct GameOrder {
     pub criteria: Criteria,
     /// How much is tried.
     pub effort: GameEffort,
+}
+
+/// The sizes that boards are drawn from, in cells, both ends included.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Board {
+    /// Columns.
+    pub columns: (usize, usize),
+    /// Rows.
+    pub rows: (usize, usize),
+}
+
+impl Board {
+    /// Levels of these sizes.
+    pub fn levels(&self) -> LevelConfig {
+        LevelConfig { columns: self.columns, rows: self.rows, ..LevelConfig::default() }
+    }
+}
+
+impl Default for Board {
+    fn default() -> Board {
+        Board { columns: (10, 16), rows: (8, 11) }
+    }
 }
 
 /// How much is tried for one game.

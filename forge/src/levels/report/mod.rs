@@ -10,18 +10,18 @@ mod range;
 mod row;
 mod survey;
 
-pub use crate::figures::{Estimate, Quantiles, Share};
 pub use control::{Control, Hits};
 pub use likeness::{Diversity, NEAR, Novelty};
 pub use play::{Fit, Lengths, LineUse, PlayerRate, Rules, Skill, Solvability, Triviality, Validity};
 pub use range::{Axis, BINS, PAIRS, Range};
+pub use report::{Estimate, Quantiles, Share};
 pub use row::{LevelRow, OF_PLAY};
 pub use survey::Survey;
 
 use super::make::Cost;
-use crate::canonical::{CanonicalError, to_canonical_json};
 use engine::{Analysis, Digest, Level};
 use generators::levels::Likeness;
+use report::canonical::{CanonicalError, to_canonical_json};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::{Difficulty, Ladder, Measures, Report};

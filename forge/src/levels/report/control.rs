@@ -1,7 +1,7 @@
 //! Are the levels as hard as was asked for?
 
 use super::Judged;
-use crate::figures::Share;
+use report::Share;
 use serde::{Deserialize, Serialize};
 use validators::Difficulty;
 

@@ -23,7 +23,7 @@ impl Share {
     }
 
     /// The share of answers that are `true`.
-    pub(crate) fn yes(answers: impl IntoIterator<Item = bool>) -> Share {
+    pub fn yes(answers: impl IntoIterator<Item = bool>) -> Share {
         let (mut count, mut of) = (0, 0);
         for answer in answers {
             count += u64::from(answer);
@@ -55,7 +55,7 @@ const RESAMPLES: usize = 2000;
 
 impl Estimate {
     /// The mean of some values; `None` if there are none.
-    pub(crate) fn of(values: &[f64]) -> Option<Estimate> {
+    pub fn of(values: &[f64]) -> Option<Estimate> {
         let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
         let interval = bootstrap(values, mean, RESAMPLES, 0.95, [0; 32])?;
         let [low, high] = [interval.low, interval.high];
@@ -83,7 +83,7 @@ pub struct Quantiles {
 
 impl Quantiles {
     /// The quantiles of some values; `None` if there are none.
-    pub(crate) fn of(values: &[f64]) -> Option<Quantiles> {
+    pub fn of(values: &[f64]) -> Option<Quantiles> {
         let at = |share| quantile(values, share);
         Some(Quantiles {
             count: values.len() as u64,

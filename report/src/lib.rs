@@ -1,0 +1,11 @@
+//! The shared model of all reports: figures with their intervals, and tables as data with one renderer for each format.
+//!
+//! A report on levels, on games or on evaluations is a pure function that ends in these types; [`canonical`] writes it as JSON,
+//! [`Table`] as Markdown, CSV and LaTeX. Pages are put together by the binary.
+
+pub mod canonical;
+mod figures;
+mod table;
+
+pub use figures::{Estimate, Quantiles, Share};
+pub use table::{Table, TableCell, in_markdown};
