@@ -157,7 +157,8 @@ impl Console {
     }
 }
 
-/// Elapsed time, for remarks: the only clock of the workspace. No recorded output depends on it.
+/// Elapsed time, for remarks. No recorded output depends on it; all readers of clocks are listed in
+/// `tests/tests/it/tidy/clocks.rs`.
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {

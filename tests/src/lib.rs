@@ -1,7 +1,7 @@
 //! Helpers of the tests that span crates: the root and files of the workspace, and checks that must hold for any
 //! input ([`robustness`]).
 //!
-//! The tests themselves are in `tests/tests/`; `tidy.rs` there holds the rules that can be checked automatically.
+//! The tests themselves are in `tests/tests/it/`; `tidy/` there holds the rules that can be checked automatically.
 
 pub mod any_game;
 pub mod choices;

@@ -35,8 +35,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 /// The folders whose pages are known by their names, such as codes of diagnostics: they are listed without titles.
-const NAMED: [&str; 4] = ["diagnostics", "ontology/effects", "ontology/sprites", "ontology/terminations"];
-/// The folder whose pages are the last of those with titles.
+const NAMED: [&str; 5] =
+    ["diagnostics", "ontology/effects", "ontology/sprites", "ontology/terminations", "spec"];
+/// The folder whose pages come last of those with titles.
 const DECISIONS: &str = "decisions";
 /// The columns of a line of names.
 const COLUMNS: usize = 100;

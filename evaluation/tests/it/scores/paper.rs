@@ -1,12 +1,10 @@
-//! The published win rates in our report: `spec/06` §3, §3.1 and §5.1. The table lies beside the checkout; without it, these
-//! tests pass and print a message.
+//! The published win rates (`docs/spec/paper-winrates.csv`), through our report: `spec/06` §3, §3.1 and §5.1.
 
 use super::episode;
 use engine::Outcome;
 use evaluation::metrics::EpisodeMetrics;
 use evaluation::study::{CONTEXTUAL, Player, Scope, Study, ZERO_SHOT};
 use report::TableCell;
-use std::io::Write;
 use std::path::Path;
 
 /// The levels and runs of the main experiment.
@@ -16,12 +14,9 @@ const RUNS: u64 = 5;
 /// A row of the published table: the player, and its wins of 25 on each game.
 type Row = (Player, Vec<(String, u64)>);
 
-fn published() -> Option<Vec<Row>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/spec/paper-winrates.csv");
-    let Ok(mut reader) = csv::Reader::from_path(&path) else {
-        let _ = writeln!(std::io::stderr(), "SKIPPED: {} is not there", path.display());
-        return None;
-    };
+fn published() -> Vec<Row> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/spec/paper-winrates.csv");
+    let mut reader = csv::Reader::from_path(path).unwrap();
     let games: Vec<String> = reader.headers().unwrap().iter().skip(2).map(str::to_owned).collect();
     let row = |record: csv::StringRecord| {
         let player = match &record[1] {
@@ -33,7 +28,7 @@ fn published() -> Option<Vec<Row>> {
             record.iter().skip(2).map(|rate| (rate.parse::<f64>().unwrap() * 25.0 / 100.0).round() as u64);
         (player, games.iter().cloned().zip(wins).collect())
     };
-    Some(reader.records().map(|record| row(record.unwrap())).collect())
+    reader.records().map(|record| row(record.unwrap())).collect()
 }
 
 /// Returns episodes with these wins, dealt to levels in turn.
@@ -80,7 +75,7 @@ const PRINTED: [(u64, &str); 21] = [
 
 #[test]
 fn wilson_table() {
-    let Some(rows) = published() else { return };
+    let rows = published();
     let study = study(&rows, |_| true);
     let mut compared = 0;
     for scope in [Scope::ZeroShot, Scope::Contextual] {
@@ -113,7 +108,7 @@ fn wilson_table() {
 
 #[test]
 fn sums() {
-    let Some(rows) = published() else { return };
+    let rows = published();
     let study = study(&rows, |player| !player.is_reference());
     let of = |mode: &str| {
         let rows =
@@ -151,7 +146,7 @@ fn sums() {
 /// With 25 episodes a side there are effects of the prompt, which five a side cannot show.
 #[test]
 fn prompts_matter() {
-    let Some(rows) = published() else { return };
+    let rows = published();
     let study = study(&rows, |_| true);
     assert_eq!((study.modes.by_game.len(), study.modes.by_level.len()), (36, 180));
     let found = |name: &str| {
@@ -172,7 +167,7 @@ fn prompts_matter() {
 
 #[test]
 fn pairs_of_models() {
-    let Some(rows) = published() else { return };
+    let rows = published();
     let study = study(&rows, |player| player.mode.as_deref() == Some(ZERO_SHOT));
     assert_eq!(
         (study.pairs.by_game.len(), study.pairs.by_level.len(), study.pairs.overall.len()),

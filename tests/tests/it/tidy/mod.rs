@@ -3,6 +3,10 @@
 //!
 //! Every message reads `file:line: the problem; the repair`, and a test reports all problems at once.
 
+mod citations;
+mod clocks;
+mod dependencies;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -411,6 +415,8 @@ struct Dependency {
     package: String,
     /// `true` for a dependency of tests, examples and benches only.
     development: bool,
+    /// Whether its version is that of `[workspace.dependencies]`.
+    inherited: bool,
     line: usize,
 }
 
@@ -446,6 +452,7 @@ fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
                 dependencies.push(Dependency {
                     package: own.or_else(inherited).unwrap_or(written).to_owned(),
                     development: section == "dev-dependencies",
+                    inherited: inherits(value.get_ref()),
                     line: source[..name.span().start].matches('\n').count() + 1,
                 });
             }
@@ -459,6 +466,12 @@ fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
 /// Returns the `package = "..."` of a dependency, if it is renamed.
 fn renamed<'a>(dependency: &'a DeValue<'_>) -> Option<&'a str> {
     dependency.as_table().and_then(|table| get(table, "package")).and_then(DeValue::as_str)
+}
+
+/// Whether a dependency says `workspace = true`.
+fn inherits(dependency: &DeValue<'_>) -> bool {
+    let workspace = dependency.as_table().and_then(|table| get(table, "workspace"));
+    workspace.and_then(DeValue::as_bool).unwrap_or(false)
 }
 
 fn get<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<&'a DeValue<'i>> {

@@ -1,0 +1,402 @@
+//! Citations in comments and pages: sections of `docs/spec`, files of `docs/`, decisions by number.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use tests::{read, workspace_files};
+
+use super::report;
+
+/// The folder of the specification's pages, `01-….md` and so on.
+const PAGES: &str = "docs/spec";
+
+/// The notes of the time before the repository, which a comment must not name: in two halves for this file's sake.
+const NOTES: &str = concat!("design", ".md");
+
+#[test]
+fn citations_resolve() {
+    let tree = Tree::of_the_workspace();
+    let mut problems = Vec::new();
+    for file in workspace_files() {
+        if let Some(kind) = Kind::of(&file) {
+            let name = file.to_string_lossy();
+            let own = tree.spec_page(&name);
+            for block in blocks(&read(&file), kind) {
+                let found = block.problems(&tree, own);
+                problems.extend(found.into_iter().map(|(line, problem)| format!("{name}:{line}: {problem}")));
+            }
+        }
+    }
+    report(problems);
+}
+
+#[test]
+fn wrong_citations_are_found() {
+    let tree = Tree {
+        pages: BTreeMap::from([
+            (
+                "01".to_owned(),
+                Page::read("## 1. Files\n1. a\n2. b\n### 1.10 Values\n## 10. Quirks\n| K-1 | x |\n"),
+            ),
+            ("02".to_owned(), Page::read("## 17. Vectors\n**T5** x **T14** y\n")),
+            ("05".to_owned(), Page::read("## A2. Analysis\n### A6.1 Rules\n")),
+        ]),
+        paths: ["docs/metrics.md", "docs/ontology/README.md"].map(str::to_owned).into(),
+        decisions: BTreeSet::from(["0005".to_owned()]),
+    };
+    let check = |comment: &str, expect: &[&str]| {
+        let source = format!("fn f() {{}} // {comment}\n");
+        let found = blocks(&source, Kind::Slashes).into_iter().flat_map(|block| block.problems(&tree, None));
+        let found: Vec<String> = found.map(|(_, problem)| problem).collect();
+        assert_eq!(found.len(), expect.len(), "{comment}: {found:?}");
+        for (found, expect) in found.iter().zip(expect) {
+            assert!(found.contains(expect), "{comment}: {found}");
+        }
+    };
+    check("As in `spec/01`.", &[]);
+    check("As in `spec/01` §1, §10 K-1; `spec/02` §17: T5 and T14, and 3 more.", &[]);
+    check("As in spec/01 §1, steps 1–2, `spec/05` A2 and A6.1.", &[]);
+    check("See `docs/metrics.md`, docs/ontology/**.md, decision 0005 (`decisions/0005`).", &[]);
+    check("See https://example.org/docs/none.md and old_docs/none.md.", &[]);
+    check("As in `spec/03` §1.", &["no page `spec/03`"]);
+    check("As in `spec/01` §2–§1.10", &["`spec/01` has no §2"]);
+    check("As in `spec/01` §1 and §1.11: x", &["`spec/01` has no §1.11"]);
+    check("As in `spec/02` §17, T5–T15", &["`spec/02` §17 has no T15"]);
+    check("As in `spec/01` §10 K-2", &["`spec/01` §10 has no K-2"]);
+    check("As in `spec/01` §1, step 3", &["`spec/01` §1 has no step 3"]);
+    check("As in `spec/05` A3", &["`spec/05` has no A3"]);
+    check("See `docs/none.md` or docs/metrics.md.", &["no file `docs/none.md`"]);
+    check("See decisions/0006 or decision 0007.", &["no decision 0006", "no decision 0007"]);
+    check(&format!("See {NOTES}, §4."), &["is not in the repository"]);
+}
+
+#[test]
+fn citations_are_read_from_comments_only() {
+    let source =
+        "//! As in `spec/01`\n//! §1,\n//! §9.\nlet a = \"spec/77 // spec/88\";\nlet b = 1; // spec/99\n";
+    let tree = Tree {
+        pages: BTreeMap::from([("01".to_owned(), Page::read("## 1. Files\n"))]),
+        paths: BTreeSet::new(),
+        decisions: BTreeSet::new(),
+    };
+    let found: Vec<(usize, String)> =
+        blocks(source, Kind::Slashes).into_iter().flat_map(|block| block.problems(&tree, None)).collect();
+    let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
+    assert_eq!(lines, [3, 5], "{found:?}");
+}
+
+/// What citations can lead to.
+struct Tree {
+    /// Pages of the specification by their two digits.
+    pages: BTreeMap<String, Page>,
+    /// Files below `docs/`.
+    paths: BTreeSet<String>,
+    /// Decisions by their four digits.
+    decisions: BTreeSet<String>,
+}
+
+impl Tree {
+    fn of_the_workspace() -> Tree {
+        let mut tree = Tree { pages: BTreeMap::new(), paths: BTreeSet::new(), decisions: BTreeSet::new() };
+        for file in workspace_files().into_iter().filter(|file| file.starts_with("docs")) {
+            let name = file.file_name().expect("a file has a name").to_string_lossy().into_owned();
+            let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
+            let folder = file.parent().expect("a file lies in a folder");
+            if folder == Path::new(PAGES) && digits.len() == 2 {
+                tree.pages.insert(digits, Page::read(&read(&file)));
+            } else if folder == Path::new("docs/decisions") && digits.len() == 4 {
+                tree.decisions.insert(digits);
+            }
+            tree.paths.insert(file.to_string_lossy().into_owned());
+        }
+        tree
+    }
+
+    /// The digits of the specification's page that a file is.
+    fn spec_page<'a>(&self, file: &'a str) -> Option<&'a str> {
+        let name = file.strip_prefix(PAGES)?.strip_prefix('/')?;
+        let digits = name.get(..2)?;
+        self.pages.contains_key(digits).then_some(digits)
+    }
+
+    /// Whether a path below `docs/` is a file or a folder.
+    fn has(&self, path: &str) -> bool {
+        let path = path.trim_end_matches('/');
+        let within = format!("{path}/");
+        path == "docs" || self.paths.contains(path) || self.paths.iter().any(|file| file.starts_with(&within))
+    }
+}
+
+/// The sections of a page by number, each with its text up to the next heading of its level or above.
+struct Page {
+    sections: BTreeMap<String, String>,
+}
+
+impl Page {
+    fn read(text: &str) -> Page {
+        let mut sections: BTreeMap<String, String> = BTreeMap::new();
+        // The open sections, outermost first, with their levels.
+        let mut open: Vec<(usize, String)> = Vec::new();
+        for line in text.lines() {
+            let level = line.chars().take_while(|c| *c == '#').count();
+            if level > 0 && line[level..].starts_with(' ') {
+                open.retain(|(outer, _)| *outer < level);
+                if let Some((number, _)) = section(line[level..].trim_start()) {
+                    sections.insert(number.to_owned(), String::new());
+                    open.push((level, number.to_owned()));
+                }
+            }
+            for (_, number) in &open {
+                let text = sections.get_mut(number).expect("an open section is listed");
+                text.push_str(line);
+                text.push('\n');
+            }
+        }
+        Page { sections }
+    }
+
+    /// Whether a section has a row, a vector or a numbered step.
+    fn has(&self, section: &str, mark: &str) -> bool {
+        let Some(text) = self.sections.get(section) else { return false };
+        match mark.strip_prefix("step ") {
+            Some(step) => text.lines().any(|line| line.trim_start().starts_with(&format!("{step}. "))),
+            None => text.contains(&format!("| {mark} |")) || text.contains(&format!("**{mark}**")),
+        }
+    }
+}
+
+/// How a file marks its comments.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// `//`.
+    Slashes,
+    /// `#`.
+    Hash,
+    /// All of it is prose.
+    Prose,
+}
+
+impl Kind {
+    /// The kind of a file that people write, by its name; scripts have no ending.
+    fn of(file: &Path) -> Option<Kind> {
+        let Some(extension) = file.extension() else {
+            let script = file.starts_with("scripts") || file.starts_with(".ci");
+            return script.then_some(Kind::Hash);
+        };
+        match extension.to_str()? {
+            "rs" | "pest" => Some(Kind::Slashes),
+            "toml" | "vgdl" | "py" | "sh" => Some(Kind::Hash),
+            "md" => Some(Kind::Prose),
+            _ => None,
+        }
+    }
+
+    /// The comment of a line, if it has one.
+    fn comment(self, line: &str) -> Option<&str> {
+        let mark = match self {
+            Kind::Slashes => "//",
+            Kind::Hash => "#",
+            Kind::Prose => return Some(line),
+        };
+        // A mark within a string does not begin a comment: before a comment, quotes come in pairs.
+        let quotes = |before: &str| before.matches('"').count() - before.matches("\\\"").count();
+        let mut starts = line.match_indices(mark).map(|(start, _)| start);
+        let start = starts.find(|start| quotes(&line[..*start]).is_multiple_of(2))?;
+        Some(line[start..].trim_start_matches(['/', '!', '#']))
+    }
+}
+
+/// Comment lines without code between them, as one text.
+struct Block {
+    text: String,
+    /// Where each line begins in the text, and its number in the file.
+    lines: Vec<(usize, usize)>,
+}
+
+fn blocks(source: &str, kind: Kind) -> Vec<Block> {
+    let mut blocks: Vec<Block> = Vec::new();
+    let mut last = 0;
+    for (line, number) in source.lines().zip(1..) {
+        let Some(comment) = kind.comment(line) else { continue };
+        // Code before a comment parts it from the one above.
+        let alone = kind == Kind::Prose || line.trim_start().starts_with(['/', '#']);
+        if blocks.is_empty() || last + 1 != number || !alone {
+            blocks.push(Block { text: String::new(), lines: Vec::new() });
+        }
+        last = number;
+        let block = blocks.last_mut().expect("there is one by now");
+        block.lines.push((block.text.len(), number));
+        block.text.push_str(comment);
+        block.text.push(' ');
+    }
+    blocks
+}
+
+impl Block {
+    /// The line of the file at a place of the text.
+    fn line(&self, at: usize) -> usize {
+        self.lines.iter().rev().find(|(start, _)| *start <= at).map_or(1, |(_, line)| *line)
+    }
+
+    /// What is wrong with the citations, each with its line; `own` is the page of the specification that the block is part of.
+    fn problems(&self, tree: &Tree, own: Option<&str>) -> Vec<(usize, String)> {
+        let mut problems = Vec::new();
+        for (at, _) in self.text.match_indices("spec/") {
+            let rest = &self.text[at + "spec/".len()..];
+            let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+            // Not a path to a page, which is looked up as one.
+            if digits.len() == 2 && !rest[2..].starts_with('-') && !self.text[..at].ends_with(path_character)
+            {
+                self.sections(tree, &digits, at + "spec/".len() + 2, &mut problems);
+            }
+        }
+        if let Some(own) = own {
+            self.own_sections(tree, own, &mut problems);
+        }
+        for (at, _) in self.text.match_indices("docs/") {
+            if self.text[..at].ends_with(path_character) {
+                continue;
+            }
+            let path: String = self.text[at..].chars().take_while(|c| path_character(*c)).collect();
+            let path = path.trim_end_matches(['.', '/']);
+            if !tree.has(path) {
+                problems.push((self.line(at), format!("there is no file `{path}`; name one that exists")));
+            }
+        }
+        for start in ["decisions/", "decision "] {
+            for (at, _) in self.text.match_indices(start) {
+                let number: String =
+                    self.text[at + start.len()..].chars().take_while(char::is_ascii_digit).collect();
+                if number.len() == 4 && number.starts_with('0') && !tree.decisions.contains(&number) {
+                    let problem = format!("there is no decision {number}; name a page of docs/decisions");
+                    problems.push((self.line(at), problem));
+                }
+            }
+        }
+        for (at, _) in self.text.match_indices(NOTES) {
+            problems.push((
+                self.line(at),
+                format!("{NOTES} is not in the repository; name a page of docs/ or ARCHITECTURE.md"),
+            ));
+        }
+        problems
+    }
+
+    /// Follows a list of sections and marks after the name of a page, such as "§1, §10 K-1 and §1.3–§1.9".
+    fn sections(&self, tree: &Tree, page: &str, at: usize, problems: &mut Vec<(usize, String)>) {
+        let Some(sections) = tree.pages.get(page) else {
+            let problem = format!("there is no page `spec/{page}`; cite one of {PAGES}");
+            problems.push((self.line(at), problem));
+            return;
+        };
+        let mut rest = &self.text[at..];
+        let mut section_cited: Option<String> = None;
+        loop {
+            rest = after_separators(rest);
+            let here = self.line(self.text.len() - rest.len());
+            let lettered =
+                rest.starts_with(|c: char| c.is_ascii_uppercase()).then(|| section(rest)).flatten();
+            if let Some((number, after)) = rest.strip_prefix('§').and_then(section).or(lettered) {
+                if sections.sections.contains_key(number) {
+                    section_cited = Some(number.to_owned());
+                } else {
+                    let sign = if lettered.is_some() { "" } else { "§" };
+                    problems.push((
+                        here,
+                        format!("`spec/{page}` has no {sign}{number}; cite a section of {PAGES}/{page}-….md"),
+                    ));
+                    section_cited = None;
+                }
+                rest = after;
+            } else if let Some((marks, after)) = marks(rest) {
+                for mark in marks {
+                    if section_cited.as_ref().is_some_and(|section| !sections.has(section, &mark)) {
+                        let section = section_cited.as_deref().unwrap_or_default();
+                        problems.push((
+                            here,
+                            format!(
+                                "`spec/{page}` §{section} has no {mark}; cite a row that {PAGES}/{page}-….md has"
+                            ),
+                        ));
+                    }
+                }
+                rest = after;
+            } else {
+                return;
+            }
+        }
+    }
+
+    /// Follows the references of a page of the specification to its own sections, `§4.1`, and to those of others, `02 §15`.
+    fn own_sections(&self, tree: &Tree, own: &str, problems: &mut Vec<(usize, String)>) {
+        for (at, sign) in self.text.match_indices('§') {
+            let Some((number, _)) = section(&self.text[at + sign.len()..]) else { continue };
+            let before = self.text[..at].trim_end();
+            let page =
+                before.get(before.len().saturating_sub(2)..).filter(|page| tree.pages.contains_key(*page));
+            let spelled = before.len() < 3 || !before[..before.len() - 2].ends_with(path_character);
+            let page = page.filter(|_| spelled).unwrap_or(own);
+            if !tree.pages.get(page).is_some_and(|page| page.sections.contains_key(number)) {
+                problems.push((
+                    self.line(at),
+                    format!("page {page} has no §{number}; correct the number, or name the page before it"),
+                ));
+            }
+        }
+    }
+}
+
+fn path_character(c: char) -> bool {
+    c.is_alphanumeric() || matches!(c, '/' | '.' | '-' | '_')
+}
+
+/// The number of a section at the start of a text, such as `4`, `1.6.3` or `A6.1`, and what follows it.
+fn section(text: &str) -> Option<(&str, &str)> {
+    let letters = usize::from(text.starts_with('A'));
+    let mut end = letters;
+    for (at, c) in text.char_indices().skip(letters) {
+        let next = text[at + c.len_utf8()..].chars().next();
+        let dot = c == '.' && at > letters && next.is_some_and(|next| next.is_ascii_digit());
+        if !c.is_ascii_digit() && !dot {
+            break;
+        }
+        end = at + 1;
+    }
+    (end > letters).then(|| text.split_at(end))
+}
+
+/// A mark at the start of a text, or the two ends of a range: `T9`, `K-16`, `Q35–Q58`, `steps 2–5`; and what follows.
+fn marks(text: &str) -> Option<(Vec<String>, &str)> {
+    let number = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    for (written, prefix) in [("K-", "K-"), ("T", "T"), ("Q", "Q"), ("steps ", "step "), ("step ", "step ")] {
+        let Some(rest) = text.strip_prefix(written) else { continue };
+        let end = number(rest);
+        if end == 0 {
+            continue;
+        }
+        let mut marks = vec![format!("{prefix}{}", &rest[..end])];
+        let mut after = &rest[end..];
+        if let Some(to) = after.strip_prefix(['–', '-']) {
+            let to = to.strip_prefix(written).unwrap_or(to);
+            let end = number(to);
+            if end > 0 {
+                marks.push(format!("{prefix}{}", &to[..end]));
+                after = &to[end..];
+            }
+        }
+        return Some((marks, after));
+    }
+    None
+}
+
+/// A text past what parts the members of a list.
+fn after_separators(mut text: &str) -> &str {
+    loop {
+        let shorter = text.trim_start_matches(|c: char| c.is_whitespace() || "`,;:–-".contains(c));
+        let shorter = shorter.strip_prefix("and ").or_else(|| shorter.strip_prefix("to ")).unwrap_or(shorter);
+        if shorter.len() == text.len() {
+            return text;
+        }
+        text = shorter;
+    }
+}

@@ -1,0 +1,52 @@
+//! Where clocks are read: in few files, none of which makes a game, a level, a verdict or a move.
+
+use tests::rust_files;
+
+use super::report;
+
+/// The files that read a clock, each with what the time is for.
+const READERS: &[(&str, &str)] = &[
+    ("agents/benches/batch.rs", "a benchmark"),
+    ("cli/src/console.rs", "seconds in remarks"),
+    ("cli/src/verbs/clean/leftover.rs", "the age of leftover files"),
+    ("evaluation/src/client/clock.rs", "waits between requests, and their latency"),
+    ("evaluation/src/run/clock.rs", "times in logs, and the time limits of programs that play"),
+    ("xtask/src/bench.rs", "benchmarks"),
+    ("xtask/src/course.rs", "benchmarks"),
+    ("xtask/src/survey/mod.rs", "the time that a generator takes"),
+];
+
+/// The calls that read a clock; in two halves, so that this file is not found to read one.
+const READS: [&str; 4] = [
+    concat!("Instant", "::now"),
+    concat!("SystemTime", "::now"),
+    concat!("ProcessTime", "::now"),
+    concat!("ThreadTime", "::now"),
+];
+
+#[test]
+fn clocks_are_read_in_listed_files_only() {
+    let mut problems = Vec::new();
+    let mut found = Vec::new();
+    for (file, text) in rust_files() {
+        for (line, number) in text.lines().zip(1..) {
+            let comment = line.trim_start().starts_with("//");
+            let Some(read) = READS.iter().find(|read| !comment && line.contains(**read)) else { continue };
+            match READERS.iter().find(|(reader, _)| file.as_path() == *reader) {
+                Some((reader, _)) => found.push(*reader),
+                None => problems.push(format!(
+                    "{}:{number}: reads a clock (`{read}`); take the time from one of the readers, or give the \
+                     file a row in READERS in {}",
+                    file.display(),
+                    file!()
+                )),
+            }
+        }
+    }
+    for (reader, purpose) in READERS {
+        if !found.contains(reader) {
+            problems.push(format!("{}: {reader} reads no clock ({purpose}); remove its row", file!()));
+        }
+    }
+    report(problems);
+}
