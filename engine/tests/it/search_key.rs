@@ -1,4 +1,4 @@
-//! The differences between two states that change the search key, and those that do not. (`tests/tests/robustness.rs`
+//! The differences between two states that change the search key, and those that do not. (`tests/tests/it/robustness.rs`
 //! checks that equal keys have equal futures in any game.)
 
 use engine::{Action, Game, Level, Seed, State};

@@ -27,7 +27,7 @@
 //! number, the rounds by the number of cells examined. Beyond that the answer is coarse: every type that can occur is
 //! everywhere.
 //!
-//! Tests check by playing (`tests/tests/analysis`) that nothing is ever outside its reach, in handwritten and in random
+//! Tests check by playing (`tests/tests/it/analysis`) that nothing is ever outside its reach, in handwritten and in random
 //! games.
 
 mod cells;

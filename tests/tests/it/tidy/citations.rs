@@ -1,4 +1,4 @@
-//! Citations in comments and pages: sections of `docs/spec`, files of `docs/`, decisions by number.
+//! Citations in comments and pages: sections of `docs/spec`, files of the repository, decisions by number.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -22,7 +22,8 @@ fn citations_resolve() {
             let name = file.to_string_lossy();
             let own = tree.spec_page(&name);
             for block in blocks(&read(&file), kind) {
-                let found = block.problems(&tree, own);
+                let mut found = block.problems(&tree, own);
+                found.extend(block.missing_files(&tree, &file));
                 problems.extend(found.into_iter().map(|(line, problem)| format!("{name}:{line}: {problem}")));
             }
         }
@@ -41,7 +42,7 @@ fn wrong_citations_are_found() {
             ("02".to_owned(), Page::read("## 17. Vectors\n**T5** x **T14** y\n")),
             ("05".to_owned(), Page::read("## A2. Analysis\n### A6.1 Rules\n")),
         ]),
-        paths: ["docs/metrics.md", "docs/ontology/README.md"].map(str::to_owned).into(),
+        paths: ["docs/metrics.md", "docs/ontology", "docs/ontology/README.md"].map(str::to_owned).into(),
         decisions: BTreeSet::from(["0005".to_owned()]),
     };
     let check = |comment: &str, expect: &[&str]| {
@@ -85,11 +86,25 @@ fn citations_are_read_from_comments_only() {
     assert_eq!(lines, [3, 5], "{found:?}");
 }
 
+#[test]
+fn paths_that_lead_nowhere_are_found() {
+    let paths =
+        ["engine", "engine/Cargo.toml", "engine/src", "engine/src/step.rs", "cli/Cargo.toml", "cli/cli/a.rs"];
+    let tree =
+        Tree { pages: BTreeMap::new(), paths: paths.map(str::to_owned).into(), decisions: BTreeSet::new() };
+    let source = "/// `engine/src/step.rs`, `engine/src/`, `cli/a.rs`, `a/b`, `engine::step/x`;\n/// not `engine/src/leap.rs`.\n";
+    let found = blocks(source, Kind::Slashes);
+    let found = found.iter().flat_map(|block| block.missing_files(&tree, Path::new("cli/src/main.rs")));
+    let found: Vec<(usize, String)> = found.collect();
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].0 == 2 && found[0].1.contains("`engine/src/leap.rs`"), "{found:?}");
+}
+
 /// What citations can lead to.
 struct Tree {
     /// Pages of the specification by their two digits.
     pages: BTreeMap<String, Page>,
-    /// Files below `docs/`.
+    /// All files and folders of the repository.
     paths: BTreeSet<String>,
     /// Decisions by their four digits.
     decisions: BTreeSet<String>,
@@ -98,7 +113,7 @@ struct Tree {
 impl Tree {
     fn of_the_workspace() -> Tree {
         let mut tree = Tree { pages: BTreeMap::new(), paths: BTreeSet::new(), decisions: BTreeSet::new() };
-        for file in workspace_files().into_iter().filter(|file| file.starts_with("docs")) {
+        for file in workspace_files() {
             let name = file.file_name().expect("a file has a name").to_string_lossy().into_owned();
             let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
             let folder = file.parent().expect("a file lies in a folder");
@@ -107,7 +122,8 @@ impl Tree {
             } else if folder == Path::new("docs/decisions") && digits.len() == 4 {
                 tree.decisions.insert(digits);
             }
-            tree.paths.insert(file.to_string_lossy().into_owned());
+            let all = file.ancestors().filter(|path| !path.as_os_str().is_empty());
+            tree.paths.extend(all.map(|path| path.to_string_lossy().into_owned()));
         }
         tree
     }
@@ -119,11 +135,21 @@ impl Tree {
         self.pages.contains_key(digits).then_some(digits)
     }
 
-    /// Whether a path below `docs/` is a file or a folder.
+    /// Whether a path of the repository is a file or a folder.
     fn has(&self, path: &str) -> bool {
-        let path = path.trim_end_matches('/');
-        let within = format!("{path}/");
-        path == "docs" || self.paths.contains(path) || self.paths.iter().any(|file| file.starts_with(&within))
+        self.paths.contains(path.trim_end_matches('/'))
+    }
+
+    /// Whether a path leads to a file or folder from the root, from the file that cites it, or from any crate.
+    fn finds(&self, path: &str, cited_in: &Path) -> bool {
+        let from = |folder: &str| self.has(&format!("{folder}/{path}"));
+        let own = cited_in.parent().map(|folder| folder.to_string_lossy().into_owned());
+        self.has(path) || own.is_some_and(|folder| from(&folder)) || self.crates().any(from)
+    }
+
+    /// The folders of crates.
+    fn crates(&self) -> impl Iterator<Item = &str> {
+        self.paths.iter().filter_map(|path| path.strip_suffix("/Cargo.toml"))
     }
 }
 
@@ -278,6 +304,21 @@ impl Block {
                 self.line(at),
                 format!("{NOTES} is not in the repository; name a page of docs/ or ARCHITECTURE.md"),
             ));
+        }
+        problems
+    }
+
+    /// The paths in backticks that begin with a folder of the root and lead nowhere, each with its line.
+    fn missing_files(&self, tree: &Tree, cited_in: &Path) -> Vec<(usize, String)> {
+        let mut problems = Vec::new();
+        let mut at = 0;
+        for (number, piece) in self.text.split('`').enumerate() {
+            let is_path = number % 2 == 1 && piece.contains('/') && piece.chars().all(path_character);
+            let top = piece.split('/').next().unwrap_or_default();
+            if is_path && tree.crates().any(|name| name == top) && !tree.finds(piece, cited_in) {
+                problems.push((self.line(at), format!("there is no file `{piece}`; name one that exists")));
+            }
+            at += piece.len() + 1;
         }
         problems
     }
