@@ -4,10 +4,10 @@
 //! the two games is therefore the same up to the first consequence: the random stream does not shift.
 
 use crate::Digest;
-use crate::bump::barriers;
+use crate::deferred_move::barriers;
 use crate::game::{Game, Rules};
 use crate::ontology::effects::Effect;
-use crate::rest::foresight;
+use crate::sleep::shortcuts;
 use std::sync::{Arc, OnceLock};
 
 impl Game {
@@ -32,9 +32,9 @@ impl Game {
             timed.apply_score = false;
         }
         // Sprites sleep only if a rule puts them back.
-        rules.foresight = foresight(&rules.types, &rules.passes, &rules.effects);
-        rules.any_rests = rules.foresight.iter().any(|of_type| of_type.rests);
-        rules.any_flies = rules.foresight.iter().any(|of_type| of_type.flies);
+        rules.shortcuts = shortcuts(&rules.types, &rules.passes, &rules.effects);
+        rules.any_sleep = rules.shortcuts.iter().any(|of_type| of_type.sleeps);
+        rules.any_fly = rules.shortcuts.iter().any(|of_type| of_type.flies);
         rules.barriers =
             barriers(&rules.types, &rules.passes, &rules.effects, &mut rules.contacts, &rules.movers);
         rules.any_barriers = rules.contacts.kinds.iter().any(|kind| kind.barriers != 0);

@@ -22,9 +22,9 @@ impl Game {
                 state.add_amount(state.avatar, resource, amount);
             }
             if let Some(facing) = facing {
-                state.edit_form(state.avatar).orientation = facing;
+                state.edit_overrides(state.avatar).orientation = facing;
             }
-            state.memory_is_stale = true;
+            state.memory_is_dirty = true;
             state.settle_hash();
         }
         state

@@ -22,7 +22,7 @@ pub(crate) struct Kind {
     pub(crate) own: u64,
     /// The bits of the types that a rule pairs it with.
     partners: u64,
-    /// The bits of the types that put it back (`bump.rs`).
+    /// The bits of the types that put it back (`deferred_move.rs`).
     pub(crate) barriers: u64,
 }
 
@@ -362,10 +362,10 @@ impl State {
         let mut state = self.clone();
         state.cells.fill(NONE);
         for group in &mut state.groups {
-            (group.loose, group.big, group.off) = (0, 0, 0);
+            (group.multi_cell, group.big, group.off) = (0, 0, 0);
         }
         state.covered.fill(0);
-        (state.big, state.off, state.loose_bits) = (0, 0, 0);
+        (state.big, state.off, state.multi_cell_bits) = (0, 0, 0);
         (state.big_bits, state.vast, state.left_behind) = (0, 0, 0);
         state.empty_contacts(&rules.contacts);
         let slots: Vec<Slot> =

@@ -1,6 +1,6 @@
 //! The event phase of a step: edge-of-screen effects, then pairs (`spec/03` §4).
 
-use crate::bump::NEVER;
+use crate::deferred_move::NEVER;
 use crate::game::{EffectInfo, Limit, Pass, SpriteType, Timed};
 use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
@@ -13,7 +13,7 @@ use smallvec::SmallVec;
 impl Step<'_> {
     pub(crate) fn events(&mut self, watch: &mut impl Watch) {
         // From here on, effects move sprites.
-        self.bumps = false;
+        self.defers = false;
         if !self.state.timers.is_empty() {
             self.timers(watch);
             if self.stopped.is_some() {
@@ -32,9 +32,9 @@ impl Step<'_> {
         let (mut from, mut is_tidy) = (0, false);
         loop {
             let possible = self.state.next_possible(from);
-            if self.next_bump != NEVER && possible.is_none_or(|number| self.next_bump <= number) {
-                from = self.next_bump;
-                self.settle_bumps(possible == Some(from), watch);
+            if self.next_deferred != NEVER && possible.is_none_or(|number| self.next_deferred <= number) {
+                from = self.next_deferred;
+                self.settle_deferred(possible == Some(from), watch);
             } else {
                 let Some(number) = possible else { break };
                 if !is_tidy {
@@ -58,7 +58,7 @@ impl Step<'_> {
                 return;
             }
             self.state.timers.pop();
-            self.rouse_all();
+            self.wake_and_land_all();
             // Counts also if there is no sprite: a timer that repeats at once would never end.
             self.work_of_effect();
             let timed = &self.rules.timed[usize::from(number)];
@@ -345,8 +345,8 @@ impl Step<'_> {
             self.prepare(&info.effect, one);
             let free = info.score_change == 0 && info.counting.is_none();
             self.note(&info.effect, free, one, two);
-        } else if self.next_bump != NEVER && info.effect.reaches_afar() {
-            self.carry_out_bumps();
+        } else if self.next_deferred != NEVER && info.effect.affects_distant_sprites() {
+            self.carry_out_deferred();
         }
         effects::execute(self, effect, &info.effect, one, two);
         let remembered = self.state.memory[usize::from(effect)];
@@ -376,8 +376,8 @@ impl Step<'_> {
                 self.land_one(partner);
                 self.note(&info.effect, false, one, Some(partner));
             }
-        } else if self.next_bump != NEVER && info.effect.reaches_afar() {
-            self.carry_out_bumps();
+        } else if self.next_deferred != NEVER && info.effect.affects_distant_sprites() {
+            self.carry_out_deferred();
         }
         let times = effects::execute_batch(self, &info.effect, one, partners);
         self.credit(info, self.state.memory[usize::from(effect)], times);

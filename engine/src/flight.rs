@@ -2,7 +2,7 @@
 //!
 //! A car on a road moves two pixels in every tick, and each tick repeats the last one; an invader moves in every third
 //! tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their position is extrapolated
-//! from an earlier position and the time since then, and so is their hash contribution (`share.rs`). A sprite is entered
+//! from an earlier position and the time since then, and so is their hash contribution (`contribution.rs`). A sprite is entered
 //! into other cells, and into those ahead, only when it is about to cover them. The rules that pair it with sprites in
 //! its cells are known all the while (`contacts.rs`), and overlap is tested with the extrapolated position. As soon as an
 //! effect is executed on it, or can reach it, it lands: it is an ordinary sprite again.
@@ -13,7 +13,7 @@
 use crate::game::Rules;
 use crate::geometry::Rect;
 use crate::ontology::physics;
-use crate::rest::mark;
+use crate::sleep::mark;
 use crate::state::{Slot, Sprite, State, flag};
 use crate::step::Step;
 
@@ -33,14 +33,14 @@ pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
 /// Advances a sprite in flight to its last move up to a tick. Returns the displacement of a move.
 fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
-    let Sprite { rect, was, moved_at, .. } = *sprite;
-    let (dx, dy) = (rect.x.wrapping_sub(was.0), rect.y.wrapping_sub(was.1));
+    let Sprite { rect, last_corner, moved_at, .. } = *sprite;
+    let (dx, dy) = (rect.x.wrapping_sub(last_corner.0), rect.y.wrapping_sub(last_corner.1));
     let ticks = tick.wrapping_sub(moved_at);
     let period = i32::from(sprite.period());
     let moves = if period == 1 { ticks } else { ticks.div_euclid(period) };
     let along = |at: i32, by: i32| at.wrapping_add(by.wrapping_mul(moves));
     sprite.rect = rect.at(along(rect.x, dx), along(rect.y, dy));
-    sprite.was = (sprite.rect.x.wrapping_sub(dx), sprite.rect.y.wrapping_sub(dy));
+    sprite.last_corner = (sprite.rect.x.wrapping_sub(dx), sprite.rect.y.wrapping_sub(dy));
     sprite.moved_at = moved_at.wrapping_add(moves.wrapping_mul(period));
     (dx, dy)
 }
@@ -49,7 +49,7 @@ fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
 fn settle_in(sprite: &mut Sprite, tick: i32) {
     fly_to(sprite, tick);
     if sprite.moved_at != tick {
-        sprite.was = (sprite.rect.x, sprite.rect.y);
+        sprite.last_corner = (sprite.rect.x, sprite.rect.y);
     }
 }
 
@@ -84,14 +84,14 @@ impl State {
         let sprite = self.edit_motion(slot);
         settle_in(sprite, tick);
         let (stype, rect) = (sprite.stype, sprite.rect);
-        if sprite.was == (rect.x, rect.y) {
-            sprite.rest = mark::NOTHING;
+        if sprite.last_corner == (rect.x, rect.y) {
+            sprite.activity = mark::NOTHING;
         } else {
-            sprite.rest = mark::TRIED;
+            sprite.activity = mark::MOVED;
             sprite.set(flag::MOVED, true);
             self.moved.push(slot);
         }
-        self.groups[stype.index()].asleep -= 1;
+        self.groups[stype.index()].skipped -= 1;
         self.enter_anew(rules, slot, rect);
     }
 
@@ -121,17 +121,19 @@ impl State {
     /// Enters a sprite in flight into the cells that it will cover after this tick's update. Returns the tick of the next
     /// such change.
     fn hop(&mut self, rules: &Rules, slot: Slot) -> i32 {
-        if !self.rests.is_empty() {
+        if !self.sleepers.is_empty() {
             self.touch(slot);
         }
         let by = fly_to(&mut self.sprites[usize::from(slot)], self.tick);
-        let moves = self.enter_next_lane(rules, slot, by).unwrap_or_else(|| self.enter_lane(rules, slot, by));
-        if !self.rests.is_empty() {
+        let moves = self
+            .enter_next_swept_cells(rules, slot, by)
+            .unwrap_or_else(|| self.enter_swept_cells(rules, slot, by));
+        if !self.sleepers.is_empty() {
             self.touch(slot);
         }
         let sprite = *self.sprite(slot);
         let due = due(&sprite, moves);
-        if rules.any_rests {
+        if rules.any_sleep {
             self.stamp(&sprite, due);
         }
         due
@@ -178,7 +180,7 @@ impl Step<'_> {
     fn land_late(&mut self, slot: Slot) {
         self.state.land(self.rules, slot, self.state.tick - 1);
         let sprite = self.state.edit_motion(slot);
-        sprite.was = (sprite.rect.x, sprite.rect.y);
+        sprite.last_corner = (sprite.rect.x, sprite.rect.y);
     }
 
     /// Lands all sprites in flight. In the middle of the updates, sprites that are yet to be updated are one tick behind.
@@ -199,7 +201,10 @@ impl Step<'_> {
     /// `false` if the sprite cannot fly.
     pub(crate) fn take_off(&mut self, slot: Slot) -> bool {
         let sprite = *self.state.sprite(slot);
-        let (dx, dy) = (sprite.rect.x.wrapping_sub(sprite.was.0), sprite.rect.y.wrapping_sub(sprite.was.1));
+        let (dx, dy) = (
+            sprite.rect.x.wrapping_sub(sprite.last_corner.0),
+            sprite.rect.y.wrapping_sub(sprite.last_corner.1),
+        );
         let within = |most: i32| move |at: &i32| at.unsigned_abs() < most as u32;
         let near = [sprite.rect.x, sprite.rect.y].iter().all(within(FARTHEST));
         let near = near && [dx, dy].iter().all(within(FASTEST));
@@ -213,16 +218,16 @@ impl Step<'_> {
             return false;
         }
         let period = self.rules.types[sprite.stype.index()].traits.cooldown.clamp(1, LONGEST_PERIOD) as u16;
-        let sprite = Sprite { rest: mark::ASLEEP | period, ..sprite };
+        let sprite = Sprite { activity: mark::SKIPPED | period, ..sprite };
         let due = due(&sprite, moves);
-        if self.rules.any_rests {
+        if self.rules.any_sleep {
             self.state.stamp(&sprite, due);
         }
-        let (stype, rest) = (sprite.stype, sprite.rest);
+        let (stype, activity) = (sprite.stype, sprite.activity);
         let sprite = self.state.edit_motion(slot);
-        sprite.rest = rest;
+        sprite.activity = activity;
         sprite.set(flag::MOVED, false);
-        self.state.groups[stype.index()].asleep += 1;
+        self.state.groups[stype.index()].skipped += 1;
         self.state.flights.push(Flight { slot, due });
         self.state.next_due = self.state.next_due.min(due);
         true
@@ -261,7 +266,7 @@ BasicGame
         for tick in 0..300 {
             let action = if tick % 5 == 0 { Action::Right } else { Action::Nil };
             game.step(&mut state, action);
-            game.step_plainly(&mut plain, action, &mut ());
+            game.step_unoptimised(&mut plain, action, &mut ());
             assert_eq!(state.state_hash(), plain.state_hash(), "tick {tick}");
             assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game), "tick {tick}");
             // With and without hash contributions of earlier ticks.

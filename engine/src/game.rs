@@ -1,16 +1,16 @@
 //! A compiled game: immutable, valid and cheap to clone.
 
-use crate::bump::Barriers;
 use crate::contacts::Contacts;
+use crate::deferred_move::Barriers;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::form::Form;
 use crate::geometry::Direction;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::effects::Effect;
 use crate::ontology::sprites::Mover;
 use crate::ontology::terminations::Termination;
 use crate::ontology::traits::Traits;
-use crate::rest::Foresight;
+use crate::overrides::Overrides;
+use crate::sleep::Shortcuts;
 use crate::state::{Sprite, State, memory};
 use crate::syntax::Description;
 use crate::{Digest, causes};
@@ -310,9 +310,9 @@ pub(crate) struct Rules {
     pub(crate) can_end: bool,
     pub(crate) types: Vec<TypeInfo>,
     /// By type: the prototype of its sprites.
-    pub(crate) models: Vec<Sprite>,
+    pub(crate) prototypes: Vec<Sprite>,
     /// By type: the shared component of its sprites.
-    pub(crate) forms: Vec<Form>,
+    pub(crate) base_overrides: Vec<Overrides>,
     /// Drawing order; updates go through it backwards.
     pub(crate) order: Vec<SpriteType>,
     /// Types whose update does something, in update order.
@@ -334,10 +334,10 @@ pub(crate) struct Rules {
     /// The tables of possible passes, by the types that share cells.
     pub(crate) contacts: Contacts,
     /// By type.
-    pub(crate) foresight: Vec<Foresight>,
+    pub(crate) shortcuts: Vec<Shortcuts>,
     /// `true` if sprites of some type may sleep, and if some may fly.
-    pub(crate) any_rests: bool,
-    pub(crate) any_flies: bool,
+    pub(crate) any_sleep: bool,
+    pub(crate) any_fly: bool,
     /// By type.
     pub(crate) barriers: Vec<Barriers>,
     /// `true` if any type has barriers.

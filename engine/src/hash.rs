@@ -4,9 +4,9 @@
 //! tick. It is a sum over the sprites that `step` keeps up to date as they change, plus a hash of the few numbers beside
 //! them. [`State::search_key`] covers live behaviour only, for transposition tables (`search_key.rs`).
 
-use crate::form::{Extra, Target};
+use crate::contribution::{Contribution, SideTables, Sum, exchange, minus, plus};
 use crate::game::Game;
-use crate::share::{Parts, Share, Sum, exchange, minus, plus};
+use crate::overrides::{Extra, Target};
 use crate::state::{NONE, State, flag};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
@@ -130,13 +130,13 @@ pub(crate) const KEYS: [[u64; 2]; 4] = [
 impl State {
     /// The hash of everything that can influence the future. Cost: O(sprites changed since [`State::settle_hash`]).
     pub fn state_hash(&self) -> StateHash {
-        let mut sum = self.tides.iter().fold(self.sum, |sum, tide| plus(sum, tide.at(self.tick)));
-        for &slot in &self.stale {
-            let share = self.shares[usize::from(slot)];
-            let new = share.renewed(self.sprite(slot), slot, &self.parts());
-            sum = plus(minus(sum, share.at(self.tick)), new.at(self.tick));
+        let mut sum = self.hash_classes.iter().fold(self.sum, |sum, class| plus(sum, class.at(self.tick)));
+        for &slot in &self.dirty {
+            let contribution = self.contributions[usize::from(slot)];
+            let new = contribution.renewed(self.sprite(slot), slot, &self.side_tables());
+            sum = plus(minus(sum, contribution.at(self.tick)), new.at(self.tick));
         }
-        let memory = if self.memory_is_stale { self.hash_memory() } else { self.memory_hash };
+        let memory = if self.memory_is_dirty { self.hash_memory() } else { self.memory_hash };
         self.with_globals(sum, memory)
     }
 
@@ -145,25 +145,26 @@ impl State {
     /// Stepping does not do this by itself: planners, which ask for few hashes, do not pay for all of them. Cost:
     /// O(sprites changed since the last time).
     pub fn settle_hash(&mut self) {
-        let State { sprites, shares, stale, sum, tides, forms, resized, .. } = self;
-        let (sprites, shares, mut running) = (&mut sprites[..], &mut shares[..], *sum);
-        let parts = Parts { forms, resized };
-        for &slot in &*stale {
-            let (sprite, share) = (&mut sprites[usize::from(slot)], &mut shares[usize::from(slot)]);
-            if share.is_of_one_that_only_moved(sprite) {
-                running = plus(running, share.follow(sprite));
+        let State { sprites, contributions, dirty, sum, hash_classes, overrides, resized, .. } = self;
+        let (sprites, contributions, mut running) = (&mut sprites[..], &mut contributions[..], *sum);
+        let tables = SideTables { overrides, resized };
+        for &slot in &*dirty {
+            let (sprite, contribution) =
+                (&mut sprites[usize::from(slot)], &mut contributions[usize::from(slot)]);
+            if contribution.is_of_one_that_only_moved(sprite) {
+                running = plus(running, contribution.follow(sprite));
             } else {
-                let new = share.renewed(sprite, slot, &parts);
-                let old = std::mem::replace(share, new);
-                exchange(old, new, &mut running, tides);
+                let new = contribution.renewed(sprite, slot, &tables);
+                let old = std::mem::replace(contribution, new);
+                exchange(old, new, &mut running, hash_classes);
             }
-            sprite.flags &= !(flag::STALE | flag::CHANGED);
+            sprite.flags &= !(flag::DIRTY | flag::CHANGED);
         }
         *sum = running;
-        stale.clear();
-        if self.memory_is_stale {
+        dirty.clear();
+        if self.memory_is_dirty {
             self.memory_hash = self.hash_memory();
-            self.memory_is_stale = false;
+            self.memory_is_dirty = false;
         }
     }
 
@@ -173,8 +174,9 @@ impl State {
         let slots = slots.map(|slot| (slot, self.sprite(slot)));
         let scenery = game.sprite_types().flat_map(|stype| self.scenery_of(stype));
         let sprites = slots.chain(scenery.map(|sprite| (NONE, sprite)));
-        let shares = sprites.map(|(slot, sprite)| Share::fresh(sprite, slot, &self.parts()).at(self.tick));
-        self.with_globals(shares.fold([0; 2], plus), self.hash_memory())
+        let contributions = sprites
+            .map(|(slot, sprite)| Contribution::fresh(sprite, slot, &self.side_tables()).at(self.tick));
+        self.with_globals(contributions.fold([0; 2], plus), self.hash_memory())
     }
 
     /// Hashes the memory of the effects and the types that have had a sprite.

@@ -1,10 +1,10 @@
 //! The operations of the ontology that move sprites.
 
-use crate::bump::NEVER;
+use crate::deferred_move::NEVER;
 use crate::game::Limit;
 use crate::geometry::{Direction, Rect};
 use crate::occupancy::Located;
-use crate::rest::mark;
+use crate::sleep::mark;
 use crate::state::{Slot, Sprite, flag};
 use crate::step::Step;
 
@@ -30,10 +30,10 @@ impl Step<'_> {
         if self.state.sprite(slot).rect == rect {
             return;
         }
-        if self.next_bump != NEVER {
+        if self.next_deferred != NEVER {
             self.carry_out(slot);
         }
-        if self.rests {
+        if self.sleeps {
             let (from, to) = self.state.locate_move(slot, rect);
             self.place_noisily(slot, rect, from, to);
         } else {
@@ -56,13 +56,13 @@ impl Step<'_> {
 
     /// Tests whether a move is the sprite's own move, or the step back from it, which are judged at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
-        self.rests
-            && self.rules.foresight[sprite.stype.index()].rests
-            && (self.updating >= 0 || !matches!(sprite.rest, mark::NOTHING | mark::SPOILED))
+        self.sleeps
+            && self.rules.shortcuts[sprite.stype.index()].sleeps
+            && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
     }
 
     pub(crate) fn note_change(&mut self, sprite: &Sprite) {
-        if self.rests {
+        if self.sleeps {
             self.state.stamp(sprite, self.state.tick);
         }
     }
@@ -107,7 +107,7 @@ impl Step<'_> {
 
     #[inline(always)]
     fn go_or_walk(&mut self, slot: Slot, aim: Rect) {
-        if self.rests || !self.walk(slot, aim) {
+        if self.sleeps || !self.walk(slot, aim) {
             self.go(slot, aim);
         }
     }
@@ -116,7 +116,7 @@ impl Step<'_> {
     #[inline(never)]
     fn go(&mut self, slot: Slot, aim: Rect) {
         let sprite = self.state.sprite(slot);
-        let special = sprite.is(flag::FROZEN | flag::BUMPING) || aim == sprite.rect || aim.h == 0;
+        let special = sprite.is(flag::FROZEN | flag::DEFERRED) || aim == sprite.rect || aim.h == 0;
         if special {
             self.place(slot, aim);
             self.set_age(slot, 0);
@@ -125,10 +125,10 @@ impl Step<'_> {
         // The common case, without separate calls.
         self.state.sprites[usize::from(slot)].moved_at = self.state.tick;
         let (from, to) = self.state.locate_move(slot, aim);
-        if self.bumps && self.bump(slot, aim, from, to) {
+        if self.defers && self.defer_move(slot, aim, from, to) {
             return;
         }
-        if self.rests {
+        if self.sleeps {
             self.place_noisily(slot, aim, from, to);
         } else {
             self.state.relocate_to(self.rules, slot, aim, from, to);
@@ -139,7 +139,7 @@ impl Step<'_> {
     #[inline(always)]
     pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
         let sprite = self.state.sprite(slot);
-        let amount = if amount == 0 { self.state.form_of(sprite).speed as i32 } else { amount };
+        let amount = if amount == 0 { self.state.overrides_of(sprite).speed as i32 } else { amount };
         if amount == 0 || direction.x.abs() + direction.y.abs() == 0.0 {
             return None;
         }
@@ -156,7 +156,10 @@ impl Step<'_> {
 
     /// The displacement of a sprite in this tick.
     pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
-        let Sprite { rect, was, .. } = *self.state.sprite(slot);
-        Direction { x: f64::from(rect.x.wrapping_sub(was.0)), y: f64::from(rect.y.wrapping_sub(was.1)) }
+        let Sprite { rect, last_corner, .. } = *self.state.sprite(slot);
+        Direction {
+            x: f64::from(rect.x.wrapping_sub(last_corner.0)),
+            y: f64::from(rect.y.wrapping_sub(last_corner.1)),
+        }
     }
 }

@@ -18,7 +18,7 @@ pub(crate) struct Resized {
 /// The rectangle of a sprite at the start of its own update in this tick.
 #[inline]
 pub(crate) fn last_of(sprite: &Sprite, slot: Slot, resized: &[Resized]) -> Rect {
-    let last = sprite.rect.at(sprite.was.0, sprite.was.1);
+    let last = sprite.rect.at(sprite.last_corner.0, sprite.last_corner.1);
     if sprite.is(flag::RESIZED) { of_size_then(last, slot, resized) } else { last }
 }
 
@@ -32,7 +32,7 @@ impl Sprite {
     /// Tests whether the sprite has the same place and size as at the start of its own update in this tick.
     #[inline]
     pub(crate) fn is_back(&self) -> bool {
-        self.was == (self.rect.x, self.rect.y) && !self.is(flag::RESIZED)
+        self.last_corner == (self.rect.x, self.rect.y) && !self.is(flag::RESIZED)
     }
 }
 
@@ -47,7 +47,7 @@ impl State {
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let (before, resized) = (sprite.flags, (sprite.rect.w, sprite.rect.h) != (last.w, last.h));
-        sprite.was = (last.x, last.y);
+        sprite.last_corner = (last.x, last.y);
         sprite.set(flag::MOVED, true);
         sprite.set(flag::RESIZED, resized);
         if before & flag::MOVED == 0 {
@@ -71,7 +71,7 @@ impl State {
     /// Forgets the moves of released sprites.
     pub(crate) fn forget_moved(&mut self) {
         let State { moved, resized, sprites, .. } = self;
-        let stays = |slot: Slot| !sprites[usize::from(slot)].is(flag::GONE);
+        let stays = |slot: Slot| !sprites[usize::from(slot)].is(flag::FREE);
         moved.retain(|&slot| stays(slot));
         resized.retain(|one| stays(one.slot));
     }
@@ -88,7 +88,7 @@ impl Step<'_> {
         for &slot in &*moved {
             let sprite = &mut sprites[usize::from(slot)];
             if sprite.flags & flag::FROZEN == 0 {
-                sprite.was = (sprite.rect.x, sprite.rect.y);
+                sprite.last_corner = (sprite.rect.x, sprite.rect.y);
                 sprite.flags &= !(flag::MOVED | flag::RESIZED);
             } else if sprite.is_back() {
                 sprite.flags &= !flag::MOVED;

@@ -23,12 +23,12 @@ pub struct Observation {
     /// The resources that the avatar holds, by name.
     pub resources: Vec<(String, i32)>,
     /// The player's avatar, whatever its type is called; `None` once it is gone.
-    pub avatar: Option<SeenAvatar>,
+    pub avatar: Option<AvatarView>,
 }
 
 /// The observable properties of the avatar.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SeenAvatar {
+pub struct AvatarView {
     /// The name of its type, which may change as it transforms.
     pub name: String,
     /// The column of the cell that holds its middle, from 0 at the left; outside the board while it is outside.
@@ -137,16 +137,16 @@ impl Game {
     }
 
     /// The place and type of the avatar; `None` if there is no living one. Cost: O(1).
-    pub fn seen_avatar(&self, state: &State) -> Option<SeenAvatar> {
+    pub fn seen_avatar(&self, state: &State) -> Option<AvatarView> {
         let stype = state.avatar_type()?;
-        let (sprite, form) = (state.sprite(state.avatar), state.form(state.avatar));
+        let (sprite, overrides) = (state.sprite(state.avatar), state.overrides(state.avatar));
         let cell = |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.block.max(1));
-        Some(SeenAvatar {
+        Some(AvatarView {
             name: self.name(stype).to_owned(),
             column: cell(sprite.rect.x, sprite.rect.w),
             row: cell(sprite.rect.y, sprite.rect.h),
-            facing: form.orientation,
-            health: form.health,
+            facing: overrides.orientation,
+            health: overrides.health,
         })
     }
 
@@ -162,14 +162,14 @@ impl Game {
     /// The record of every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
     pub fn records(&self, state: &State) -> Vec<SpriteRecord> {
         let record = |sprite: &Sprite, resources: Vec<(u16, i32)>| {
-            let form = state.form_of(sprite);
+            let overrides = state.overrides_of(sprite);
             SpriteRecord {
                 id: sprite.id,
                 stype: sprite.stype.0,
                 rect: sprite.rect,
-                orientation: (form.orientation.x, form.orientation.y),
-                speed: form.speed,
-                health: form.health,
+                orientation: (overrides.orientation.x, overrides.orientation.y),
+                speed: overrides.speed,
+                health: overrides.health,
                 flags: (sprite.flags & flag::RECORDED) as u16,
                 resources,
                 rotation: state.rotation(&self.0, sprite),
@@ -231,7 +231,7 @@ impl State {
 
     /// The rectangles and orientations of the sprites of a type.
     pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
-        self.sprites_of(stype).map(|sprite| (sprite.rect, self.form_of(&sprite).orientation))
+        self.sprites_of(stype).map(|sprite| (sprite.rect, self.overrides_of(&sprite).orientation))
     }
 
     /// The number of sprites of a type, without disabled avatars. Cost: O(1).

@@ -11,7 +11,7 @@ use crate::state::{NONE, Slot, Sprite, State, flag};
 /// The maximum number of cells of a sprite that are stored one by one; a larger sprite counts as being everywhere.
 const MAX_COVERED: i32 = 100;
 
-/// The cell of a sprite's top-left corner, and how the sprite lies in it: the flags of [`flag::LYING`].
+/// The cell of a sprite's top-left corner, and how the sprite lies in it: the flags of [`flag::PLACEMENT`].
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Located {
     pub(crate) column: i16,
@@ -69,7 +69,7 @@ impl State {
     #[inline(always)]
     pub(crate) fn located(&self, slot: Slot) -> Located {
         let &Sprite { column, row, flags, .. } = self.sprite(slot);
-        Located { column, row, flags: flags & flag::LYING }
+        Located { column, row, flags: flags & flag::PLACEMENT }
     }
 
     /// Locates a rectangle that was `old` before. For a sprite on the board that is no larger than a cell, only the axes
@@ -148,7 +148,7 @@ impl State {
         let cell = self.cell(i32::from(to.column), i32::from(to.row));
         let sprite = &mut self.sprites[usize::from(slot)];
         (sprite.column, sprite.row) = (to.column, to.row);
-        sprite.flags = sprite.flags & !flag::LYING | to.flags;
+        sprite.flags = sprite.flags & !flag::PLACEMENT | to.flags;
         let stype = sprite.stype.index();
         if to.flags != 0 {
             self.lie(&rules.contacts, stype, 0, to.flags);
@@ -172,8 +172,8 @@ impl State {
     pub(crate) fn leave_cell(&mut self, rules: &Rules, slot: Slot) {
         let sprite = self.sprite(slot);
         let (cell, stype, flags) = (self.cell_of(sprite), sprite.stype.index(), sprite.flags);
-        if flags & flag::LYING != 0 {
-            self.sprites[usize::from(slot)].flags &= !flag::LYING;
+        if flags & flag::PLACEMENT != 0 {
+            self.sprites[usize::from(slot)].flags &= !flag::PLACEMENT;
             self.lie(&rules.contacts, stype, flags, 0);
         }
         let kind = &rules.contacts.kinds[stype];
@@ -210,13 +210,13 @@ impl State {
     pub(crate) fn relocate_to(&mut self, rules: &Rules, slot: Slot, rect: Rect, from: Located, to: Located) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let before = sprite.flags;
-        sprite.flags |= flag::STALE | flag::MOVED;
+        sprite.flags |= flag::DIRTY | flag::MOVED;
         sprite.rect = rect;
         if before & flag::MOVED == 0 {
             self.moved.push(slot);
         }
-        if before & flag::STALE == 0 {
-            self.stale.push(slot);
+        if before & flag::DIRTY == 0 {
+            self.dirty.push(slot);
         }
         self.enter_other(rules, slot, from, to);
     }
@@ -242,7 +242,7 @@ impl State {
         from: Located,
         to: Located,
     ) {
-        if self.rests.is_empty() {
+        if self.sleepers.is_empty() {
             return self.relocate_as(rules, slot, rect, from, to);
         }
         self.touch(slot);
@@ -274,7 +274,7 @@ impl State {
         let after = self.cell(i32::from(to.column), i32::from(to.row));
         let sprite = &mut self.sprites[usize::from(slot)];
         let stype = sprite.stype.index();
-        sprite.flags = sprite.flags & !flag::LYING | to.flags;
+        sprite.flags = sprite.flags & !flag::PLACEMENT | to.flags;
         (sprite.column, sprite.row) = (to.column, to.row);
         if from.flags != to.flags {
             self.lie(&rules.contacts, stype, from.flags, to.flags);
@@ -408,17 +408,17 @@ impl State {
             }
         }
         let group = &mut self.groups[stype];
-        match (from & flag::LOOSE != 0, to & flag::LOOSE != 0) {
+        match (from & flag::MULTI_CELL != 0, to & flag::MULTI_CELL != 0) {
             (false, true) => {
-                group.loose += 1;
-                if group.loose == 1 {
-                    self.loose_bits |= contacts.kinds[stype].own;
+                group.multi_cell += 1;
+                if group.multi_cell == 1 {
+                    self.multi_cell_bits |= contacts.kinds[stype].own;
                 }
             }
             (true, false) => {
-                group.loose -= 1;
-                if group.loose == 0 {
-                    self.loose_bits &= !contacts.sole_bit(stype);
+                group.multi_cell -= 1;
+                if group.multi_cell == 0 {
+                    self.multi_cell_bits &= !contacts.sole_bit(stype);
                 }
             }
             _ => {}

@@ -65,7 +65,7 @@ impl State {
         if (self.masks[cell] & !own | self.crowds_in(cell)) & side.bits != 0 {
             return true;
         }
-        let lies = sprite.flags & flag::LOOSE;
+        let lies = sprite.flags & flag::MULTI_CELL;
         if lies == 0 && self.big_bits & side.bits == 0 {
             return false;
         }
@@ -132,7 +132,7 @@ impl State {
             return self.overlapping_rect(rules, side, (slot, rect), above, hits);
         }
         // Sprites that lie in several cells may reach over from the cells to the left and above.
-        let reached = i32::from(self.loose_bits & side.bits != 0);
+        let reached = i32::from(self.multi_cell_bits & side.bits != 0);
         let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
         let mut looked = 0;
         for row in (row - reached).max(0)..row + span.below() + 1 {

@@ -4,15 +4,15 @@
 //! the bytes in which it differs from a base, usually the start of the search: some hundred bytes instead of tens of
 //! thousands.
 
-use crate::belongings::{Held, Replaced};
 use crate::chance::Chance;
+use crate::contribution::{Contribution, FlightMotion, HashClass};
 use crate::flight::Flight;
-use crate::form::{Extra, Form, Target};
 use crate::game::{Action, Outcome, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::moved::Resized;
-use crate::rest::Rest;
-use crate::share::{Share, Steady, Tide};
+use crate::overrides::{Extra, Overrides, Target};
+use crate::side_tables::{Held, Replaced};
+use crate::sleep::Sleeper;
 use crate::state::{Group, Sprite, State, Timer};
 
 /// A state, stored as the difference from a base. It can only be restored by [`State::unpack_from`] with the same base.
@@ -71,9 +71,9 @@ macro_rules! state_fields {
 }
 
 state_fields! {
-    scalars tick score chance avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
-    buffers sprites shares tides groups cells masks crowds covered together meets reasons possible moved resized stale killed held memory templates shields pulled forms extras rests watched stamps flights timers replaced counters;
-    scratch touched bumps ways scenery
+    scalars tick score chance avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_dirty big off multi_cell_bits big_bits next_due census_changed jumps vast left_behind;
+    buffers sprites contributions hash_classes groups cells masks crowds covered together meets reasons possible moved resized dirty killed held memory templates shields pulled overrides extras sleepers watched stamps flights timers replaced counters;
+    scratch touched deferred paths scenery
 }
 
 fn put_scalar<T: Bytes>(value: &T, base: &T, to: &mut Vec<u8>) {
@@ -212,17 +212,17 @@ fields! {
     Rect { x y w h }
     Direction { x y }
     Flight { slot due }
-    Rest { slot pass left top right bottom }
+    Sleeper { slot pass left top right bottom }
     Timer { due timed }
     Held { holder resource amount }
     Replaced { holder place stype }
-    Group { head tail count disabled loose big off asleep }
-    Share { word steady still }
-    Tide { period phase flights growth }
+    Group { head tail count disabled multi_cell big off skipped }
+    Contribution { word motion still }
+    HashClass { period phase flights growth }
     Resized { slot w h }
-    Form { orientation speed health max_health start spawns extra holder }
+    Overrides { orientation speed health max_health start spawns extra holder }
     Extra { holder rotation gravity facing block_time target last_known }
-    Sprite { rect was id moved_at time_to_live count flags stype form rest next previous cell_next cell_previous column row }
+    Sprite { rect last_corner id moved_at time_to_live count flags stype overrides activity next previous cell_next cell_previous column row }
 }
 
 macro_rules! wrapped {
@@ -243,7 +243,7 @@ macro_rules! wrapped {
     )*};
 }
 
-wrapped! { SpriteType Chance Steady }
+wrapped! { SpriteType Chance FlightMotion }
 
 impl<T: Bytes, U: Bytes> Bytes for (T, U) {
     fn put(self, to: &mut Vec<u8>) {

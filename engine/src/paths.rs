@@ -59,7 +59,7 @@ impl Heap {
 /// The paths of one level: the cells that paths avoid, which do not change in an episode, and the paths that have been
 /// requested. All states of the level share them; the results do not depend on the order of requests.
 #[derive(Debug)]
-pub(crate) struct Ways {
+pub(crate) struct Paths {
     /// By cell: [`OPEN`] or [`CLOSED`].
     cells: Vec<u8>,
     /// For each direction, its number and the wrapping offset that a step adds to a cell.
@@ -71,15 +71,15 @@ pub(crate) struct Ways {
 /// The maximum number of cells of a board whose paths are kept: one byte for each pair of cells.
 const MAX_KEPT: usize = 1 << 11;
 
-const WAYS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
+const DIRECTIONS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
 
-impl Ways {
+impl Paths {
     fn first(&self, start: usize, goal: usize) -> Option<Direction> {
         let step = match self.known.get(start) {
             Some(known) => known.get_or_init(|| self.search(start, None))[goal],
             None => self.search(start, Some(goal))[goal],
         };
-        WAYS.get(usize::from(step).wrapping_sub(1)).copied()
+        DIRECTIONS.get(usize::from(step).wrapping_sub(1)).copied()
     }
 
     /// The first step to each cell, as a number above [`OPEN`]; stops when the goal is reached.
@@ -91,12 +91,12 @@ impl Ways {
         while let Some((cost, cell)) = frontier.pop() {
             let cell = cell as usize;
             let here = first[cell];
-            for &(way, ahead) in &self.ahead {
+            for &(direction, ahead) in &self.ahead {
                 let next = cell.wrapping_add(ahead);
                 if first[next] != OPEN {
                     continue;
                 }
-                first[next] = if here == START { way } else { here };
+                first[next] = if here == START { direction } else { here };
                 if goal == Some(next) {
                     return first.into();
                 }
@@ -131,20 +131,20 @@ impl State {
         }
         let kept = if cells.len() <= MAX_KEPT { cells.len() } else { 0 };
         let known = (0..kept).map(|_| OnceLock::new()).collect();
-        self.ways = Some(Arc::new(Ways { cells, ahead, known }));
+        self.paths = Some(Arc::new(Paths { cells, ahead, known }));
     }
 
     /// The first step of the path between two pixels, `None` if there is no path or no step to make, and the work of
     /// finding it.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
-        let Some(ways) = self.ways.as_deref() else { return (None, 1) };
-        if start == goal || ways.cells[start] == CLOSED || ways.cells[goal] == CLOSED {
+        let Some(paths) = self.paths.as_deref() else { return (None, 1) };
+        if start == goal || paths.cells[start] == CLOSED || paths.cells[goal] == CLOSED {
             return (None, 1);
         }
         // The work must not depend on earlier requests.
-        let share = if ways.known.is_empty() { 1 } else { 8 };
-        (ways.first(start, goal), ways.cells.len() / share)
+        let share = if paths.known.is_empty() { 1 } else { 8 };
+        (paths.first(start, goal), paths.cells.len() / share)
     }
 
     /// The cell of a pixel. The reference multiplies by the reciprocal of the block, which for some sizes falls short of

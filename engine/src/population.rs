@@ -1,17 +1,17 @@
 //! The operations of the ontology that make, kill and release sprites.
 
-use crate::form::Form;
 use crate::game::{Limit, SpriteType, TypeInfo};
 use crate::geometry::Rect;
 use crate::limits::MAX_SPRITES;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites;
-use crate::rest::mark;
+use crate::overrides::Overrides;
+use crate::sleep::mark;
 use crate::state::{NONE, Slot, Sprite, flag};
 use crate::step::Step;
 
 /// The prototype of a type's sprites; the rectangles, the creation number and the age are set on creation.
-pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
+pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     let (traits, is_avatar) = (&info.traits, info.class.is_some_and(SpriteClass::is_avatar));
     let flags = [
         (flag::AVATAR, traits.is_avatar),
@@ -21,19 +21,19 @@ pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
         (flag::ORIENTED, traits.is_oriented),
         // Sprites of avatar classes are updated, and age, only while the player controls them.
         (flag::FROZEN, info.order.is_none() || is_avatar),
-        (flag::BRISK, traits.cooldown <= 1 && traits.last_move == 0 && !is_avatar),
+        (flag::NO_COOLDOWN, traits.cooldown <= 1 && traits.last_move == 0 && !is_avatar),
     ];
     let no_heading = sprites::NO_HEADING << flag::HEADING;
     Sprite {
         rect: Rect::default(),
-        was: (0, 0),
+        last_corner: (0, 0),
         id: 0,
         moved_at: traits.last_move,
         time_to_live: traits.time_to_live,
         count: traits.age,
         stype,
-        form: stype.0,
-        rest: mark::NOTHING,
+        overrides: stype.0,
+        activity: mark::NOTHING,
         flags: flags.into_iter().fold(no_heading, |all, (bit, on)| if on { all | bit } else { all }),
         next: NONE,
         previous: NONE,
@@ -45,9 +45,9 @@ pub(crate) fn model(stype: SpriteType, info: &TypeInfo) -> Sprite {
 }
 
 /// The shared component of a type's sprites.
-pub(crate) fn form(info: &TypeInfo) -> Form {
+pub(crate) fn base_overrides(info: &TypeInfo) -> Overrides {
     let traits = &info.traits;
-    Form {
+    Overrides {
         orientation: traits.orientation,
         speed: traits.speed,
         health: traits.health,
@@ -108,16 +108,16 @@ impl Step<'_> {
             self.stop(Limit::UnfitSprite);
         }
         let block = self.state.block;
-        let mut sprite = rules.models[stype.index()];
+        let mut sprite = rules.prototypes[stype.index()];
         let size = |factor: f64| if factor == 1.0 { block } else { (f64::from(block) * factor) as i32 };
         let (w, h) = (size(info.traits.width_factor), size(info.traits.height_factor));
         sprite.rect = Rect { x, y, w, h };
-        sprite.was = (x, y);
+        sprite.last_corner = (x, y);
         let mut last = sprite.rect;
         sprite.id = self.state.next_id;
         let first = std::mem::replace(&mut self.state.templates[stype.index()], 1) == 0;
         if first {
-            self.state.memory_is_stale = true;
+            self.state.memory_is_dirty = true;
             self.state.messages = self.state.messages.saturating_add(info.unknown_parameters);
         } else if h == 0 {
             self.stop(Limit::FlatSprite);
@@ -150,9 +150,9 @@ impl Step<'_> {
         self.state.population += 1;
         // Copies of the first one have lost the type that they leave behind; they leave type 0, which is `wall`.
         if first && class == SpriteClass::OngoingTurningAvatar {
-            self.state.edit_form(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
+            self.state.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
         }
-        if self.rests {
+        if self.sleeps {
             let sprite = *self.state.sprite(slot);
             self.state.touch(slot);
             self.note_change(&sprite);
@@ -214,13 +214,13 @@ impl Step<'_> {
         for &slot in &killed {
             // The kill list may name a sprite twice; the counter goes down twice, as in the reference.
             self.state.population -= 1;
-            if self.state.sprite(slot).is(flag::GONE) {
+            if self.state.sprite(slot).is(flag::FREE) {
                 continue;
             }
             if slot == self.state.avatar {
                 self.state.avatar = NONE;
             }
-            if self.rests {
+            if self.sleeps {
                 let sprite = *self.state.sprite(slot);
                 self.state.touch(slot);
                 self.note_change(&sprite);

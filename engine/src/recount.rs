@@ -2,7 +2,7 @@
 
 use crate::game::Game;
 use crate::geometry::Rect;
-use crate::rest::mark;
+use crate::sleep::mark;
 use crate::state::{Group, NONE, Slot, Sprite, State, flag};
 
 impl State {
@@ -72,14 +72,14 @@ impl State {
             return Err(format!("contacts: counted {counted}, kept {kept}"));
         }
         let bits = |state: &State| {
-            let few = [state.loose_bits, state.big_bits, state.vast];
+            let few = [state.multi_cell_bits, state.big_bits, state.vast];
             few.into_iter().chain(state.covered.iter().copied()).collect::<Vec<u64>>()
         };
         // These bits may contain too many types, but never too few.
         if bits(&fresh).iter().zip(bits(self)).any(|(&fresh, kept)| fresh & !kept != 0) {
             return Err("contacts: a sprite in several cells is not known as one".to_owned());
         }
-        if !self.touched.is_empty() || !self.bumps.is_empty() {
+        if !self.touched.is_empty() || !self.deferred.is_empty() {
             return Err("contacts: something is left over from the last event phase".to_owned());
         }
         Ok(())
@@ -98,7 +98,7 @@ impl State {
         for slot in self.slots(stype) {
             let sprite = self.sprite(slot);
             let name = game.name(stype);
-            if std::mem::replace(&mut alive[usize::from(slot)], true) || sprite.is(flag::GONE) {
+            if std::mem::replace(&mut alive[usize::from(slot)], true) || sprite.is(flag::FREE) {
                 return Err(format!("slot {slot} of `{name}` is in two chains, or free"));
             }
             let ordered = counted.tail == NONE || self.sprite(counted.tail).id < sprite.id;
@@ -108,13 +108,13 @@ impl State {
             counted.tail = slot;
             counted.count += 1;
             counted.disabled += u16::from(sprite.is(flag::DISABLED));
-            counted.loose += u16::from(sprite.is(flag::LOOSE));
+            counted.multi_cell += u16::from(sprite.is(flag::MULTI_CELL));
             counted.big += u16::from(sprite.is(flag::BIG));
             counted.off += u16::from(sprite.is(flag::OFF));
-            counted.asleep += u16::from(sprite.rest & mark::ASLEEP != 0);
+            counted.skipped += u16::from(sprite.activity & mark::SKIPPED != 0);
             let told = match sprite.flies() {
                 true => self.is_in_its_lane(slot),
-                false => self.recounted_flags(sprite) == sprite.flags & flag::LYING,
+                false => self.recounted_flags(sprite) == sprite.flags & flag::PLACEMENT,
             };
             if !told {
                 return Err(format!("slot {slot} of `{name}` lies otherwise than its flags say"));
@@ -183,10 +183,10 @@ impl State {
         }
         for (at, sprite) in self.sprites.iter().enumerate().filter(|&(at, _)| alive[at]) {
             let flies = self.flights.iter().filter(|flight| usize::from(flight.slot) == at).count();
-            let rests = self.rests.iter().filter(|rest| usize::from(rest.slot) == at).count();
-            let asleep = (usize::from(sprite.flies()), usize::from(sprite.rest == mark::RESTING));
-            if (flies, rests) != asleep {
-                return Err(format!("slot {at} flies {flies} and rests {rests} times, not {asleep:?}"));
+            let sleepers = self.sleepers.iter().filter(|sleeper| usize::from(sleeper.slot) == at).count();
+            let expected = (usize::from(sprite.flies()), usize::from(sprite.activity == mark::SLEEPING));
+            if (flies, sleepers) != expected {
+                return Err(format!("slot {at} flies {flies} and sleeps {sleepers} times, not {expected:?}"));
             }
             let resized = self.resized.iter().filter(|one| usize::from(one.slot) == at).count();
             let is_resized = sprite.is(flag::RESIZED);
@@ -200,27 +200,28 @@ impl State {
             if is_avatar && !sprite.is(flag::FROZEN) && at != usize::from(self.avatar) {
                 return Err(format!("slot {at} is an avatar that nobody controls and still updated"));
             }
-            if sprite.is(flag::KILLED) || sprite.is(flag::STALE) != self.stale.contains(&(at as Slot)) {
+            if sprite.is(flag::KILLED) || sprite.is(flag::DIRTY) != self.dirty.contains(&(at as Slot)) {
                 return Err(format!("slot {at} was left half-way by the last step"));
             }
-            let form = self.form_of(sprite);
-            let is_own = form.holder != NONE;
-            if is_own != (usize::from(sprite.form) >= game.0.types.len())
-                || is_own && usize::from(form.holder) != at
+            let overrides = self.overrides_of(sprite);
+            let is_own = overrides.holder != NONE;
+            if is_own != (usize::from(sprite.overrides) >= game.0.types.len())
+                || is_own && usize::from(overrides.holder) != at
             {
-                return Err(format!("the form of slot {at} is that of {}", form.holder));
+                return Err(format!("the overrides of slot {at} is that of {}", overrides.holder));
             }
             let extra = self.extra_of(sprite).map(|extra| usize::from(extra.holder));
-            if extra != (form.extra != NONE).then_some(at) {
+            if extra != (overrides.extra != NONE).then_some(at) {
                 return Err(format!("the extra of slot {at} is that of {extra:?}"));
             }
         }
-        let holders = self.forms.iter().map(|form| form.holder).filter(|&holder| holder != NONE);
-        if holders.clone().count() + game.0.types.len() != self.forms.len() {
-            return Err("the forms of the types are not in their place".to_owned());
+        let holders =
+            self.overrides.iter().map(|overrides| overrides.holder).filter(|&holder| holder != NONE);
+        if holders.clone().count() + game.0.types.len() != self.overrides.len() {
+            return Err("the overrides of the types are not in their place".to_owned());
         }
-        if let Some(holder) = holders.clone().find(|&holder| self.form(holder).holder != holder) {
-            return Err(format!("slot {holder} has a form that it does not use"));
+        if let Some(holder) = holders.clone().find(|&holder| self.overrides(holder).holder != holder) {
+            return Err(format!("slot {holder} has overrides that it does not use"));
         }
         if !self.resized.is_sorted_by_key(|one| one.slot) {
             return Err("what was resized is out of order".to_owned());

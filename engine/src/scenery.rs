@@ -5,9 +5,9 @@
 //! states of a level share them. They have no slots, a copy of a state does not copy them, and the running hash contains
 //! their contributions from the start.
 
+use crate::contribution::{Contribution, exchange};
 use crate::game::{SpriteType, TypeInfo};
 use crate::ontology::sprites::Mover;
-use crate::share::{Share, exchange};
 use crate::state::{NONE, Sprite, State};
 use crate::syntax::{Description, Param, Word};
 use std::collections::BTreeSet;
@@ -72,8 +72,8 @@ impl State {
         self.groups[sprite.stype.index()].count += 1;
         self.next_id += 1;
         self.population += 1;
-        let share = Share::fresh(&sprite, NONE, &self.parts());
-        exchange(Share::default(), share, &mut self.sum, &mut self.tides);
+        let contribution = Contribution::fresh(&sprite, NONE, &self.side_tables());
+        exchange(Contribution::default(), contribution, &mut self.sum, &mut self.hash_classes);
         let Scenery(types) = Arc::make_mut(self.scenery.get_or_insert_default());
         match types.iter_mut().find(|(other, _)| *other == sprite.stype) {
             Some((_, sprites)) => sprites.push(sprite),

@@ -2,12 +2,12 @@
 
 use crate::SpriteClass;
 use crate::analysis::Keying;
-use crate::belongings::Replaced;
-use crate::form::{Extra, Target};
 use crate::game::{Game, Rules, SpriteType, TypeInfo};
 use crate::hash::{Mixer, SearchKey, bits, two};
 use crate::limits::MAX_TICKS;
 use crate::ontology::avatars::BLOCK_PAUSE;
+use crate::overrides::{Extra, Target};
+use crate::side_tables::Replaced;
 use crate::state::{Slot, Sprite, State, flag, memory};
 
 /// The flags that a later step can read; the others follow from the type, or tell where the sprite came from.
@@ -141,19 +141,19 @@ impl State {
     fn live_words(&self, rules: &Rules, slot: Slot, faceless: bool, to: &mut impl Absorb) {
         let sprite = &self.present(slot);
         let info = &rules.types[sprite.stype.index()];
-        let (form, extra) = (self.form_of(sprite), self.extra_of(sprite));
+        let (overrides, extra) = (self.overrides_of(sprite), self.extra_of(sprite));
         let held = self.held_by(slot).iter().filter(|held| held.amount != 0);
         // This word tells how many words follow for this sprite.
         let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
-        to.pair(two((sprite.flags & LIVE) as i32, follows), two(form.health, form.max_health));
+        to.pair(two((sprite.flags & LIVE) as i32, follows), two(overrides.health, overrides.max_health));
         to.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
         if !faceless || sprite.is(flag::ORIENTED) {
-            to.pair(bits(form.orientation.x), bits(form.orientation.y));
+            to.pair(bits(overrides.orientation.x), bits(overrides.orientation.y));
         }
-        to.pair(bits(form.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));
+        to.pair(bits(overrides.speed), two(self.live_age(sprite, info), self.phase(sprite, info)));
         to.pair(
             two(sprite.count, sprite.heading() as i32),
-            two(sprite.time_to_live, i32::from(form.spawns.0)),
+            two(sprite.time_to_live, i32::from(overrides.spawns.0)),
         );
         if sprite.is(flag::FROZEN) {
             // Other sprites forget their last rectangle at the start of the next step.
@@ -185,7 +185,7 @@ impl State {
 
     /// The phase of a spawner, which fires when the sum of its start and the tick is a multiple of the cooldown.
     fn phase(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
-        match self.form_of(sprite).start {
+        match self.overrides_of(sprite).start {
             // The first update will set it.
             -1 => -1,
             start if info.class.is_some_and(SpriteClass::is_spawner) => {

@@ -5,19 +5,19 @@
 //! Effects read and write sprites only through the methods here and in `population.rs` and `motion.rs`, so that the
 //! layout can change without them.
 
-use crate::belongings::{Held, Replaced};
-use crate::bump::Bump;
 use crate::chance::Chance;
+use crate::contribution::{Contribution, HashClass, Sum};
+use crate::deferred_move::DeferredMove;
 use crate::flight::Flight;
-use crate::form::{Extra, Form, Target};
 use crate::game::{Action, Outcome, Rules, SpriteType};
 use crate::geometry::Rect;
 use crate::limits::MAX_SLOTS;
 use crate::moved::Resized;
-use crate::paths::Ways;
-use crate::rest::{Rest, mark};
+use crate::overrides::{Extra, Overrides, Target};
+use crate::paths::Paths;
 use crate::scenery::Scenery;
-use crate::share::{Share, Sum, Tide};
+use crate::side_tables::{Held, Replaced};
+use crate::sleep::{Sleeper, mark};
 use std::sync::Arc;
 
 /// An index into the sprites of a state.
@@ -44,10 +44,10 @@ pub(crate) mod flag {
     pub(crate) const FROZEN: u32 = 128;
     /// The sprite is in `State::moved`: its last rectangle differs from its rectangle, or may.
     pub(crate) const MOVED: u32 = 256;
-    /// The dirty flag. The sprite is in `State::stale`: the running hash may contain an older version of it.
-    pub(crate) const STALE: u32 = 512;
+    /// The dirty flag. The sprite is in `State::dirty`: the running hash may contain an older version of it.
+    pub(crate) const DIRTY: u32 = 512;
     /// The slot is free.
-    pub(crate) const GONE: u32 = 1024;
+    pub(crate) const FREE: u32 = 1024;
     /// The sprite is not wholly on the screen.
     pub(crate) const OFF: u32 = 2048;
     /// The sprite is no larger than a cell, and covers the cell to the right too.
@@ -57,18 +57,18 @@ pub(crate) mod flag {
     /// The sprite is larger than a cell.
     pub(crate) const BIG: u32 = 16_384;
     /// The sprite covers more than one cell, or may.
-    pub(crate) const LOOSE: u32 = RIGHT | BELOW | BIG;
+    pub(crate) const MULTI_CELL: u32 = RIGHT | BELOW | BIG;
     /// The cooldown never delays the sprite, so the tick of its last move does not matter.
-    pub(crate) const BRISK: u32 = 32_768;
+    pub(crate) const NO_COOLDOWN: u32 = 32_768;
     /// More of the hash contribution has changed than what comes with moving.
     pub(crate) const CHANGED: u32 = 65_536;
     /// The sprite is in `State::resized`: it had another size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;
-    /// The sprite has stepped into a barrier in this tick, and is still entered at its old position (`bump.rs`).
-    pub(crate) const BUMPING: u32 = 131_072;
+    /// The sprite has stepped into a barrier in this tick, and is still entered at its old position (`deferred_move.rs`).
+    pub(crate) const DEFERRED: u32 = 131_072;
     /// The bits of how a sprite lies in its cell.
-    pub(crate) const LYING: u32 = LOOSE | OFF;
-    /// Spawner: it has been updated, and `Form::start` is the tick of the first update.
+    pub(crate) const PLACEMENT: u32 = MULTI_CELL | OFF;
+    /// Spawner: it has been updated, and `Overrides::start` is the tick of the first update.
     pub(crate) const STARTED: u32 = 524_288;
     /// NPC: the position of the highest bits, with the last drawn direction as an index into the base directions, 4 for
     /// none.
@@ -82,7 +82,7 @@ pub(crate) mod flag {
 pub(crate) struct Sprite {
     pub(crate) rect: Rect,
     /// The corner at the start of its own update in this tick (`moved.rs`).
-    pub(crate) was: (i32, i32),
+    pub(crate) last_corner: (i32, i32),
     /// The creation number, never reused.
     pub(crate) id: u32,
     /// The tick of the last move; the reference's `lastmove` is the tick minus this.
@@ -93,10 +93,10 @@ pub(crate) struct Sprite {
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
-    /// Index into `State::forms`: the component of its type, or one of its own.
-    pub(crate) form: u16,
-    /// The events of this tick that matter for sleep, and the period in flight (`rest.rs`).
-    pub(crate) rest: u16,
+    /// Index into `State::overrides`: the component of its type, or one of its own.
+    pub(crate) overrides: u16,
+    /// The events of this tick that matter for sleep, and the period in flight (`sleep.rs`).
+    pub(crate) activity: u16,
     /// The chain of the type.
     pub(crate) next: Slot,
     pub(crate) previous: Slot,
@@ -129,13 +129,13 @@ impl Sprite {
     /// Tests whether it is in flight (`flight.rs`).
     #[inline(always)]
     pub(crate) fn flies(&self) -> bool {
-        self.rest > mark::RESTING
+        self.activity > mark::SLEEPING
     }
 
     /// The number of ticks between its moves in flight.
     #[inline(always)]
     pub(crate) fn period(&self) -> u16 {
-        self.rest & !mark::ASLEEP
+        self.activity & !mark::SKIPPED
     }
 
     pub(crate) fn set(&mut self, flag: u32, on: bool) {
@@ -155,18 +155,18 @@ pub(crate) struct Group {
     pub(crate) count: u16,
     pub(crate) disabled: u16,
     /// The number of sprites that cover more than one cell, or may.
-    pub(crate) loose: u16,
+    pub(crate) multi_cell: u16,
     /// The number of sprites that are larger than a cell.
     pub(crate) big: u16,
     /// The number of sprites that are not wholly on the screen.
     pub(crate) off: u16,
     /// The number of sprites that are asleep or in flight.
-    pub(crate) asleep: u16,
+    pub(crate) skipped: u16,
 }
 
 impl Group {
     pub(crate) const EMPTY: Group =
-        Group { head: NONE, tail: NONE, count: 0, disabled: 0, loose: 0, big: 0, off: 0, asleep: 0 };
+        Group { head: NONE, tail: NONE, count: 0, disabled: 0, multi_cell: 0, big: 0, off: 0, skipped: 0 };
 }
 
 /// A timer of the time phase: the timed effect, and the tick in which it is due.
@@ -211,21 +211,21 @@ pub struct State {
     pub(crate) free: Slot,
     /// The flag that lets counters end the game; StopCounter writes it.
     pub(crate) can_end: bool,
-    /// The sum of `shares`, without the growth of sprites in flight.
+    /// The sum of `contributions`, without the growth of sprites in flight.
     pub(crate) sum: Sum,
     /// The number of sprites that are larger than a cell.
     pub(crate) big: u32,
     /// The number of sprites that are not wholly on the screen.
     pub(crate) off: u32,
     /// The bits of the types with sprites that cover more than one cell.
-    pub(crate) loose_bits: u64,
+    pub(crate) multi_cell_bits: u64,
     /// The bits of the types with sprites that are larger than a cell.
     pub(crate) big_bits: u64,
     pub(crate) sprites: Vec<Sprite>,
     /// By slot: the hash contribution of the sprite when the hash was last settled.
-    pub(crate) shares: Vec<Share>,
+    pub(crate) contributions: Vec<Contribution>,
     /// The linear hash classes of the sprites in flight, when the hash was last settled.
-    pub(crate) tides: Vec<Tide>,
+    pub(crate) hash_classes: Vec<HashClass>,
     pub(crate) groups: Vec<Group>,
     /// `true` if the counts of `groups` have changed since terminations looked at them.
     pub(crate) census_changed: bool,
@@ -251,25 +251,25 @@ pub struct State {
     pub(crate) moved: Vec<Slot>,
     /// The sprites in `moved` that have another size now, sorted by slot.
     pub(crate) resized: Vec<Resized>,
-    pub(crate) stale: Vec<Slot>,
+    pub(crate) dirty: Vec<Slot>,
     pub(crate) killed: Vec<Slot>,
     /// The resources that sprites hold, sorted by holder and resource.
     pub(crate) held: Vec<Held>,
     pub(crate) memory: Vec<u8>,
     /// The hash of `memory` and `templates` when last settled.
     pub(crate) memory_hash: u64,
-    pub(crate) memory_is_stale: bool,
+    pub(crate) memory_is_dirty: bool,
     /// By type: not 0 if a sprite has been made before; later ones are copies (`spec/02` §1.3).
     pub(crate) templates: Vec<u8>,
     /// This tick's shields, sorted: type, partner, effect keyword (`spec/03` §5.7).
     pub(crate) shields: Vec<(SpriteType, SpriteType, u16)>,
     /// Sprites that a pullWithIt effect has carried in this tick, sorted.
     pub(crate) pulled: Vec<(u16, Slot)>,
-    /// The components of the types, and of sprites that have their own (`form.rs`).
-    pub(crate) forms: Vec<Form>,
+    /// The components of the types, and of sprites that have their own (`overrides.rs`).
+    pub(crate) overrides: Vec<Overrides>,
     pub(crate) extras: Vec<Extra>,
-    /// The sleeping sprites (`rest.rs`).
-    pub(crate) rests: Vec<Rest>,
+    /// The sleeping sprites (`sleep.rs`).
+    pub(crate) sleepers: Vec<Sleeper>,
     /// By cell: the number of sleeping sprites that watch it.
     pub(crate) watched: Vec<u8>,
     /// By cell: the tick of the last permanent change, or the tick up to which a sprite flies there.
@@ -280,11 +280,11 @@ pub struct State {
     /// Watched cells that a sprite has entered or left, within a step.
     pub(crate) touched: Vec<u32>,
     /// Unsettled deferred moves, within a step.
-    pub(crate) bumps: Vec<Bump>,
+    pub(crate) deferred: Vec<DeferredMove>,
     /// Scheduled timed effects, the next one last (`spec/03` §6.2).
     pub(crate) timers: Vec<Timer>,
     /// The path finding tables (`paths.rs`); `None` without `obs=`. All states of a level share them.
-    pub(crate) ways: Option<Arc<Ways>>,
+    pub(crate) paths: Option<Arc<Paths>>,
     /// The scenery (`scenery.rs`); `None` if there is none. All states of a level share it.
     pub(crate) scenery: Option<Arc<Scenery>>,
     /// Entries of BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder and place.
@@ -329,10 +329,10 @@ macro_rules! clone_fields {
 }
 
 clone_fields! { to, from;
-    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_stale big off loose_bits big_bits next_due census_changed jumps vast left_behind;
-    buffers sprites shares tides groups cells masks crowds covered together meets reasons possible moved resized stale killed held memory templates shields pulled forms extras rests watched stamps flights timers replaced counters;
-    empty touched bumps;
-    shared ways scenery
+    copy tick score outcome chance last_action avatar next_id population messages block columns rows free can_end sum memory_hash memory_is_dirty big off multi_cell_bits big_bits next_due census_changed jumps vast left_behind;
+    buffers sprites contributions hash_classes groups cells masks crowds covered together meets reasons possible moved resized dirty killed held memory templates shields pulled overrides extras sleepers watched stamps flights timers replaced counters;
+    empty touched deferred;
+    shared paths scenery
 }
 
 impl State {
@@ -385,8 +385,8 @@ impl State {
         size_of::<State>()
             + bytes(&self.sprites)
             + bytes(&self.groups)
-            + bytes(&self.shares)
-            + bytes(&self.tides)
+            + bytes(&self.contributions)
+            + bytes(&self.hash_classes)
             + bytes(&self.cells)
             + bytes(&self.masks)
             + bytes(&self.crowds)
@@ -397,16 +397,16 @@ impl State {
             + bytes(&self.possible)
             + bytes(&self.moved)
             + bytes(&self.resized)
-            + bytes(&self.stale)
+            + bytes(&self.dirty)
             + bytes(&self.killed)
             + bytes(&self.held)
             + bytes(&self.memory)
             + bytes(&self.templates)
             + bytes(&self.shields)
             + bytes(&self.pulled)
-            + bytes(&self.forms)
+            + bytes(&self.overrides)
             + bytes(&self.extras)
-            + bytes(&self.rests)
+            + bytes(&self.sleepers)
             + bytes(&self.watched)
             + bytes(&self.stamps)
             + bytes(&self.flights)
@@ -471,9 +471,9 @@ impl State {
     /// A sprite for modification of flags, place, age, time to live, count and heading only.
     pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = &mut self.sprites[usize::from(slot)];
-        if sprite.flags & flag::STALE == 0 {
-            sprite.flags |= flag::STALE;
-            self.stale.push(slot);
+        if sprite.flags & flag::DIRTY == 0 {
+            sprite.flags |= flag::DIRTY;
+            self.dirty.push(slot);
         }
         sprite
     }
@@ -496,12 +496,12 @@ impl State {
             NONE => self.groups[stype.index()].tail = previous,
             next => self.sprites[usize::from(next)].previous = previous,
         }
-        self.release_belongings(slot);
-        self.release_form(slot);
+        self.release_side_tables(slot);
+        self.release_overrides(slot);
         let next = std::mem::replace(&mut self.free, slot);
         let sprite = self.edit(slot);
         // It stays in the list of dirty sprites, once.
-        (sprite.next, sprite.flags) = (next, flag::GONE | flag::STALE);
+        (sprite.next, sprite.flags) = (next, flag::FREE | flag::DIRTY);
     }
 
     /// Clears references to slots that have been freed. Pursuers keep the last rectangle of their target.
@@ -510,7 +510,7 @@ impl State {
         let State { extras, sprites, .. } = self;
         for extra in extras {
             if let Target::Sprite(slot) = extra.target
-                && sprites[usize::from(slot)].is(flag::GONE)
+                && sprites[usize::from(slot)].is(flag::FREE)
             {
                 extra.target = Target::Gone(sprites[usize::from(slot)].rect);
             }
@@ -531,7 +531,7 @@ impl State {
                 let slot =
                     Slot::try_from(self.sprites.len()).ok().filter(|&slot| usize::from(slot) < MAX_SLOTS)?;
                 self.sprites.push(*sprite);
-                self.shares.push(Share::default());
+                self.contributions.push(Contribution::default());
                 slot
             }
             slot => slot,
@@ -549,12 +549,12 @@ impl State {
             self.free = place.next;
         }
         // A slot that was freed in this tick may be in the list of dirty sprites already.
-        let stale = place.is(flag::STALE);
+        let dirty = place.is(flag::DIRTY);
         *place = *sprite;
         place.previous = tail;
-        place.flags |= flag::STALE | flag::CHANGED;
-        if !stale {
-            self.stale.push(slot);
+        place.flags |= flag::DIRTY | flag::CHANGED;
+        if !dirty {
+            self.dirty.push(slot);
         }
         self.enter_cell(rules, slot);
         Some(slot)

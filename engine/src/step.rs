@@ -2,16 +2,16 @@
 //! `motion.rs`.
 
 use crate::Seed;
-use crate::bump::NEVER;
 use crate::chance::Chance;
+use crate::deferred_move::NEVER;
 use crate::game::{Action, EffectInfo, Game, Limit, Outcome, Rules, SpriteType};
 use crate::geometry::Direction;
 use crate::level::Level;
 use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
-use crate::ontology::sprites::{Habit, Mover, npcs, producers};
+use crate::ontology::sprites::{Mover, UpdateKind, npcs, producers};
 use crate::ontology::traits::Traits;
 use crate::ontology::{avatars, sprites};
-use crate::rest::mark;
+use crate::sleep::mark;
 use crate::state::{Group, NONE, Slot, State, Timer, flag};
 
 /// The length in pixels of the longer side of a board whose game does not set `square_size`.
@@ -69,15 +69,15 @@ pub(crate) struct Step<'a> {
     /// The pass of the event phase; −1 before the first.
     pub(crate) pass: i32,
     /// `true` if sprites may sleep in this step.
-    pub(crate) rests: bool,
+    pub(crate) sleeps: bool,
     /// `true` if sprites may fly in this step.
     pub(crate) flies: bool,
     /// `true` if a sprite that may sleep or fly has moved by itself.
-    pub(crate) tried: bool,
+    pub(crate) any_moved: bool,
     /// `true` if moves into barriers may be deferred.
-    pub(crate) bumps: bool,
+    pub(crate) defers: bool,
     /// The pass that settles deferred moves next.
-    pub(crate) next_bump: usize,
+    pub(crate) next_deferred: usize,
 }
 
 impl Game {
@@ -108,14 +108,14 @@ impl Game {
             can_end: rules.can_end,
             sum: [0; 2],
             memory_hash: 0,
-            memory_is_stale: true,
+            memory_is_dirty: true,
             big: 0,
             off: 0,
-            loose_bits: 0,
+            multi_cell_bits: 0,
             big_bits: 0,
             sprites: Vec::new(),
-            shares: Vec::new(),
-            tides: Vec::new(),
+            contributions: Vec::new(),
+            hash_classes: Vec::new(),
             groups: vec![Group::EMPTY; rules.types.len()],
             cells: vec![NONE; State::cell_count(columns, rows)],
             masks: Vec::new(),
@@ -129,25 +129,25 @@ impl Game {
             possible: Vec::new(),
             moved: Vec::new(),
             resized: Vec::new(),
-            stale: Vec::new(),
+            dirty: Vec::new(),
             killed: Vec::new(),
             held: Vec::new(),
             memory: rules.effects.iter().map(EffectInfo::initial_memory).collect(),
             templates: vec![0; rules.types.len()],
             shields: Vec::new(),
             pulled: Vec::new(),
-            forms: rules.forms.clone(),
+            overrides: rules.base_overrides.clone(),
             extras: Vec::new(),
-            rests: Vec::new(),
+            sleepers: Vec::new(),
             watched: vec![0; State::cell_count(columns, rows)],
             stamps: vec![-1; State::cell_count(columns, rows)],
             flights: Vec::new(),
             next_due: i32::MAX,
             census_changed: true,
             touched: Vec::new(),
-            bumps: Vec::new(),
+            deferred: Vec::new(),
             timers: Vec::new(),
-            ways: None,
+            paths: None,
             scenery: None,
             counters: vec![0; rules.counters],
             replaced: Vec::new(),
@@ -188,29 +188,29 @@ impl Game {
 
     /// [`Game::step`] with an observer of the executed interactions.
     pub fn step_watched(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
-        self.step_foreseeing(state, action, watch, false)
+        self.step_with(state, action, watch, false)
     }
 
     /// [`Game::step`] without shortcuts: every sprite is updated in every tick. Tests compare the optimised step with it.
     #[doc(hidden)]
-    pub fn step_plainly(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
-        self.step_foreseeing(state, action, watch, true)
+    pub fn step_unoptimised(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
+        self.step_with(state, action, watch, true)
     }
 
-    fn step_foreseeing(
+    fn step_with(
         &self,
         state: &mut State,
         action: Action,
         watch: &mut impl Watch,
-        plainly: bool,
+        unoptimised: bool,
     ) -> Outcome {
         if state.is_over() {
             return state.outcome;
         }
         let action = if self.allows(state, action) { action } else { Action::Nil };
         let mut step = Step::new(&self.0, state);
-        step.begin_rest(plainly);
-        step.bumps = step.rules.any_barriers && !plainly && !watch.wants_meetings();
+        step.prepare_shortcuts(unoptimised);
+        step.defers = step.rules.any_barriers && !unoptimised && !watch.wants_meetings();
         step.cycle(action, watch);
         watch.worked(step.work);
         state.outcome
@@ -228,11 +228,11 @@ impl<'a> Step<'a> {
             stopped: None,
             work: 0,
             pass,
-            rests: false,
+            sleeps: false,
             flies: false,
-            tried: false,
-            bumps: false,
-            next_bump: NEVER,
+            any_moved: false,
+            defers: false,
+            next_deferred: NEVER,
         }
     }
 
@@ -247,11 +247,11 @@ impl<'a> Step<'a> {
             self.events(watch);
         }
         if self.stopped.is_some() {
-            self.rouse_all();
+            self.wake_and_land_all();
         }
         self.pass = i32::MAX;
         self.clear();
-        self.settle_down();
+        self.sleep_or_fly();
         if let Some(limit) = self.stopped {
             self.state.outcome = Outcome::Stopped(limit);
             return;
@@ -285,7 +285,7 @@ impl<'a> Step<'a> {
         let rules = self.rules;
         for mover in &rules.movers {
             let group = self.state.group(mover.stype);
-            let (head, count, asleep) = (group.head, group.count, group.asleep);
+            let (head, count, skipped) = (group.head, group.count, group.skipped);
             if count == 0 {
                 continue;
             }
@@ -295,25 +295,25 @@ impl<'a> Step<'a> {
             if self.stopped.is_some() {
                 return;
             }
-            if asleep == count && mover.habit != Habit::Draws {
+            if skipped == count && mover.update_kind != UpdateKind::Draws {
                 continue;
             }
             let traits = &rules.types[mover.stype.index()].traits;
             let mut slot = head;
             while slot != NONE {
-                if mover.habit == Habit::Draws {
+                if mover.update_kind == UpdateKind::Draws {
                     slot = producers::pass_over(self.state, traits, mover.threshold, slot);
                     if slot == NONE {
                         break;
                     }
                 }
                 let sprite = self.state.sprite(slot);
-                let idle = match mover.habit {
-                    Habit::Moves => {
-                        mover.foreseen && sprite.rest & mark::ASLEEP != 0
+                let idle = match mover.update_kind {
+                    UpdateKind::Moves => {
+                        mover.may_fly && sprite.activity & mark::SKIPPED != 0
                             || sprites::stays(sprite, traits, self.state)
                     }
-                    Habit::Chooses => {
+                    UpdateKind::Chooses => {
                         let waits = sprites::waits(sprite, traits, self.state);
                         if waits {
                             npcs::choose(self, slot, mover.class);
@@ -323,13 +323,13 @@ impl<'a> Step<'a> {
                         }
                         waits
                     }
-                    Habit::Draws => {
+                    UpdateKind::Draws => {
                         if sprite.flies() {
                             self.land_before_update(slot);
                         }
                         false
                     }
-                    Habit::Other => mover.foreseen && sprite.rest & mark::ASLEEP != 0,
+                    UpdateKind::Other => mover.may_fly && sprite.activity & mark::SKIPPED != 0,
                 };
                 if !idle {
                     self.update_one(slot, mover, traits);
@@ -349,20 +349,20 @@ impl<'a> Step<'a> {
         if traits.oriented_image {
             self.turn_picture(slot);
         }
-        match mover.habit {
-            Habit::Moves => sprites::base(self, slot),
+        match mover.update_kind {
+            UpdateKind::Moves => sprites::base(self, slot),
             _ => sprites::update(self, slot, mover.class),
         }
         let sprite = &mut self.state.sprites[usize::from(slot)];
-        let tried = mover.foreseen && self.flies && !sprite.is_back();
-        sprite.rest = if tried { mark::TRIED } else { mark::NOTHING };
-        self.tried |= tried;
+        let moved = mover.may_fly && self.flies && !sprite.is_back();
+        sprite.activity = if moved { mark::MOVED } else { mark::NOTHING };
+        self.any_moved |= moved;
     }
 
     /// Checks the orientation: the reference looks for a picture of the orientation before each update, and throws if
     /// there is none.
     fn turn_picture(&mut self, slot: Slot) {
-        if !Direction::BASE.contains(&self.state.form(slot).orientation) {
+        if !Direction::BASE.contains(&self.state.overrides(slot).orientation) {
             self.stop(Limit::UnfitSprite);
         }
     }

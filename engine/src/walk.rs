@@ -7,7 +7,7 @@ use crate::state::{Slot, flag};
 use crate::step::Step;
 
 /// The flags of sprites that cannot take this path.
-const NOT_ON_FOOT: u32 = flag::FROZEN | flag::BUMPING | flag::LYING;
+const NOT_ON_FOOT: u32 = flag::FROZEN | flag::DEFERRED | flag::PLACEMENT;
 
 impl Step<'_> {
     /// Moves a sprite as part of its own movement, in a game without sleeping sprites. Returns `false`, and does nothing,
@@ -32,20 +32,20 @@ impl Step<'_> {
         let stride = state.columns as usize + 2;
         let cell = |column: i16, row: i16| row as usize * stride + column as usize;
         let (before, after) = (cell(from.column, from.row), cell(column, row));
-        let bumps = state.masks[after] & kind.barriers != 0 && self.bumps;
-        if bumps && self.bump_into(slot, aim, from, (after, 0)) {
+        let deferred = state.masks[after] & kind.barriers != 0 && self.defers;
+        if deferred && self.defer_move_into(slot, aim, from, (after, 0)) {
             return true;
         }
         let state = &mut *self.state;
         let sprite = &mut state.sprites[usize::from(slot)];
         let flags = sprite.flags;
-        sprite.flags |= flag::STALE | flag::MOVED;
+        sprite.flags |= flag::DIRTY | flag::MOVED;
         (sprite.rect.x, sprite.rect.y, sprite.column, sprite.row) = (aim.x, aim.y, column, row);
         if flags & flag::MOVED == 0 {
             state.moved.push(slot);
         }
-        if flags & flag::STALE == 0 {
-            state.stale.push(slot);
+        if flags & flag::DIRTY == 0 {
+            state.dirty.push(slot);
         }
         if kind.own != 0 {
             state.unlink(slot, before);

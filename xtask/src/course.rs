@@ -144,7 +144,7 @@ pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
             let actions = subject.game.actions(&state);
             let drawn = u64::from(course.draws[draw & (DRAWS - 1)]);
             draw += 1;
-            subject.game.step_plainly(
+            subject.game.step_unoptimised(
                 &mut state,
                 actions[((drawn * actions.len() as u64) >> 32) as usize],
                 &mut (),

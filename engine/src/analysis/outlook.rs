@@ -50,7 +50,7 @@ impl Analysis {
         // Spawn points may have been given another type to make.
         let spawning = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
         let spawners = there.iter().filter(|stype| rules.types[stype.index()].class.is_some_and(spawning));
-        let making = spawners.flat_map(|&stype| state.slots(stype)).map(|slot| state.form(slot).spawns);
+        let making = spawners.flat_map(|&stype| state.slots(stype)).map(|slot| state.overrides(slot).spawns);
         let making = making.filter(|&stype| stype != SpriteType::NONE).collect();
         let mut held = vec![false; rules.types.len()];
         for holding in state.held.iter().filter(|holding| holding.amount > 0) {
@@ -91,8 +91,9 @@ fn update_draws(rules: &Rules, prospect: &Prospect<'_>, state: Option<&State>, s
     let (Some(class), Some(_)) = (info.class, info.order) else { return false };
     match class {
         C::RandomMissile => {
-            let unset =
-                |state: &State| state.slots(stype).any(|slot| state.form(slot).orientation == Direction::NIL);
+            let unset = |state: &State| {
+                state.slots(stype).any(|slot| state.overrides(slot).orientation == Direction::NIL)
+            };
             let new = traits.orientation == Direction::NIL && prospect.made[stype.index()];
             new || state.map_or(traits.orientation == Direction::NIL, unset)
         }

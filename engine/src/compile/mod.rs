@@ -15,8 +15,8 @@ pub use clauses::{Clauses, InteractionClause, Party, Term, TerminationClause, Te
 pub use params::BASE as SPRITE_PARAMETERS;
 
 use crate::Digest;
-use crate::bump::barriers;
 use crate::contacts::Contacts;
+use crate::deferred_move::barriers;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::game::{NOT_IN_TREE, Rules, SpriteType, TypeInfo};
 use crate::limits::{MAX_INTERACTIONS, MAX_PROBLEMS, MAX_TYPES};
@@ -24,9 +24,9 @@ use crate::ontology::avatars::BLOCK_PAUSE;
 use crate::ontology::class::SpriteClass;
 use crate::ontology::sprites::{self as behaviour, Mover};
 use crate::ontology::terminations::{Condition, Decision, Termination};
-use crate::population::{form, model};
-use crate::rest::foresight;
+use crate::population::{base_overrides, prototype};
 use crate::scenery::{scenery, spoken_of};
+use crate::sleep::shortcuts;
 use crate::syntax::{Description, Param, Word, print_bare};
 pub(crate) use as_reference::compile_as_reference;
 use header::Header;
@@ -114,7 +114,7 @@ fn compile_with(
     }
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
-    let foresight = foresight(&types, &program.passes, &program.effects);
+    let shortcuts = shortcuts(&types, &program.passes, &program.effects);
     let mover = |&stype: &SpriteType| {
         let info = &types[stype.index()];
         let idle = |&class: &SpriteClass| behaviour::is_idle(class, info);
@@ -123,8 +123,8 @@ fn compile_with(
             stype,
             class,
             order: i32::from(info.order?),
-            habit: behaviour::habit(class, &info.traits),
-            foreseen: foresight[stype.index()].flies,
+            update_kind: behaviour::update_kind(class, &info.traits),
+            may_fly: shortcuts[stype.index()].flies,
             threshold: behaviour::producers::threshold(info.traits.prob),
         })
     };
@@ -158,8 +158,8 @@ fn compile_with(
         scenery: scenery(&types, &spoken_of, &movers),
         spoken_of,
         movers,
-        forms: types.iter().map(form).collect(),
-        models: (0..).zip(&types).map(|(at, info)| model(SpriteType(at), info)).collect(),
+        base_overrides: types.iter().map(base_overrides).collect(),
+        prototypes: (0..).zip(&types).map(|(at, info)| prototype(SpriteType(at), info)).collect(),
         order,
         mapping,
         unusable,
@@ -169,9 +169,9 @@ fn compile_with(
         effects: program.effects,
         undeclared_at_edge: program.edge.iter().any(|&(stype, _)| stype == SpriteType::NONE),
         edge: program.edge,
-        any_rests: foresight.iter().any(|of_type| of_type.rests),
-        any_flies: foresight.iter().any(|of_type| of_type.flies),
-        foresight,
+        any_sleep: shortcuts.iter().any(|of_type| of_type.sleeps),
+        any_fly: shortcuts.iter().any(|of_type| of_type.flies),
+        shortcuts,
         any_barriers: contacts.kinds.iter().any(|kind| kind.barriers != 0),
         barriers,
         contacts,

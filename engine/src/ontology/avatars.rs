@@ -78,7 +78,7 @@ fn glide(step: &mut Step<'_>, slot: Slot) {
 #[inline(always)]
 fn moving(step: &mut Step<'_>, slot: Slot, action: Action) -> Movement {
     glide(step, slot);
-    let speed = step.state.form(slot).speed;
+    let speed = step.state.overrides(slot).speed;
     match base(action) {
         Some(base) => physics::active_along(step, slot, base, speed),
         None => physics::active(step, slot, Direction::NONE, speed),
@@ -127,7 +127,7 @@ fn flak(step: &mut Step<'_>, slot: Slot) {
 
 /// Shoots the first kind of shot for which it has ammunition, one body length ahead.
 fn shoot(step: &mut Step<'_>, slot: Slot) {
-    let facing = step.state.form(slot).orientation.normalised();
+    let facing = step.state.overrides(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
 }
 
@@ -178,20 +178,20 @@ fn shoot_only(step: &mut Step<'_>, slot: Slot, action: Action) {
     let sprite = *step.state.sprite(slot);
     let kinds = step.rules.types[sprite.stype.index()].traits.stypes.len();
     if kind < kinds && is_loaded(step, slot, kind) {
-        shoot_kind(step, slot, kind, step.state.form(slot).orientation.normalised());
+        shoot_kind(step, slot, kind, step.state.overrides(slot).orientation.normalised());
     }
 }
 
 /// Turns only at right angles, and leaves sprites behind.
 fn ongoing_turning(step: &mut Step<'_>, slot: Slot, direction: Direction) {
-    let facing = step.state.form(slot).orientation;
+    let facing = step.state.overrides(slot).orientation;
     if direction != Direction::NONE && direction.x * facing.x + direction.y * facing.y == 0.0 {
         physics::turn(step, slot, direction);
     }
     physics::passive(step, slot);
     let (rect, last) = (step.state.sprite(slot).rect, step.state.last(slot));
     if !rect.intersects(last) {
-        step.add(step.state.form(slot).spawns, last.x, last.y);
+        step.add(step.state.overrides(slot).spawns, last.x, last.y);
     }
 }
 
@@ -211,7 +211,7 @@ fn aimed(step: &mut Step<'_>, slot: Slot, action: Action) {
         Action::Down => diff,
         _ => 0.0,
     };
-    let Direction { x, y } = step.state.form(slot).orientation;
+    let Direction { x, y } = step.state.overrides(slot).orientation;
     let turned = Direction { x: x * cos(angle) - y * sin(angle), y: x * sin(angle) + y * cos(angle) };
     let rotation = libm::atan2(turned.y, turned.x);
     step.state.face(slot, turned);
@@ -222,7 +222,7 @@ fn aimed(step: &mut Step<'_>, slot: Slot, action: Action) {
 /// Moves along the rotation, or against it.
 fn thrust(step: &mut Step<'_>, slot: Slot, action: Action) {
     let rotation = step.state.rotation(step.rules, step.state.sprite(slot));
-    let speed = step.state.form(slot).speed;
+    let speed = step.state.overrides(slot).speed;
     match action {
         Action::Up => physics::active(step, slot, heading(rotation), speed),
         Action::Down => physics::active(step, slot, heading(rotation + std::f64::consts::PI), speed),
@@ -276,16 +276,16 @@ fn lander(step: &mut Step<'_>, slot: Slot, action: Action) {
 
 fn bird(step: &mut Step<'_>, slot: Slot, action: Action) {
     oriented(step, slot, action);
-    let form = *step.state.form(slot);
+    let overrides = *step.state.overrides(slot);
     let strength = step.rules.types[step.state.sprite(slot).stype.index()].traits.jump_strength;
-    let push = if form.orientation.x.abs() < 0.5 { Direction::RIGHT } else { Direction::NONE };
+    let push = if overrides.orientation.x.abs() < 0.5 { Direction::RIGHT } else { Direction::NONE };
     if action == Action::Use {
-        step.state.edit_form(slot).orientation.y = 0.0;
-        physics::active(step, slot, Direction { x: 0.0, y: -strength }, form.speed);
+        step.state.edit_overrides(slot).orientation.y = 0.0;
+        physics::active(step, slot, Direction { x: 0.0, y: -strength }, overrides.speed);
     }
-    let speed = step.state.form(slot).speed;
+    let speed = step.state.overrides(slot).speed;
     physics::active(step, slot, push, speed);
-    let facing = step.state.form(slot).orientation;
+    let facing = step.state.overrides(slot).orientation;
     step.state.extra(step.rules, slot).rotation = libm::atan2(facing.y, facing.x);
 }
 
@@ -298,7 +298,7 @@ fn platformer(step: &mut Step<'_>, slot: Slot, direction: Direction, action: Act
     if direction != Direction::NONE {
         let x =
             if grounded { direction.x * traits.ground_speedup } else { direction.x / traits.air_slowdown };
-        let speed = step.state.form(slot).speed;
+        let speed = step.state.overrides(slot).speed;
         physics::active(step, slot, Direction { x, y: direction.y }, speed);
     }
     if action == Action::Use && grounded {

@@ -1,8 +1,8 @@
 //! Grid and continuous physics (`spec/02` §3).
 
-use crate::form::Form;
 use crate::game::Rules;
 use crate::geometry::{Direction, Rect};
+use crate::overrides::Overrides;
 use crate::state::{Slot, flag};
 use crate::step::Step;
 
@@ -37,7 +37,7 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
         return;
     }
     if traits.continuous {
-        let &Form { orientation, speed, .. } = step.state.form_of(sprite);
+        let &Overrides { orientation, speed, .. } = step.state.overrides_of(sprite);
         if speed == 0.0 {
             return;
         }
@@ -47,14 +47,14 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
             active(step, slot, Direction { x: 0.0, y: gravity * traits.mass }, 0.0);
         }
         if traits.friction != 0.0 {
-            step.state.edit_form(slot).speed *= 1.0 - traits.friction;
+            step.state.edit_overrides(slot).speed *= 1.0 - traits.friction;
         }
         return;
     }
     if !sprite.is(flag::ORIENTED) {
         return;
     }
-    let &Form { orientation, speed, .. } = step.state.form_of(sprite);
+    let &Overrides { orientation, speed, .. } = step.state.overrides_of(sprite);
     let speed = if speed == -1.0 { 1.0 } else { speed };
     if speed != 0.0 {
         let block = f64::from(step.state.block);
@@ -65,7 +65,7 @@ pub(crate) fn passive(step: &mut Step<'_>, slot: Slot) {
 /// The rectangle after passive movement with grid physics; `None` if the sprite does not move.
 pub(crate) fn aim(step: &Step<'_>, slot: Slot) -> Option<Rect> {
     let sprite = step.state.sprite(slot);
-    let &Form { orientation, speed, .. } = step.state.form_of(sprite);
+    let &Overrides { orientation, speed, .. } = step.state.overrides_of(sprite);
     let speed = if speed == -1.0 { 1.0 } else { speed };
     if speed == 0.0 || !sprite.is(flag::ORIENTED) {
         return None;
@@ -87,7 +87,7 @@ pub(crate) fn active(step: &mut Step<'_>, slot: Slot, direction: Direction, spee
         return Movement::Still;
     }
     let speed = match speed {
-        0.0 => match step.state.form_of(sprite).speed {
+        0.0 => match step.state.overrides_of(sprite).speed {
             own if own <= 0.0 => 1.0,
             own => own,
         },
@@ -113,7 +113,7 @@ pub(crate) fn active_along(step: &mut Step<'_>, slot: Slot, base: usize, speed: 
 
 /// Applies a force in continuous physics: it changes orientation and speed; the next passive movement moves the sprite.
 fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> Movement {
-    let &Form { orientation, speed: own, .. } = step.state.form(slot);
+    let &Overrides { orientation, speed: own, .. } = step.state.overrides(slot);
     let traits = &step.rules.types[step.state.sprite(slot).stype.index()].traits;
     let speed = if speed == 0.0 || speed == -1.0 { own } else { speed };
     // The reference rounds the mass to 32 bits on the way.
@@ -126,9 +126,9 @@ fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> 
     } else {
         traits.max_speed
     };
-    let form = step.state.edit_form(slot);
-    form.orientation = velocity.normalised();
-    form.speed = limited;
+    let overrides = step.state.edit_overrides(slot);
+    overrides.orientation = velocity.normalised();
+    overrides.speed = limited;
     if force == Direction::NONE { Movement::Still } else { Movement::Move }
 }
 
@@ -136,7 +136,7 @@ fn accelerate(step: &mut Step<'_>, slot: Slot, force: Direction, speed: f64) -> 
 #[inline(always)]
 pub(crate) fn turn(step: &mut Step<'_>, slot: Slot, direction: Direction) -> bool {
     let sprite = step.state.sprite(slot);
-    if !sprite.is(flag::ORIENTED) || step.state.form_of(sprite).orientation == direction {
+    if !sprite.is(flag::ORIENTED) || step.state.overrides_of(sprite).orientation == direction {
         return false;
     }
     step.state.turn_to(slot, direction);

@@ -4,7 +4,7 @@ use super::{Encodings, PromptSettings, PromptStyle};
 use crate::encoding::{self, direction_name};
 use crate::legend::{Entry, Legend};
 use crate::turn::Turn;
-use engine::{Action, Observation, SeenAvatar};
+use engine::{Action, AvatarView, Observation};
 use render::EMPTY;
 use serde_json::{Value, json};
 
@@ -72,7 +72,7 @@ impl View<'_> {
         let (before, played) = (self.before?, self.turn.before?);
         let (from, to) = (before.avatar.as_ref(), self.now.avatar.as_ref());
         let both = from.zip(to);
-        let facing = |avatar: &SeenAvatar| direction_name(avatar.facing);
+        let facing = |avatar: &AvatarView| direction_name(avatar.facing);
         Some(json!({
             "action": played.action.to_string(),
             "from": from.map(avatar),
@@ -107,7 +107,7 @@ impl View<'_> {
     }
 }
 
-fn avatar(avatar: &SeenAvatar) -> Value {
+fn avatar(avatar: &AvatarView) -> Value {
     json!({
         "name": avatar.name,
         "column": avatar.column,

@@ -15,14 +15,14 @@ pub(super) fn add(
 ) {
     let sprite = step.state.sprite(one);
     let limit = step.rules.types[sprite.stype.index()].traits.limit_health;
-    let health = step.state.form_of(sprite).health.wrapping_add(value);
+    let health = step.state.overrides_of(sprite).health.wrapping_add(value);
     if !to_max && health >= limit {
         return step.apply_score(index, false);
     }
     step.apply_score(index, true);
-    let form = step.state.edit_form(one);
-    form.health = health.min(limit);
-    form.max_health = form.max_health.max(form.health);
+    let overrides = step.state.edit_overrides(one);
+    overrides.health = health.min(limit);
+    overrides.max_health = overrides.max_health.max(overrides.health);
     if let Some(two) = victim {
         step.kill(two);
     }
@@ -42,9 +42,9 @@ pub(super) fn subtract(
         return step.stop(Limit::NoType);
     }
     let target = stype.and_then(|stype| last_of(step, stype)).unwrap_or(one);
-    let form = step.state.edit_form(target);
-    form.health = form.health.wrapping_sub(value);
-    let killed = form.health <= limit;
+    let overrides = step.state.edit_overrides(target);
+    overrides.health = overrides.health.wrapping_sub(value);
+    let killed = overrides.health <= limit;
     step.remember(index, memory::KILLED, killed);
     if killed {
         step.kill(target);

@@ -41,7 +41,7 @@ pub(super) fn if_frontal(step: &mut Step<'_>, index: u16, one: Slot, two: Slot, 
 /// killIfFast and killIfSlow: they compare the speed of the one that moves, or the difference of orientations if both
 /// move.
 pub(super) fn if_speed(step: &mut Step<'_>, one: Slot, two: Slot, limit: f64, fast: bool) {
-    let (first, second) = (step.state.form(one), step.state.form(two));
+    let (first, second) = (step.state.overrides(one), step.state.overrides(two));
     let is_static = |slot: Slot| step.rules.types[step.state.sprite(slot).stype.index()].traits.is_static;
     let speed = if is_static(one) {
         second.speed

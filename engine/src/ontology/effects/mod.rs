@@ -267,7 +267,7 @@ impl Effect {
     }
 
     /// Tests whether it can change, or read the place of, sprites that take no part in the meeting.
-    pub(crate) fn reaches_afar(&self) -> bool {
+    pub(crate) fn affects_distant_sprites(&self) -> bool {
         matches!(
             self,
             Effect::KillAll { .. }
@@ -338,7 +338,7 @@ pub(crate) fn execute(step: &mut Step<'_>, index: u16, effect: &Effect, one: Slo
         (Effect::TurnAround, _) => motion::turn_around(step, one),
         (Effect::ReverseDirection, _) => motion::reverse(step, one),
         (Effect::FlipDirection, _) => motion::flip(step, one),
-        (Effect::HalfSpeed, _) => step.state.edit_form(one).speed *= 0.5,
+        (Effect::HalfSpeed, _) => step.state.edit_overrides(one).speed *= 0.5,
         (Effect::WrapAround { offset }, _) => motion::wrap_around(step, one, *offset),
         (Effect::ChangeSpeed { stype, value, how }, _) => motion::change_speed(step, *stype, *value, *how),
         (Effect::Spawn { stype, prob }, _) => spawn::here(step, one, *stype, *prob),
@@ -528,6 +528,6 @@ impl Step<'_> {
     fn remember(&mut self, index: u16, bit: u8, on: bool) {
         let byte = &mut self.state.memory[usize::from(index)];
         let before = std::mem::replace(byte, if on { *byte | bit } else { *byte & !bit });
-        self.state.memory_is_stale |= before != *byte;
+        self.state.memory_is_dirty |= before != *byte;
     }
 }

@@ -1,11 +1,11 @@
 //! Effects on place, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
 
 use super::SpeedChange;
-use crate::form::Form;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::physics;
+use crate::overrides::Overrides;
 use crate::state::{NONE, Slot, flag};
 use crate::step::Step;
 
@@ -64,15 +64,15 @@ pub(super) fn turn_around(step: &mut Step<'_>, one: Slot) {
     for _ in 0..2 {
         step.set_age(one, cooldown);
         // In continuous physics, the first of the two steps changes the speed of the second.
-        let speed = step.state.form(one).speed;
+        let speed = step.state.overrides(one).speed;
         physics::active(step, one, Direction::DOWN, speed);
     }
     reverse(step, one);
 }
 
 pub(super) fn reverse(step: &mut Step<'_>, one: Slot) {
-    let form = step.state.edit_form(one);
-    form.orientation = form.orientation.reversed();
+    let overrides = step.state.edit_overrides(one);
+    overrides.orientation = overrides.orientation.reversed();
 }
 
 pub(super) fn flip(step: &mut Step<'_>, one: Slot) {
@@ -83,7 +83,7 @@ pub(super) fn flip(step: &mut Step<'_>, one: Slot) {
 /// Moves to the opposite edge along the orientation, on one axis only.
 pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
     let screen = step.state.screen();
-    let (facing, rect) = (step.state.form(one).orientation, step.state.sprite(one).rect);
+    let (facing, rect) = (step.state.overrides(one).orientation, step.state.sprite(one).rect);
     let near = |size: i32| (offset * f64::from(size)) as i32;
     let far = |edge: i32, size: i32| (f64::from(edge) - f64::from(size) * (1.0 + offset)) as i32;
     let to = if facing.x > 0.0 {
@@ -104,7 +104,7 @@ pub(super) fn wrap_around(step: &mut Step<'_>, one: Slot, offset: f64) {
 pub(super) fn align(step: &mut Step<'_>, one: Slot, two: Slot, orient: bool) {
     let other = *step.state.sprite(two);
     if orient {
-        step.state.face(one, step.state.form(two).orientation);
+        step.state.face(one, step.state.overrides(two).orientation);
     }
     let rect = step.state.sprite(one).rect.at(other.rect.x, other.rect.y);
     step.place(one, rect);
@@ -118,7 +118,7 @@ pub(super) fn attract_gaze(step: &mut Step<'_>, one: Slot, two: Slot, align: boo
     if step.state.chance.double() >= prob {
         return;
     }
-    let facing = step.state.form(two).orientation;
+    let facing = step.state.overrides(two).orientation;
     step.state.face(one, facing);
     if align {
         let rect = step.state.sprite(one).rect;
@@ -138,7 +138,7 @@ pub(super) fn draw_gaze(step: &mut Step<'_>, one: Slot, two: Slot) {
 /// Pushes the sprite: it moves in the direction in which the partner moved in this tick, and faces there.
 pub(super) fn bounce_forward(step: &mut Step<'_>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
-    let &Form { orientation: facing, speed, .. } = step.state.form(two);
+    let &Overrides { orientation: facing, speed, .. } = step.state.overrides(two);
     let mut push = moved.normalised();
     if moved.x * facing.x < 0.0 {
         push.x = -push.x;
@@ -156,12 +156,12 @@ pub(super) fn pull_with_it(step: &mut Step<'_>, index: u16, one: Slot, two: Slot
     step.work(step.state.pulled.len() / 64);
     step.state.pulled.insert(at, (index, one));
     let direction = step.last_direction(two).normalised();
-    let amount = (step.state.form(two).speed * physics::grid_size(step, one)) as i32;
+    let amount = (step.state.overrides(two).speed * physics::grid_size(step, one)) as i32;
     step.displace(one, direction, amount);
     if step.rules.types[step.state.sprite(one).stype.index()].traits.off_grid {
         let (rect, carrier) = (step.state.sprite(one).rect, step.state.sprite(two).rect);
         step.place(one, rect.at(rect.x, carrier.y.wrapping_sub(carrier.h)));
-        step.state.edit_form(one).orientation.y = 0.0;
+        step.state.edit_overrides(one).orientation.y = 0.0;
     }
     if onto {
         let rect = step.state.sprite(two).rect;
@@ -179,7 +179,7 @@ pub(super) fn teleport(step: &mut Step<'_>, one: Slot, two: Slot) {
     step.work(usize::from(count));
     let drawn = step.state.chance.below(i32::from(count));
     let exit = step.state.slots(exit_type).nth(drawn as usize).expect("one of the group");
-    let (exit, facing) = (*step.state.sprite(exit), step.state.form(exit).orientation);
+    let (exit, facing) = (*step.state.sprite(exit), step.state.overrides(exit).orientation);
     step.place(one, exit.rect);
     step.set_age(one, 0);
     if exit.is(flag::ORIENTED) {
@@ -200,7 +200,7 @@ fn exit_of(step: &Step<'_>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.state.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
     // A spawner leads to the type that it makes, which may change.
-    let leads_to = if spawns { Some(step.state.form(two).spawns) } else { info.leads_to() };
+    let leads_to = if spawns { Some(step.state.overrides(two).spawns) } else { info.leads_to() };
     leads_to.filter(|&stype| stype != SpriteType::NONE)
 }
 
@@ -210,11 +210,11 @@ pub(super) fn change_speed(step: &mut Step<'_>, stype: SpriteType, value: f64, h
         step.work(usize::from(step.state.group(stype).count));
         let mut slot = step.state.group(stype).head;
         while slot != NONE {
-            let form = step.state.edit_form(slot);
-            form.speed = match how {
-                SpeedChange::Increase => form.speed + value,
-                SpeedChange::Decrease if form.speed - value < 0.0 => 0.0,
-                SpeedChange::Decrease => form.speed - value,
+            let overrides = step.state.edit_overrides(slot);
+            overrides.speed = match how {
+                SpeedChange::Increase => overrides.speed + value,
+                SpeedChange::Decrease if overrides.speed - value < 0.0 => 0.0,
+                SpeedChange::Decrease => overrides.speed - value,
                 SpeedChange::Set => value,
             };
             slot = step.state.sprite(slot).next;

@@ -105,7 +105,7 @@ pub(super) fn update_type(
         let mut slot = step.state.group(family).head;
         while slot != NONE && is_spawner {
             let Some(partner) = partner else { return step.stop(Limit::NoSprite) };
-            step.state.edit_form(slot).spawns = stype;
+            step.state.edit_overrides(slot).spawns = stype;
             if class == Some(SpriteClass::BomberRandomMissile) {
                 let before = step.state.sprite(partner).stype;
                 step.state.replace_missile(rules, slot, before, stype);

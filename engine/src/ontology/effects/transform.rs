@@ -1,10 +1,10 @@
 //! Effects that turn sprites into others (`spec/03` §5.8, §7.5, §8.5).
 
 use super::TransformIfCount;
-use crate::belongings::Held;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::limits::EFFECT_WORK;
+use crate::side_tables::Held;
 use crate::state::{NONE, Slot, flag};
 use crate::step::Step;
 use smallvec::SmallVec;
@@ -99,7 +99,7 @@ pub(super) fn to_singleton(
     if let Some(new) = step.add(stype, rect.x, rect.y) {
         inherit(step, one, new);
         if take_orientation {
-            let facing = step.state.form(two).orientation.reversed();
+            let facing = step.state.overrides(two).orientation.reversed();
             step.state.edit(new).set(flag::ORIENTED, true);
             step.state.face(new, facing);
         }
@@ -109,20 +109,20 @@ pub(super) fn to_singleton(
 /// Like [`hand_over`], but always passes on the orientation, and never health.
 fn inherit(step: &mut Step<'_>, old: Slot, new: Slot) {
     if step.state.sprite(old).is(flag::ORIENTED) && step.state.sprite(new).is(flag::ORIENTED) {
-        step.state.face(new, step.state.form(old).orientation);
+        step.state.face(new, step.state.overrides(old).orientation);
     }
     pass_on(step, old, new);
 }
 
 /// Passes the properties of the old sprite on to the new one, and removes the old one.
 fn hand_over(step: &mut Step<'_>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
-    let (before, after) = (*step.state.form(old), *step.state.form(new));
+    let (before, after) = (*step.state.overrides(old), *step.state.overrides(new));
     let oriented = step.state.sprite(new).is(flag::ORIENTED) && step.state.sprite(old).is(flag::ORIENTED);
     if force || (oriented && after.orientation == Direction::NONE) {
         step.state.face(new, before.orientation);
     }
     if after.health != before.health {
-        step.state.edit_form(new).health = before.health;
+        step.state.edit_overrides(new).health = before.health;
     }
     pass_on(step, old, new);
     if let Some(victim) = victim {

@@ -1,17 +1,17 @@
 //! Effects of continuous physics at walls and paddles (`spec/03` §5.11, §5.12, §8.3, §9).
 
 use super::motion::pixel_perfect;
-use crate::form::Form;
 use crate::geometry::{Direction, Rect};
 use crate::ontology::physics;
 use crate::overlap::Partners;
+use crate::overrides::Overrides;
 use crate::state::Slot;
 use crate::step::Step;
 use crate::trigonometry::{cos, sin};
 
 /// The displacement that a sprite aims at in a tick, in pixels right and down.
 fn velocity(step: &Step<'_>, slot: Slot) -> Direction {
-    let &Form { orientation, speed, .. } = step.state.form(slot);
+    let &Overrides { orientation, speed, .. } = step.state.overrides(slot);
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
@@ -76,7 +76,7 @@ fn separate(step: &mut Step<'_>, one: Slot, partners: &[Slot]) {
 
 fn reflect(step: &mut Step<'_>, one: Slot, wall: Rect) {
     let (horizontal, vertical) = collision(step, one, wall);
-    let facing = &mut step.state.edit_form(one).orientation;
+    let facing = &mut step.state.edit_overrides(one).orientation;
     if vertical {
         facing.y = -facing.y;
     } else if horizontal {
@@ -106,17 +106,17 @@ pub(super) fn bounce(step: &mut Step<'_>, one: Slot, two: Slot) {
 fn slow(step: &mut Step<'_>, one: Slot, rest: Direction) {
     let gravity = step.state.gravity(step.rules, one);
     let length = (rest.x * rest.x + rest.y * rest.y).sqrt();
-    let form = step.state.edit_form(one);
-    form.orientation = rest.normalised();
-    form.speed *= length;
-    if form.speed < gravity {
-        form.speed = gravity;
+    let overrides = step.state.edit_overrides(one);
+    overrides.orientation = rest.normalised();
+    overrides.speed *= length;
+    if overrides.speed < gravity {
+        overrides.speed = gravity;
     }
 }
 
 fn turn_back(step: &mut Step<'_>, one: Slot, wall: Rect) {
     let (_, vertical) = collision(step, one, wall);
-    let ahead = step.state.form(one).orientation.x;
+    let ahead = step.state.overrides(one).orientation.x;
     slow(step, one, Direction { x: if vertical { ahead } else { -ahead }, y: 0.0 });
 }
 
@@ -138,7 +138,7 @@ pub(super) fn stop(step: &mut Step<'_>, one: Slot, two: Slot) {
     let rect = pixel_perfect(step, one, two);
     step.place(one, rect);
     let (own, wall) = (step.state.sprite(one).rect.centre(), step.state.sprite(two).rect.centre());
-    let facing = step.state.form(one).orientation;
+    let facing = step.state.overrides(one).orientation;
     let beside = (own.0 - wall.0).abs() > (own.1 - wall.1).abs();
     let rest = if beside { Direction { x: 0.0, y: facing.y } } else { Direction { x: facing.x, y: 0.0 } };
     slow(step, one, rest);
@@ -166,9 +166,9 @@ pub(super) fn bounce_direction(step: &mut Step<'_>, one: Slot, two: Slot, most: 
         let angle = share(other.1 - own.1, paddle.h) * most;
         Direction { x: cos(angle) * side, y: -sin(angle) }
     } else {
-        let facing = &mut step.state.edit_form(one).orientation;
+        let facing = &mut step.state.edit_overrides(one).orientation;
         facing.x = -facing.x;
         return;
     };
-    step.state.edit_form(one).orientation = facing.normalised();
+    step.state.edit_overrides(one).orientation = facing.normalised();
 }

@@ -42,7 +42,8 @@ pub(crate) fn draws(class: SpriteClass) -> bool {
 /// not passed.
 #[inline]
 pub(crate) fn stays(sprite: &Sprite, traits: &Traits, state: &State) -> bool {
-    let stands = || state.form_of(sprite).speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
+    let stands =
+        || state.overrides_of(sprite).speed == 0.0 && !sprite.is(flag::FIRST_TICK) && !traits.continuous;
     sprite.time_to_live < 0
         && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, state))
 }
@@ -61,16 +62,16 @@ pub(crate) struct Mover {
     pub(crate) class: SpriteClass,
     /// The place in the update order.
     pub(crate) order: i32,
-    pub(crate) habit: Habit,
+    pub(crate) update_kind: UpdateKind,
     /// `true` if its sprites may fly or sleep.
-    pub(crate) foreseen: bool,
+    pub(crate) may_fly: bool,
     /// Producers: the bound of the draws with which they make something, see [`producers::threshold`].
     pub(crate) threshold: i32,
 }
 
 /// The start of a type's updates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Habit {
+pub(crate) enum UpdateKind {
     /// A draw; if no sprite is made, only [`base`] follows.
     Draws,
     /// [`base`], and nothing else.
@@ -80,16 +81,18 @@ pub(crate) enum Habit {
     Other,
 }
 
-/// The habit of a type.
-pub(crate) fn habit(class: SpriteClass, traits: &Traits) -> Habit {
+/// The update_kind of a type.
+pub(crate) fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     use SpriteClass as C;
     match class {
-        _ if traits.oriented_image => Habit::Other,
-        C::SpawnPoint | C::Bomber => Habit::Draws,
-        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => Habit::Moves,
-        C::Portal | C::SpriteProducer | C::Missile | C::ErraticMissile => Habit::Moves,
-        class if class.is_a(C::RandomNPC) && !traits.rotate_in_place => Habit::Chooses,
-        _ => Habit::Other,
+        _ if traits.oriented_image => UpdateKind::Other,
+        C::SpawnPoint | C::Bomber => UpdateKind::Draws,
+        C::Immovable | C::Door | C::Passive | C::Conveyor | C::Resource | C::ResourcePack => {
+            UpdateKind::Moves
+        }
+        C::Portal | C::SpriteProducer | C::Missile | C::ErraticMissile => UpdateKind::Moves,
+        class if class.is_a(C::RandomNPC) && !traits.rotate_in_place => UpdateKind::Chooses,
+        _ => UpdateKind::Other,
     }
 }
 

@@ -1,11 +1,11 @@
 //! Characters that move at random or pursue others (`spec/02` §7).
 
 use super::NO_HEADING;
-use crate::form::Target;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::{Direction, Rect};
 use crate::ontology::class::SpriteClass;
 use crate::ontology::physics;
+use crate::overrides::Target;
 use crate::state::{NONE, Slot, Sprite, State, flag};
 use crate::step::Step;
 use smallvec::SmallVec;
@@ -26,7 +26,7 @@ pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     let direction = if wanders(class) {
         let heading = random_heading(step, slot, traits.cons);
         if heading != NO_HEADING {
-            let speed = step.state.form(slot).speed;
+            let speed = step.state.overrides(slot).speed;
             physics::active_along(step, slot, heading as usize, speed);
             return;
         }
@@ -34,7 +34,7 @@ pub(super) fn update(step: &mut Step<'_>, slot: Slot, class: SpriteClass) {
     } else {
         pursue(step, slot, class)
     };
-    let speed = step.state.form(slot).speed;
+    let speed = step.state.overrides(slot).speed;
     physics::active(step, slot, direction, speed);
 }
 

@@ -7,7 +7,7 @@ use crate::state::Slot;
 use crate::step::Step;
 
 pub(super) fn random_missile(step: &mut Step<'_>, slot: Slot) {
-    if step.state.form(slot).orientation == Direction::NIL {
+    if step.state.overrides(slot).orientation == Direction::NIL {
         let drawn = Direction::BASE[step.state.chance.below(4) as usize];
         step.state.face(slot, drawn);
     }

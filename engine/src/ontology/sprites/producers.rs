@@ -2,18 +2,18 @@
 
 use super::{base, stays};
 use crate::chance::DRAW;
-use crate::form::Form;
 use crate::game::{Limit, SpriteType};
 use crate::geometry::Direction;
 use crate::ontology::physics;
 use crate::ontology::traits::Traits;
-use crate::rest::mark;
+use crate::overrides::Overrides;
+use crate::sleep::mark;
 use crate::state::{NONE, Slot, State, flag};
 use crate::step::Step;
 
 /// SpawnPoint and Bomber: one draw per update, and a sprite when the tick and the draw allow it.
 pub(super) fn spawn_point(step: &mut Step<'_>, slot: Slot) {
-    let stype = step.state.form(slot).spawns;
+    let stype = step.state.overrides(slot).spawns;
     produce(step, slot, &[stype]);
 }
 
@@ -37,14 +37,14 @@ pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut 
     while slot != NONE {
         let sprite = state.sprite(slot);
         let lives = traits.total <= 0 || sprite.count < traits.total;
-        let moves = || sprite.rest & mark::ASLEEP == 0 && !stays(sprite, traits, state);
+        let moves = || sprite.activity & mark::SKIPPED == 0 && !stays(sprite, traits, state);
         if !lives || !sprite.is(flag::STARTED) || moves() {
             break;
         }
         let mut drawn = chance;
         let misses = drawn.next(DRAW) >= threshold;
         let waits = || {
-            let start = state.form_of(sprite).start;
+            let start = state.overrides_of(sprite).start;
             traits.cooldown != 1 && start.wrapping_add(state.tick) % traits.cooldown != 0
         };
         if !misses && !waits() {
@@ -60,12 +60,12 @@ pub(crate) fn pass_over(state: &mut State, traits: &Traits, threshold: i32, mut 
 fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
     let tick = step.state.tick;
     if !step.state.sprite(slot).is(flag::STARTED) {
-        step.state.edit_form(slot).start = tick;
+        step.state.edit_overrides(slot).start = tick;
         step.state.edit(slot).set(flag::STARTED, true);
     }
     let draw = f64::from(step.state.chance.float());
     let sprite = step.state.sprite(slot);
-    let &Form { start, orientation, .. } = step.state.form_of(sprite);
+    let &Overrides { start, orientation, .. } = step.state.overrides_of(sprite);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if start.wrapping_add(tick) % traits.cooldown == 0 && draw < traits.prob {
         let (x, y) = (sprite.rect.x, sprite.rect.y);
@@ -74,7 +74,7 @@ fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
             step.state.edit_motion(slot).count += 1;
             if traits.spawn_orientation != Direction::NONE {
                 step.state.face(made, traits.spawn_orientation);
-            } else if step.state.form(made).orientation == Direction::NONE {
+            } else if step.state.overrides(made).orientation == Direction::NONE {
                 step.state.face(made, orientation);
             }
         }
@@ -88,7 +88,7 @@ fn produce(step: &mut Step<'_>, slot: Slot, stypes: &[SpriteType]) {
 /// Moves at random, then acts as a spawn point at its new place.
 pub(super) fn random_bomber(step: &mut Step<'_>, slot: Slot) {
     let direction = Direction::BASE[step.state.chance.below(4) as usize];
-    let speed = step.state.form(slot).speed;
+    let speed = step.state.overrides(slot).speed;
     physics::active(step, slot, direction, speed);
     spawn_point(step, slot);
 }
@@ -101,8 +101,8 @@ pub(super) fn bomber_random_missile(step: &mut Step<'_>, slot: Slot) {
     }
     let drawn = step.state.chance.below(count as i32) as usize;
     let stype = step.state.missile(step.rules, slot, drawn);
-    if step.state.form(slot).spawns != stype {
-        step.state.edit_form(slot).spawns = stype;
+    if step.state.overrides(slot).spawns != stype {
+        step.state.edit_overrides(slot).spawns = stype;
     }
     spawn_point(step, slot);
 }

@@ -1,8 +1,8 @@
 //! Walkers: characters that follow the ground and turn at walls (`spec/02` §7.6).
 
-use crate::form::Form;
 use crate::geometry::Direction;
 use crate::ontology::physics;
+use crate::overrides::Overrides;
 use crate::state::{Slot, flag};
 use crate::step::Step;
 
@@ -11,7 +11,7 @@ pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
     let sprite = step.state.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
     if traits.air_steering || sprite.rect.x == step.state.last(slot).x {
-        let ahead = step.state.form(slot).orientation.x;
+        let ahead = step.state.overrides(slot).orientation.x;
         let x = if ahead > 0.0 {
             1.0
         } else if ahead < 0.0 {
@@ -23,8 +23,8 @@ pub(super) fn walker(step: &mut Step<'_>, slot: Slot) {
         step.state.face(slot, direction);
         physics::active(step, slot, direction, traits.max_speed);
     }
-    if step.state.form(slot).speed.to_bits() != traits.max_speed.to_bits() {
-        step.state.edit_form(slot).speed = traits.max_speed;
+    if step.state.overrides(slot).speed.to_bits() != traits.max_speed.to_bits() {
+        step.state.edit_overrides(slot).speed = traits.max_speed;
     }
     step.state.edit_motion(slot).set(flag::ON_GROUND, false);
 }
@@ -37,7 +37,7 @@ pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
     if sprite.is(flag::ON_GROUND) && traits.probability > step.state.jumps.double() {
         jump(step, slot, traits.jump_strength);
     } else {
-        let &Form { orientation, speed, .. } = step.state.form(slot);
+        let &Overrides { orientation, speed, .. } = step.state.overrides(slot);
         physics::active(step, slot, orientation, speed);
     }
     step.state.edit_motion(slot).set(flag::ON_GROUND, false);
@@ -45,9 +45,9 @@ pub(super) fn walker_jumper(step: &mut Step<'_>, slot: Slot) {
 
 /// Jumps upwards, and leaves the ground at once.
 pub(in crate::ontology) fn jump(step: &mut Step<'_>, slot: Slot, strength: f64) {
-    let form = step.state.edit_form(slot);
-    form.orientation.y = 0.0;
-    let speed = form.speed;
+    let overrides = step.state.edit_overrides(slot);
+    overrides.orientation.y = 0.0;
+    let speed = overrides.speed;
     physics::active(step, slot, Direction { x: 0.0, y: -strength }, speed);
     let cooldown = step.rules.types[step.state.sprite(slot).stype.index()].traits.cooldown;
     step.set_age(slot, cooldown);

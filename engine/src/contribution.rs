@@ -5,22 +5,22 @@
 //! sprites that move in the same ticks form one linear hash class, and the sum grows by the class's growth after each of
 //! their moves.
 
-use crate::form::Form;
 use crate::geometry::Rect;
 use crate::hash::{KEYS, Products, SECRET, bits, fold, two};
 use crate::moved::{Resized, last_of};
+use crate::overrides::Overrides;
 use crate::state::{Slot, Sprite, State, flag};
 
 /// The tables with data that a sprite does not hold itself.
 #[derive(Clone, Copy)]
-pub(crate) struct Parts<'a> {
-    pub(crate) forms: &'a [Form],
+pub(crate) struct SideTables<'a> {
+    pub(crate) overrides: &'a [Overrides],
     pub(crate) resized: &'a [Resized],
 }
 
 impl State {
-    pub(crate) fn parts(&self) -> Parts<'_> {
-        Parts { forms: &self.forms, resized: &self.resized }
+    pub(crate) fn side_tables(&self) -> SideTables<'_> {
+        SideTables { overrides: &self.overrides, resized: &self.resized }
     }
 }
 
@@ -29,20 +29,20 @@ impl State {
 /// The last rectangle is only included for sprites that are not updated: for others the current one replaces it before
 /// the next tick reads it.
 #[inline(always)]
-fn still_hash(sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> u64 {
-    let last = sprite.is(flag::FROZEN).then(|| last_of(sprite, slot, parts.resized));
-    hash_of(sprite, &parts.forms[usize::from(sprite.form)], last.as_ref())
+fn still_hash(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> u64 {
+    let last = sprite.is(flag::FROZEN).then(|| last_of(sprite, slot, tables.resized));
+    hash_of(sprite, &tables.overrides[usize::from(sprite.overrides)], last.as_ref())
 }
 
 #[inline(never)]
-fn hash_of(sprite: &Sprite, form: &Form, last: Option<&Rect>) -> u64 {
-    let spawns = u64::from(form.spawns.0) << 32 | u64::from(sprite.id);
+fn hash_of(sprite: &Sprite, overrides: &Overrides, last: Option<&Rect>) -> u64 {
+    let spawns = u64::from(overrides.spawns.0) << 32 | u64::from(sprite.id);
     let mut products = Products::NONE
         .and(two(sprite.rect.w, sprite.rect.h), spawns, KEYS[0])
-        .and(bits(form.orientation.x), bits(form.orientation.y), KEYS[1])
-        .and(bits(form.speed), two(form.health, form.max_health), KEYS[2]);
-    if form.start != 0 {
-        products = products.and(form.start as u64, 0, KEYS[3]);
+        .and(bits(overrides.orientation.x), bits(overrides.orientation.y), KEYS[1])
+        .and(bits(overrides.speed), two(overrides.health, overrides.max_health), KEYS[2]);
+    if overrides.start != 0 {
+        products = products.and(overrides.start as u64, 0, KEYS[3]);
     }
     if let Some(last) = last {
         products = products.and(two(last.x, last.y), two(last.w, last.h), [KEYS[3][1], KEYS[0][0]]);
@@ -54,17 +54,17 @@ fn hash_of(sprite: &Sprite, form: &Form, last: Option<&Rect>) -> u64 {
 /// The hash contribution of a sprite when the hash was last settled: `word`, plus its growth since then, times keys of
 /// the sprite's own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Share {
+pub(crate) struct Contribution {
     /// The place and everything that changes with moving, as one number; for a sprite in flight, before its first move
     /// from tick 0 on. 0 if the slot is free.
     pub(crate) word: u64,
     /// The growth of the word in flight.
-    pub(crate) steady: Steady,
+    pub(crate) motion: FlightMotion,
     /// The hash of the rarely changed values of the sprite; different for every sprite.
     pub(crate) still: u64,
 }
 
-/// The weights of a pixel down, and of a later tick, in [`Share::word`]; a pixel to the right has weight 1.
+/// The weights of a pixel down, and of a later tick, in [`Contribution::word`]; a pixel to the right has weight 1.
 const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
 const LATER: u64 = 0xD1B5_4A32_D192_ED03;
 
@@ -75,22 +75,24 @@ fn point(x: i32, y: i32) -> u64 {
 /// The motion of a sprite in flight as one number: displacement in pixels right and down, period, phase, and the `AGES`
 /// bit. 0 for all other sprites.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Steady(pub(crate) u64);
+pub(crate) struct FlightMotion(pub(crate) u64);
 
-impl Steady {
-    const NONE: Steady = Steady(0);
+impl FlightMotion {
+    const NONE: FlightMotion = FlightMotion(0);
     /// The bit that is set if the tick of the last move matters.
     const AGES: u64 = 1 << 63;
 
-    fn of(sprite: &Sprite, ages: bool) -> Steady {
+    fn of(sprite: &Sprite, ages: bool) -> FlightMotion {
         let phase = match sprite.period() {
             1 => 0,
             period => sprite.moved_at.rem_euclid(i32::from(period)) as u64,
         };
-        let ages = if ages { Steady::AGES } else { 0 };
+        let ages = if ages { FlightMotion::AGES } else { 0 };
         let ticks = ages | phase << 48 | u64::from(sprite.period()) << 32;
         let by = |at: i32, was: i32| u64::from(at.wrapping_sub(was) as u16);
-        Steady(ticks | by(sprite.rect.y, sprite.was.1) << 16 | by(sprite.rect.x, sprite.was.0))
+        FlightMotion(
+            ticks | by(sprite.rect.y, sprite.last_corner.1) << 16 | by(sprite.rect.x, sprite.last_corner.0),
+        )
     }
 
     fn period(self) -> u16 {
@@ -98,13 +100,14 @@ impl Steady {
     }
 
     fn phase(self) -> u16 {
-        ((self.0 & !Steady::AGES) >> 48) as u16
+        ((self.0 & !FlightMotion::AGES) >> 48) as u16
     }
 
     /// The growth of the word with each move.
     fn growth(self) -> u64 {
         let by = point(i32::from(self.0 as i16), i32::from((self.0 >> 16) as i16));
-        let later = if self.0 & Steady::AGES == 0 { 0 } else { LATER.wrapping_mul(u64::from(self.period())) };
+        let later =
+            if self.0 & FlightMotion::AGES == 0 { 0 } else { LATER.wrapping_mul(u64::from(self.period())) };
         by.wrapping_add(later)
     }
 }
@@ -112,7 +115,7 @@ impl Steady {
 /// Tests whether the tick of a sprite's last move matters: for a cooldown that may delay the sprite, or as its age.
 #[inline(always)]
 fn ages(sprite: &Sprite) -> bool {
-    sprite.flags & (flag::BRISK | flag::FROZEN) != flag::BRISK
+    sprite.flags & (flag::NO_COOLDOWN | flag::FROZEN) != flag::NO_COOLDOWN
 }
 
 /// The place of a sprite and everything that changes with moving, as one number.
@@ -133,28 +136,28 @@ fn moves(tick: i32, period: u16, phase: u16) -> u64 {
     }
 }
 
-impl Share {
+impl Contribution {
     /// The hash contribution of a sprite, given its previous one.
     #[inline(always)]
-    pub(crate) fn renewed(self, sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> Share {
-        if sprite.flags & (flag::GONE | flag::CHANGED) == 0 {
-            return Share::of(sprite, self.still);
+    pub(crate) fn renewed(self, sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> Contribution {
+        if sprite.flags & (flag::FREE | flag::CHANGED) == 0 {
+            return Contribution::of(sprite, self.still);
         }
-        match sprite.is(flag::GONE) {
-            true => Share { word: 0, steady: Steady::NONE, still: self.still },
-            false => Share::fresh(sprite, slot, parts),
+        match sprite.is(flag::FREE) {
+            true => Contribution { word: 0, motion: FlightMotion::NONE, still: self.still },
+            false => Contribution::fresh(sprite, slot, tables),
         }
     }
 
-    /// Tests whether [`Share::follow`] suffices, the most frequent case: the sprite was not in flight, is not, and
+    /// Tests whether [`Contribution::follow`] suffices, the most frequent case: the sprite was not in flight, is not, and
     /// nothing changed but what comes with moving.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
-        let on_foot = self.steady == Steady::NONE && !sprite.flies();
-        on_foot && sprite.flags & (flag::GONE | flag::CHANGED) == 0
+        let on_foot = self.motion == FlightMotion::NONE && !sprite.flies();
+        on_foot && sprite.flags & (flag::FREE | flag::CHANGED) == 0
     }
 
-    /// [`Share::renewed`] in place. Returns the growth of the sum.
+    /// [`Contribution::renewed`] in place. Returns the growth of the sum.
     #[inline(always)]
     pub(crate) fn follow(&mut self, sprite: &Sprite) -> Sum {
         let word = word(sprite);
@@ -164,20 +167,20 @@ impl Share {
 
     /// The hash contribution of a sprite, computed from scratch.
     #[inline(never)]
-    pub(crate) fn fresh(sprite: &Sprite, slot: Slot, parts: &Parts<'_>) -> Share {
-        Share::of(sprite, still_hash(sprite, slot, parts))
+    pub(crate) fn fresh(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> Contribution {
+        Contribution::of(sprite, still_hash(sprite, slot, tables))
     }
 
     /// The hash contribution of a sprite, given its [`still_hash`].
     #[inline(always)]
-    fn of(sprite: &Sprite, still: u64) -> Share {
+    fn of(sprite: &Sprite, still: u64) -> Contribution {
         let word = word(sprite);
         if !sprite.flies() {
-            return Share { word, steady: Steady::NONE, still };
+            return Contribution { word, motion: FlightMotion::NONE, still };
         }
-        let steady = Steady::of(sprite, ages(sprite));
-        let moves = moves(sprite.moved_at, steady.period(), steady.phase());
-        Share { word: word.wrapping_sub(steady.growth().wrapping_mul(moves)), steady, still }
+        let motion = FlightMotion::of(sprite, ages(sprite));
+        let moves = moves(sprite.moved_at, motion.period(), motion.phase());
+        Contribution { word: word.wrapping_sub(motion.growth().wrapping_mul(moves)), motion, still }
     }
 
     /// The keys. They are odd, so that no difference of two words is lost.
@@ -188,9 +191,9 @@ impl Share {
 
     /// The contribution to the sum at a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
-        let grown = match self.steady {
-            Steady::NONE => 0,
-            steady => steady.growth().wrapping_mul(moves(tick, steady.period(), steady.phase())),
+        let grown = match self.motion {
+            FlightMotion::NONE => 0,
+            motion => motion.growth().wrapping_mul(moves(tick, motion.period(), motion.phase())),
         };
         times(self.keys(), self.word.wrapping_add(grown))
     }
@@ -216,7 +219,7 @@ pub(crate) fn minus(one: Sum, other: Sum) -> Sum {
 
 /// A linear hash class: the growth of all sprites in flight that move in the same ticks, times their keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Tide {
+pub(crate) struct HashClass {
     pub(crate) period: u16,
     pub(crate) phase: u16,
     /// The number of sprites.
@@ -224,7 +227,7 @@ pub(crate) struct Tide {
     pub(crate) growth: Sum,
 }
 
-impl Tide {
+impl HashClass {
     /// The growth up to a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
         times(self.growth, moves(tick, self.period, self.phase))
@@ -233,51 +236,58 @@ impl Tide {
 
 /// Replaces a hash contribution by another one.
 #[inline(always)]
-pub(crate) fn exchange(old: Share, new: Share, sum: &mut Sum, tides: &mut Vec<Tide>) {
+pub(crate) fn exchange(
+    old: Contribution,
+    new: Contribution,
+    sum: &mut Sum,
+    hash_classes: &mut Vec<HashClass>,
+) {
     if old.still == new.still {
         *sum = plus(*sum, times(new.keys(), new.word.wrapping_sub(old.word)));
     } else {
         *sum = plus(minus(*sum, times(old.keys(), old.word)), times(new.keys(), new.word));
     }
-    if old.steady.0 | new.steady.0 != 0 && (old.still, old.steady) != (new.still, new.steady) {
-        turn(old, new, tides);
+    if old.motion.0 | new.motion.0 != 0 && (old.still, old.motion) != (new.still, new.motion) {
+        update_classes(old, new, hash_classes);
     }
 }
 
 /// The part of [`exchange`] that updates the linear hash classes.
 #[inline(never)]
-fn turn(old: Share, new: Share, tides: &mut Vec<Tide>) {
-    if old.steady != Steady::NONE {
-        let at = tide_of(old.steady, tides);
-        let tide = &mut tides[at];
-        tide.flights -= 1;
-        tide.growth = minus(tide.growth, times(old.keys(), old.steady.growth()));
-        if tide.flights == 0 {
-            tides.swap_remove(at);
+fn update_classes(old: Contribution, new: Contribution, hash_classes: &mut Vec<HashClass>) {
+    if old.motion != FlightMotion::NONE {
+        let at = class_of(old.motion, hash_classes);
+        let class = &mut hash_classes[at];
+        class.flights -= 1;
+        class.growth = minus(class.growth, times(old.keys(), old.motion.growth()));
+        if class.flights == 0 {
+            hash_classes.swap_remove(at);
         }
     }
-    if new.steady != Steady::NONE {
-        let at = tide_of(new.steady, tides);
-        let tide = &mut tides[at];
-        tide.flights += 1;
-        tide.growth = plus(tide.growth, times(new.keys(), new.steady.growth()));
+    if new.motion != FlightMotion::NONE {
+        let at = class_of(new.motion, hash_classes);
+        let class = &mut hash_classes[at];
+        class.flights += 1;
+        class.growth = plus(class.growth, times(new.keys(), new.motion.growth()));
     }
 }
 
 /// The index of the linear hash class for a motion; adds one if there is none yet.
-fn tide_of(steady: Steady, tides: &mut Vec<Tide>) -> usize {
-    let (period, phase) = (steady.period(), steady.phase());
-    tides.iter().position(|tide| (tide.period, tide.phase) == (period, phase)).unwrap_or_else(|| {
-        tides.push(Tide { period, phase, ..Tide::default() });
-        tides.len() - 1
-    })
+fn class_of(motion: FlightMotion, hash_classes: &mut Vec<HashClass>) -> usize {
+    let (period, phase) = (motion.period(), motion.phase());
+    hash_classes.iter().position(|class| (class.period, class.phase) == (period, phase)).unwrap_or_else(
+        || {
+            hash_classes.push(HashClass { period, phase, ..HashClass::default() });
+            hash_classes.len() - 1
+        },
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::population::{form, model};
-    use crate::rest::mark;
+    use crate::population::{base_overrides, prototype};
+    use crate::sleep::mark;
     use crate::{Game, SpriteType};
     use std::collections::BTreeSet;
     use std::sync::LazyLock;
@@ -290,27 +300,29 @@ mod tests {
 
     /// The hash contribution of a sprite with that id, which is at (x, y) and moves by (dx, dy) every three ticks, most
     /// recently in tick 5.
-    fn share(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Share {
+    fn contribution(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Contribution {
         let info = &GAME.0.types[0];
-        let mut sprite = model(SpriteType(0), info);
+        let mut sprite = prototype(SpriteType(0), info);
         (sprite.id, sprite.moved_at, sprite.flags) = (id, 5, 0);
-        (sprite.rect, sprite.was) = (Rect { x, y, w: 10, h: 10 }, (x - dx, y - dy));
+        (sprite.rect, sprite.last_corner) = (Rect { x, y, w: 10, h: 10 }, (x - dx, y - dy));
         if (dx, dy) != (0, 0) {
-            sprite.rest = mark::ASLEEP | 3;
+            sprite.activity = mark::SKIPPED | 3;
         }
-        Share::fresh(&sprite, 0, &Parts { forms: &[form(info)], resized: &[] })
+        Contribution::fresh(&sprite, 0, &SideTables { overrides: &[base_overrides(info)], resized: &[] })
     }
 
-    fn of(shares: &[Share]) -> (Sum, Vec<Tide>) {
-        let (mut sum, mut tides) = ([0; 2], Vec::new());
-        shares.iter().for_each(|&share| exchange(Share::default(), share, &mut sum, &mut tides));
-        (sum, tides)
+    fn of(contributions: &[Contribution]) -> (Sum, Vec<HashClass>) {
+        let (mut sum, mut hash_classes) = ([0; 2], Vec::new());
+        contributions.iter().for_each(|&contribution| {
+            exchange(Contribution::default(), contribution, &mut sum, &mut hash_classes)
+        });
+        (sum, hash_classes)
     }
 
     #[test]
     fn two_sprites_on_other_places_have_other_sums() {
         let places = || (0..8).flat_map(|x| (0..8).map(move |y| (10 * x, 10 * y)));
-        let of_two = |one, other| of(&[share(1, one, (0, 0)), share(2, other, (0, 0))]).0;
+        let of_two = |one, other| of(&[contribution(1, one, (0, 0)), contribution(2, other, (0, 0))]).0;
         let both: Vec<Sum> = places().flat_map(|one| places().map(move |other| of_two(one, other))).collect();
         for half in [0, 1] {
             let distinct: BTreeSet<u64> = both.iter().map(|sum| sum[half]).collect();
@@ -320,23 +332,26 @@ mod tests {
 
     #[test]
     fn a_sum_does_not_remember_what_was_taken_out() {
-        let (before, after) = (share(1, (3, 4), (0, 0)), share(1, (3, 4), (2, 0)));
-        let (other, newborn) = (share(2, (-7, 50), (0, -3)), share(3, (0, 0), (0, 0)));
-        let (mut sum, mut tides) = of(&[before, other]);
+        let (before, after) = (contribution(1, (3, 4), (0, 0)), contribution(1, (3, 4), (2, 0)));
+        let (other, newborn) = (contribution(2, (-7, 50), (0, -3)), contribution(3, (0, 0), (0, 0)));
+        let (mut sum, mut hash_classes) = of(&[before, other]);
         for (old, new) in [(before, after), (other, newborn)] {
-            exchange(old, new, &mut sum, &mut tides);
+            exchange(old, new, &mut sum, &mut hash_classes);
         }
-        assert_eq!((sum, tides), of(&[newborn, after]));
+        assert_eq!((sum, hash_classes), of(&[newborn, after]));
     }
 
     #[test]
     fn what_flies_is_in_the_sum_where_it_has_come_to() {
-        let flying = share(1, (30, 40), (-4, 2));
+        let flying = contribution(1, (30, 40), (-4, 2));
         for tick in 5..50 {
             let moves = (tick - 5) / 3;
-            let landed = share(1, (30 - 4 * moves, 40 + 2 * moves), (0, 0));
+            let landed = contribution(1, (30 - 4 * moves, 40 + 2 * moves), (0, 0));
             let later = LATER.wrapping_mul(3 * moves as u64);
-            assert_eq!(flying.at(tick), Share { word: landed.word.wrapping_add(later), ..landed }.at(tick));
+            assert_eq!(
+                flying.at(tick),
+                Contribution { word: landed.word.wrapping_add(later), ..landed }.at(tick)
+            );
         }
     }
 }

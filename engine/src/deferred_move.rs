@@ -19,7 +19,7 @@ use crate::ontology::sprites::Mover;
 use crate::state::{NONE, Slot, State, flag};
 use crate::step::{Step, Watch};
 
-/// The value of `next_bump` without deferred moves.
+/// The value of `next_deferred` without deferred moves.
 pub(crate) const NEVER: usize = usize::MAX;
 /// The maximum number of rules that a deferred move can wait for.
 const MAX_GATES: usize = 8;
@@ -63,7 +63,7 @@ pub(crate) struct Barriers {
 
 /// A sprite that has stepped into a barrier in this tick and is still entered at its old position.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bump {
+pub(crate) struct DeferredMove {
     slot: Slot,
     /// The next rule that involves it: one of the gates of its type.
     gate: u16,
@@ -152,18 +152,18 @@ impl State {
 impl Step<'_> {
     /// Defers a move into a barrier. Returns `false` if there is none: the move is like any other.
     #[inline(always)]
-    pub(crate) fn bump(&mut self, slot: Slot, aim: Rect, from: Located, to: Located) -> bool {
+    pub(crate) fn defer_move(&mut self, slot: Slot, aim: Rect, from: Located, to: Located) -> bool {
         let barriers = self.rules.contacts.kinds[self.state.sprite(slot).stype.index()].barriers;
         if barriers == 0 || from == to || (from.flags | to.flags) & (flag::BIG | flag::OFF) != 0 {
             return false;
         }
         let cell = self.state.cell(i32::from(to.column), i32::from(to.row));
         self.state.bits_under(cell, to.flags) & barriers != 0
-            && self.bump_into(slot, aim, from, (cell, to.flags))
+            && self.defer_move_into(slot, aim, from, (cell, to.flags))
     }
 
     #[inline(never)]
-    pub(crate) fn bump_into(
+    pub(crate) fn defer_move_into(
         &mut self,
         slot: Slot,
         aim: Rect,
@@ -176,26 +176,26 @@ impl Step<'_> {
         if sprite.is(flag::MOVED) {
             return false;
         }
-        if self.rests && (self.is_watched(before, from.flags) || self.is_watched(cell, flags)) {
+        if self.sleeps && (self.is_watched(before, from.flags) || self.is_watched(cell, flags)) {
             return false;
         }
         if barriers.others != 0 {
             // Two sprites in the same place might meet there before they are put back.
-            let crowded = |bump: &Bump| self.state.sprite(bump.slot).rect.intersects(aim);
+            let crowded = |deferred: &DeferredMove| self.state.sprite(deferred.slot).rect.intersects(aim);
             let under = self.state.bits_under(before, from.flags) | self.state.bits_under(cell, flags);
             let own = self.rules.contacts.kinds[sprite.stype.index()].own;
-            if under & barriers.others & !own != 0 || self.state.bumps.iter().any(crowded) {
+            if under & barriers.others & !own != 0 || self.state.deferred.iter().any(crowded) {
                 return false;
             }
         }
-        self.next_bump = self.next_bump.min(usize::from(barriers.gates[0].pass));
-        self.state.bumps.push(Bump { slot, gate: 0, cell: cell as u32, flags });
+        self.next_deferred = self.next_deferred.min(usize::from(barriers.gates[0].pass));
+        self.state.deferred.push(DeferredMove { slot, gate: 0, cell: cell as u32, flags });
         let sprite = &mut self.state.sprites[usize::from(slot)];
         sprite.rect = aim;
-        sprite.flags |= flag::BUMPING;
-        if sprite.flags & (flag::STALE | flag::BRISK) == 0 {
-            sprite.flags |= flag::STALE;
-            self.state.stale.push(slot);
+        sprite.flags |= flag::DEFERRED;
+        if sprite.flags & (flag::DIRTY | flag::NO_COOLDOWN) == 0 {
+            sprite.flags |= flag::DIRTY;
+            self.state.dirty.push(slot);
         }
         true
     }
@@ -207,19 +207,19 @@ impl Step<'_> {
 
     /// Settles the deferred moves that wait for the next pass. `looked_at` tells whether the pass is possible.
     #[inline(never)]
-    pub(crate) fn settle_bumps(&mut self, looked_at: bool, watch: &mut impl Watch) {
+    pub(crate) fn settle_deferred(&mut self, looked_at: bool, watch: &mut impl Watch) {
         let rules = self.rules;
-        let pass = std::mem::replace(&mut self.next_bump, NEVER);
+        let pass = std::mem::replace(&mut self.next_deferred, NEVER);
         self.pass = pass as i32;
         let mut at = 0;
-        while let Some(&bump) = self.state.bumps.get(at) {
-            let sprite = self.state.sprite(bump.slot);
+        while let Some(&deferred) = self.state.deferred.get(at) {
+            let sprite = self.state.sprite(deferred.slot);
             let gates = &rules.barriers[sprite.stype.index()].gates[..];
-            let mut next = usize::from(bump.gate);
-            if sprite.is(flag::BUMPING) && usize::from(gates[next].pass) == pass {
-                match self.meets(&bump, gates[next], looked_at) {
+            let mut next = usize::from(deferred.gate);
+            if sprite.is(flag::DEFERRED) && usize::from(gates[next].pass) == pass {
+                match self.meets(&deferred, gates[next], looked_at) {
                     Some(true) => {
-                        self.put_back(bump.slot);
+                        self.put_back(deferred.slot);
                         watch.interaction(rules.effects[usize::from(rules.passes[pass].effect)].line);
                         next = gates.len();
                     }
@@ -227,25 +227,25 @@ impl Step<'_> {
                     None => next = gates.len(),
                 }
                 if next == gates.len() {
-                    self.carry_out(bump.slot);
+                    self.carry_out(deferred.slot);
                 }
             }
-            if next < gates.len() && self.state.sprite(bump.slot).is(flag::BUMPING) {
-                self.state.bumps[at].gate = next as u16;
-                self.next_bump = self.next_bump.min(usize::from(gates[next].pass));
+            if next < gates.len() && self.state.sprite(deferred.slot).is(flag::DEFERRED) {
+                self.state.deferred[at].gate = next as u16;
+                self.next_deferred = self.next_deferred.min(usize::from(gates[next].pass));
                 at += 1;
             } else {
-                self.state.bumps.swap_remove(at);
+                self.state.deferred.swap_remove(at);
             }
         }
     }
 
     /// Tests whether a rule puts a sprite with a deferred move back; `Some(false)` if the rule does not apply to it,
     /// `None` if the move is to be carried out.
-    fn meets(&self, bump: &Bump, gate: Gate, looked_at: bool) -> Option<bool> {
+    fn meets(&self, deferred: &DeferredMove, gate: Gate, looked_at: bool) -> Option<bool> {
         let state = &*self.state;
-        let sprite = state.sprite(bump.slot);
-        let under = state.bits_under(bump.cell as usize, bump.flags) & gate.bits != 0;
+        let sprite = state.sprite(deferred.slot);
+        let under = state.bits_under(deferred.cell as usize, deferred.flags) & gate.bits != 0;
         let unsure = state.big_bits & gate.bits != 0
             || state.avatar == NONE
             || !state.shields.is_empty()
@@ -256,13 +256,13 @@ impl Step<'_> {
         match gate.kind {
             GateKind::Other => (!looked_at && !under).then_some(false),
             GateKind::Deadly => (!under).then_some(false),
-            _ if state.loose_bits & gate.bits != 0 => None,
+            _ if state.multi_cell_bits & gate.bits != 0 => None,
             _ if !under => Some(false),
             GateKind::Back => Some(true),
             GateKind::Flush => {
                 // The place beside a barrier that fills its cell is where the sprite was, if it crossed the border of its
                 // own cell.
-                let last = state.last(bump.slot);
+                let last = state.last(deferred.slot);
                 let (x, y) = (sprite.rect.x - last.x, sprite.rect.y - last.y);
                 let lay = if y == 0 { flag::RIGHT } else { flag::BELOW };
                 let straight = (x == 0 || y == 0) && (x + y).abs() <= state.block && !sprite.is(lay);
@@ -276,16 +276,16 @@ impl Step<'_> {
         let last = self.state.last(slot);
         let sprite = &mut self.state.sprites[usize::from(slot)];
         sprite.rect = last;
-        sprite.flags &= !flag::BUMPING;
+        sprite.flags &= !flag::DEFERRED;
         self.work_of_effect();
     }
 
     /// Carries out all deferred moves.
-    pub(crate) fn carry_out_bumps(&mut self) {
-        if self.next_bump != NEVER {
-            self.next_bump = NEVER;
-            while let Some(bump) = self.state.bumps.pop() {
-                self.carry_out(bump.slot);
+    pub(crate) fn carry_out_deferred(&mut self) {
+        if self.next_deferred != NEVER {
+            self.next_deferred = NEVER;
+            while let Some(deferred) = self.state.deferred.pop() {
+                self.carry_out(deferred.slot);
             }
         }
     }
@@ -295,8 +295,8 @@ impl Step<'_> {
     pub(crate) fn carry_out(&mut self, slot: Slot) {
         let last = self.state.last(slot);
         let sprite = &mut self.state.sprites[usize::from(slot)];
-        if sprite.is(flag::BUMPING) {
-            sprite.flags &= !flag::BUMPING;
+        if sprite.is(flag::DEFERRED) {
+            sprite.flags &= !flag::DEFERRED;
             let aim = std::mem::replace(&mut sprite.rect, last);
             self.place(slot, aim);
         }

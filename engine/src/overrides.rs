@@ -11,7 +11,7 @@ use crate::state::{NONE, Slot, Sprite, State};
 
 /// The rarely changed values of a sprite: a copy-on-write component.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Form {
+pub(crate) struct Overrides {
     pub(crate) orientation: Direction,
     pub(crate) speed: f64,
     pub(crate) health: i32,
@@ -52,29 +52,29 @@ pub(crate) enum Target {
 impl State {
     /// The component of a sprite, scenery included.
     #[inline(always)]
-    pub(crate) fn form_of(&self, sprite: &Sprite) -> &Form {
-        &self.forms[usize::from(sprite.form)]
+    pub(crate) fn overrides_of(&self, sprite: &Sprite) -> &Overrides {
+        &self.overrides[usize::from(sprite.overrides)]
     }
 
     #[inline(always)]
-    pub(crate) fn form(&self, slot: Slot) -> &Form {
-        self.form_of(self.sprite(slot))
+    pub(crate) fn overrides(&self, slot: Slot) -> &Overrides {
+        self.overrides_of(self.sprite(slot))
     }
 
     /// The component of a sprite for modification; copies it first if it is shared.
     #[inline]
-    pub(crate) fn edit_form(&mut self, slot: Slot) -> &mut Form {
-        let at = usize::from(self.edit(slot).form);
-        if self.forms[at].holder == slot { &mut self.forms[at] } else { self.part_form(slot) }
+    pub(crate) fn edit_overrides(&mut self, slot: Slot) -> &mut Overrides {
+        let at = usize::from(self.edit(slot).overrides);
+        if self.overrides[at].holder == slot { &mut self.overrides[at] } else { self.copy_overrides(slot) }
     }
 
     /// Gives a sprite a copy of its own.
     #[inline(never)]
-    fn part_form(&mut self, slot: Slot) -> &mut Form {
+    fn copy_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let sprite = &mut self.sprites[usize::from(slot)];
-        let at = usize::from(std::mem::replace(&mut sprite.form, self.forms.len() as u16));
-        self.forms.push(Form { holder: slot, ..self.forms[at] });
-        self.forms.last_mut().expect("it was just pushed")
+        let at = usize::from(std::mem::replace(&mut sprite.overrides, self.overrides.len() as u16));
+        self.overrides.push(Overrides { holder: slot, ..self.overrides[at] });
+        self.overrides.last_mut().expect("it was just pushed")
     }
 
     /// Turns a sprite.
@@ -82,7 +82,7 @@ impl State {
     pub(crate) fn face(&mut self, slot: Slot, direction: Direction) {
         let bits = |direction: Direction| (direction.x.to_bits(), direction.y.to_bits());
         // Most sprites keep their orientation, and with it their hash contribution.
-        if bits(self.form(slot).orientation) != bits(direction) {
+        if bits(self.overrides(slot).orientation) != bits(direction) {
             self.turn_to(slot, direction);
         }
     }
@@ -90,37 +90,37 @@ impl State {
     /// The rest of [`State::face`], for a changed orientation.
     #[inline(never)]
     pub(crate) fn turn_to(&mut self, slot: Slot, direction: Direction) {
-        self.edit_form(slot).orientation = direction;
+        self.edit_overrides(slot).orientation = direction;
     }
 
     /// Releases the component and the extra that a sprite owns.
-    pub(crate) fn release_form(&mut self, slot: Slot) {
-        let at = self.sprite(slot).form;
-        let Form { holder, extra, .. } = self.forms[usize::from(at)];
+    pub(crate) fn release_overrides(&mut self, slot: Slot) {
+        let at = self.sprite(slot).overrides;
+        let Overrides { holder, extra, .. } = self.overrides[usize::from(at)];
         if holder != slot {
             return;
         }
         if extra != NONE {
             self.extras.swap_remove(usize::from(extra));
             if let Some(&Extra { holder, .. }) = self.extras.get(usize::from(extra)) {
-                let form = self.sprite(holder).form;
-                self.forms[usize::from(form)].extra = extra;
+                let own = self.sprite(holder).overrides;
+                self.overrides[usize::from(own)].extra = extra;
             }
         }
-        self.forms.swap_remove(usize::from(at));
-        if let Some(moved) = self.forms.get(usize::from(at)) {
-            self.sprites[usize::from(moved.holder)].form = at;
+        self.overrides.swap_remove(usize::from(at));
+        if let Some(moved) = self.overrides.get(usize::from(at)) {
+            self.sprites[usize::from(moved.holder)].overrides = at;
         }
     }
 
     /// The extra of a sprite, made from its type's traits if it has none yet.
     pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
-        if self.form(slot).extra == NONE {
+        if self.overrides(slot).extra == NONE {
             let info = &rules.types[self.sprite(slot).stype.index()];
             let traits = &info.traits;
             let is_car = info.class == Some(SpriteClass::CarAvatar);
             let facing = if is_car { Direction { x: traits.facing, y: 0.0 } } else { traits.facing_dir };
-            self.edit_form(slot).extra = self.extras.len() as u16;
+            self.edit_overrides(slot).extra = self.extras.len() as u16;
             self.extras.push(Extra {
                 holder: slot,
                 rotation: traits.rotation,
@@ -131,13 +131,13 @@ impl State {
                 last_known: None,
             });
         }
-        let extra = self.form(slot).extra;
+        let extra = self.overrides(slot).extra;
         &mut self.extras[usize::from(extra)]
     }
 
     /// The extra of a sprite that has one.
     pub(crate) fn extra_of(&self, sprite: &Sprite) -> Option<&Extra> {
-        self.extras.get(usize::from(self.form_of(sprite).extra))
+        self.extras.get(usize::from(self.overrides_of(sprite).extra))
     }
 
     pub(crate) fn rotation(&self, rules: &Rules, sprite: &Sprite) -> f64 {
@@ -166,15 +166,15 @@ mod tests {
         let game = Game::from_source(GAME).unwrap();
         let mut state = game.start(&game.level("wa g\nga w\nA   \n").unwrap(), Seed::from_text("arrows"));
         let types = game.sprite_types().count();
-        let mut forms = Vec::new();
+        let mut overrides = Vec::new();
         for _ in 0..5 {
-            forms.push(state.forms.len() - types);
+            overrides.push(state.overrides.len() - types);
             game.step(&mut state, Action::Nil);
             state.recount(&game).unwrap();
             assert_eq!(state.state_hash(), state.state_hash_from_scratch(&game));
         }
         // First the car's, then that of the arrow that turns back at the wall, until it is killed. The other arrow is
         // killed at once.
-        assert_eq!(forms, [0, 1, 2, 2, 1]);
+        assert_eq!(overrides, [0, 1, 2, 2, 1]);
     }
 }

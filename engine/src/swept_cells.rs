@@ -49,34 +49,40 @@ impl State {
     ///
     /// A slow sprite is not entered ahead if it would stay there for long beside a sprite that a rule pairs it with.
     #[inline(always)]
-    pub(crate) fn enter_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> i32 {
+    pub(crate) fn enter_swept_cells(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> i32 {
         let (rect, from) = (self.sprite(slot).rect, self.located(slot));
         let exact = self.locate(rect, from.column, from.row);
-        let lane =
-            self.lane(rect, exact, dx, dy).filter(|(lane, _)| !self.is_beside_partners(rules, slot, *lane));
-        let to = lane.map_or(exact, |(to, _)| to);
+        let swept = self
+            .swept_cells(rect, exact, dx, dy)
+            .filter(|(swept, _)| !self.is_beside_partners(rules, slot, *swept));
+        let to = swept.map_or(exact, |(to, _)| to);
         if from != to {
             self.shift(rules, slot, from, to);
         }
-        lane.map_or_else(|| self.moves_within(self.sprite(slot), dx, dy), |(_, moves)| moves)
+        swept.map_or_else(|| self.moves_within(self.sprite(slot), dx, dy), |(_, moves)| moves)
     }
 
-    fn is_beside_partners(&self, rules: &Rules, slot: Slot, lane: Located) -> bool {
+    fn is_beside_partners(&self, rules: &Rules, slot: Slot, swept: Located) -> bool {
         let sprite = self.sprite(slot);
         let kind = &rules.contacts.kinds[sprite.stype.index()];
-        let cell = self.cell(i32::from(lane.column), i32::from(lane.row));
-        let mut cells = self.span(cell, lane.flags).cells();
+        let cell = self.cell(i32::from(swept.column), i32::from(swept.row));
+        let mut cells = self.span(cell, swept.flags).cells();
         sprite.period() != 1 && cells.any(|cell| kind.has_partners_among(self.masks[cell]))
     }
 
-    /// The common case of [`State::enter_lane`]: a sprite in two cells, or in two pairs of cells, goes on to the second
+    /// The common case of [`State::enter_swept_cells`]: a sprite in two cells, or in two pairs of cells, goes on to the second
     /// and the one after it. `None` in all other cases.
     #[inline(always)]
-    pub(crate) fn enter_next_lane(&mut self, rules: &Rules, slot: Slot, (dx, dy): (i32, i32)) -> Option<i32> {
+    pub(crate) fn enter_next_swept_cells(
+        &mut self,
+        rules: &Rules,
+        slot: Slot,
+        (dx, dy): (i32, i32),
+    ) -> Option<i32> {
         let (block, stride) = (self.block, (self.columns + 2) as usize);
         let sprite = &mut self.sprites[usize::from(slot)];
         let before = sprite.row as usize * stride + sprite.column as usize;
-        let (lies, slow) = (sprite.flags & flag::LYING, sprite.period() != 1);
+        let (lies, slow) = (sprite.flags & flag::PLACEMENT, sprite.period() != 1);
         let (by, at, size, low, cells, unit, across) = match lies & !(flag::RIGHT | flag::BELOW) {
             0 if dy == 0 && lies & flag::RIGHT != 0 => {
                 let across = if lies & flag::BELOW == 0 { 0 } else { stride };
@@ -117,10 +123,10 @@ impl State {
         Some(if room < by { 0 } else { room / by })
     }
 
-    /// The two swept cells of [`State::enter_lane`], if both are on the board, and the number of moves for which the
+    /// The two swept cells of [`State::enter_swept_cells`], if both are on the board, and the number of moves for which the
     /// sprite stays in them.
     #[inline(always)]
-    fn lane(&self, rect: Rect, exact: Located, dx: i32, dy: i32) -> Option<(Located, i32)> {
+    fn swept_cells(&self, rect: Rect, exact: Located, dx: i32, dy: i32) -> Option<(Located, i32)> {
         let sized = rect.w > 0 && rect.h > 0;
         if exact.flags & (flag::OFF | flag::BIG) != 0 || (dx != 0) == (dy != 0) || !sized {
             return None;

@@ -56,7 +56,7 @@ impl State {
 
     /// Removes the entries of a sprite that is being released.
     #[inline]
-    pub(crate) fn release_belongings(&mut self, holder: Slot) {
+    pub(crate) fn release_side_tables(&mut self, holder: Slot) {
         if !self.held.is_empty() {
             let count = self.held_by(holder).len();
             let start = self.held.partition_point(|held| held.holder < holder);

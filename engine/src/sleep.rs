@@ -24,14 +24,14 @@ pub(crate) mod mark {
     /// The sprite has not moved by itself, or not in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
     /// The sprite has moved by itself, and nothing else happened.
-    pub(crate) const TRIED: u16 = 0x7FFF;
+    pub(crate) const MOVED: u16 = 0x7FFF;
     /// Something else happened too.
-    pub(crate) const SPOILED: u16 = 0x7FFE;
+    pub(crate) const DISTURBED: u16 = 0x7FFE;
     /// A bit that is set for sprites that are not updated. Without this bit, other values are one more than the pass that
     /// put the sprite back.
-    pub(crate) const ASLEEP: u16 = 0x8000;
+    pub(crate) const SKIPPED: u16 = 0x8000;
     /// The sprite is asleep. With this bit, other values are the ticks between moves of a sprite in flight (`flight.rs`).
-    pub(crate) const RESTING: u16 = ASLEEP;
+    pub(crate) const SLEEPING: u16 = SKIPPED;
 }
 
 /// The size of the largest sprite of a game with sleeping sprites, in cells along a side.
@@ -39,7 +39,7 @@ const LARGEST: f64 = 4.0;
 
 /// The cells around a sleeping sprite, and the pass that would put it back.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rest {
+pub(crate) struct Sleeper {
     pub(crate) slot: Slot,
     pub(crate) pass: u16,
     pub(crate) left: i16,
@@ -48,7 +48,7 @@ pub(crate) struct Rest {
     pub(crate) bottom: i16,
 }
 
-impl Rest {
+impl Sleeper {
     fn holds(&self, column: i16, row: i16) -> bool {
         self.left <= column && column <= self.right && self.top <= row && row <= self.bottom
     }
@@ -56,20 +56,20 @@ impl Rest {
 
 /// The shortcuts that the sprites of a type may take.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Foresight {
+pub(crate) struct Shortcuts {
     /// `true` if they may fly.
     pub(crate) flies: bool,
     /// `true` if they may sleep.
-    pub(crate) rests: bool,
+    pub(crate) sleeps: bool,
 }
 
 /// The shortcuts of each type.
-pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectInfo]) -> Vec<Foresight> {
+pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectInfo]) -> Vec<Shortcuts> {
     use SpriteClass as C;
     let large = |factor: f64| factor.is_nan() || factor > LARGEST;
     let large = |info: &TypeInfo| large(info.traits.width_factor) || large(info.traits.height_factor);
     if types.iter().any(|info| info.ground_aware) {
-        return vec![Foresight::default(); types.len()];
+        return vec![Shortcuts::default(); types.len()];
     }
     let any_large = types.iter().any(large);
     let is_put_back = |stype: SpriteType| {
@@ -120,19 +120,19 @@ pub(crate) fn foresight(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
             && info.order.is_some()
             && !sought(SpriteType(number))
     };
-    let foreseen = |(number, info)| {
+    let of_type = |(number, info)| {
         let flies = may((number, info));
         let tries_always = info.traits.cooldown <= 1 && !draws(info);
-        Foresight { flies, rests: flies && tries_always && !any_large && is_put_back(SpriteType(number)) }
+        Shortcuts { flies, sleeps: flies && tries_always && !any_large && is_put_back(SpriteType(number)) }
     };
-    (0u16..).zip(types).map(foreseen).collect()
+    (0u16..).zip(types).map(of_type).collect()
 }
 
 impl State {
     /// Notes that the cells of a sprite have changed: sleeping sprites that watch them are to be woken.
     pub(crate) fn touch(&mut self, slot: Slot) {
         let sprite = self.sprite(slot);
-        if !sprite.is(flag::LOOSE) {
+        if !sprite.is(flag::MULTI_CELL) {
             let cell = self.cell_of(sprite);
             if self.watched[cell] > 0 {
                 self.touched.push(cell as u32);
@@ -151,10 +151,10 @@ impl State {
 
     /// Wakes all sleeping sprites. Between steps only.
     fn wake_all(&mut self) {
-        for rest in self.rests.drain(..) {
-            let sprite = &mut self.sprites[usize::from(rest.slot)];
-            sprite.rest = mark::NOTHING;
-            self.groups[sprite.stype.index()].asleep -= 1;
+        for sleeper in self.sleepers.drain(..) {
+            let sprite = &mut self.sprites[usize::from(sleeper.slot)];
+            sprite.activity = mark::NOTHING;
+            self.groups[sprite.stype.index()].skipped -= 1;
         }
         self.watched.fill(0);
     }
@@ -163,10 +163,10 @@ impl State {
 impl Step<'_> {
     /// Prepares sleep and flight for a tick: nothing sleeps in a tick in which an executed rule stops the game.
     #[inline]
-    pub(crate) fn begin_rest(&mut self, plainly: bool) {
-        self.flies = self.rules.any_flies && !plainly;
-        self.rests = self.rules.any_rests && !plainly && self.state.avatar != NONE;
-        if !self.rests && !self.state.rests.is_empty() {
+    pub(crate) fn prepare_shortcuts(&mut self, unoptimised: bool) {
+        self.flies = self.rules.any_fly && !unoptimised;
+        self.sleeps = self.rules.any_sleep && !unoptimised && self.state.avatar != NONE;
+        if !self.sleeps && !self.state.sleepers.is_empty() {
             self.state.wake_all();
         }
         if !self.flies && !self.state.flights.is_empty() {
@@ -177,31 +177,31 @@ impl Step<'_> {
     /// Wakes and lands sprites before an effect is executed on a sprite.
     pub(crate) fn prepare(&mut self, effect: &Effect, one: Slot) {
         self.land_one(one);
-        if effect.reaches_afar() {
-            self.rouse_all();
+        if effect.affects_distant_sprites() {
+            self.wake_and_land_all();
         } else if matches!(effect, Effect::ShieldFrom { .. }) {
-            self.rouse_resting();
+            self.wake_sleepers();
         }
     }
 
     /// Notes the execution of an effect on a sprite.
     pub(crate) fn note(&mut self, effect: &Effect, free: bool, one: Slot, two: Option<Slot>) {
         let pass = self.pass;
-        let first = &mut self.state.sprites[usize::from(one)].rest;
+        let first = &mut self.state.sprites[usize::from(one)].activity;
         if *first != mark::NOTHING {
             let back = matches!(effect, Effect::StepBack { pixel_perfect: false });
-            *first = if back && free && *first == mark::TRIED && pass >= 0 {
+            *first = if back && free && *first == mark::MOVED && pass >= 0 {
                 pass as u16 + 1
             } else {
-                mark::SPOILED
+                mark::DISTURBED
             };
         }
         if let Some(two) = two {
-            let second = &mut self.state.sprites[usize::from(two)].rest;
+            let second = &mut self.state.sprites[usize::from(two)].activity;
             // Blocking another sprite changes nothing, unless it changes the score.
             let harmless = free && matches!(effect, Effect::StepBack { .. });
             if *second != mark::NOTHING && !harmless {
-                *second = mark::SPOILED;
+                *second = mark::DISTURBED;
             }
         }
     }
@@ -209,29 +209,29 @@ impl Step<'_> {
     /// Puts sprites to sleep or into flight after a tick: sprites that were put back in a place where nothing else
     /// changed start to sleep, and sprites that will continue to move in the same way start to fly.
     #[inline]
-    pub(crate) fn settle_down(&mut self) {
-        if self.tried && self.stopped.is_none() {
-            self.settle_tried();
+    pub(crate) fn sleep_or_fly(&mut self) {
+        if self.any_moved && self.stopped.is_none() {
+            self.sleep_or_fly_each();
         }
     }
 
     #[inline(never)]
-    fn settle_tried(&mut self) {
-        if self.rests {
+    fn sleep_or_fly_each(&mut self) {
+        if self.sleeps {
             self.stamp_moved();
         }
         let mut kept = 0;
         for at in 0..self.state.moved.len() {
             let slot = self.state.moved[at];
             let sprite = self.state.sprite(slot);
-            let (rest, back) = (sprite.rest, sprite.is_back());
-            if rest == mark::TRIED && !back && self.take_off(slot) {
+            let (activity, back) = (sprite.activity, sprite.is_back());
+            if activity == mark::MOVED && !back && self.take_off(slot) {
                 continue;
             }
             let sprite = self.state.sprite(slot);
-            let may_rest = || self.rests && self.rules.foresight[sprite.stype.index()].rests;
-            if rest < mark::SPOILED && rest != mark::NOTHING && back && may_rest() {
-                self.try_rest(slot, rest - 1);
+            let may_sleep = || self.sleeps && self.rules.shortcuts[sprite.stype.index()].sleeps;
+            if activity < mark::DISTURBED && activity != mark::NOTHING && back && may_sleep() {
+                self.try_sleep(slot, activity - 1);
             }
             self.state.moved[kept] = slot;
             kept += 1;
@@ -244,7 +244,7 @@ impl Step<'_> {
         for at in 0..self.state.moved.len() {
             let slot = self.state.moved[at];
             let (sprite, last) = (*self.state.sprite(slot), self.state.last(slot));
-            if sprite.rest != mark::NOTHING && !sprite.is_back() {
+            if sprite.activity != mark::NOTHING && !sprite.is_back() {
                 self.state.stamp(&sprite, self.state.tick);
                 let (column, row) = self.state.place_of(last);
                 let before = Sprite { rect: last, flags: sprite.flags | flag::BIG, column, row, ..sprite };
@@ -253,7 +253,7 @@ impl Step<'_> {
         }
     }
 
-    fn try_rest(&mut self, slot: Slot, pass: u16) {
+    fn try_sleep(&mut self, slot: Slot, pass: u16) {
         let sprite = *self.state.sprite(slot);
         let Some(aim) = physics::aim(self, slot) else { return };
         let around = |a: i32, b: i32, size: i32| (a.min(b), a.max(b).saturating_add(size - 1));
@@ -264,27 +264,27 @@ impl Step<'_> {
         if (right - left) > 2 || (bottom - top) > 2 {
             return;
         }
-        let rest = Rest { slot, pass, left, top, right, bottom };
+        let sleeper = Sleeper { slot, pass, left, top, right, bottom };
         let now = stamp_of(self.state.tick);
         let quiet = self
             .state
-            .cells_in(&rest)
+            .cells_in(&sleeper)
             .all(|cell| self.state.stamps[cell] < now && self.state.watched[cell] < u8::MAX);
         // At its place, an effect of the edge might be executed on it, from which its own movement takes it away when it
         // is awake.
-        if !quiet || sprite.is(flag::OFF) || self.stands_on_rules(slot) {
+        if !quiet || sprite.is(flag::OFF) || self.overlaps_rule_partner(slot) {
             return;
         }
-        for cell in self.state.cells_in(&rest) {
+        for cell in self.state.cells_in(&sleeper) {
             self.state.watched[cell] += 1;
         }
-        self.state.sprites[usize::from(slot)].rest = mark::RESTING;
-        self.state.groups[sprite.stype.index()].asleep += 1;
-        self.state.rests.push(rest);
+        self.state.sprites[usize::from(slot)].activity = mark::SLEEPING;
+        self.state.groups[sprite.stype.index()].skipped += 1;
+        self.state.sleepers.push(sleeper);
     }
 
     /// Tests whether a rule pairs the sprite with anything that it overlaps at its place.
-    fn stands_on_rules(&self, slot: Slot) -> bool {
+    fn overlaps_rule_partner(&self, slot: Slot) -> bool {
         let rules = self.rules;
         let rect = self.state.sprite(slot).rect;
         let stype = self.state.sprite(slot).stype;
@@ -310,14 +310,14 @@ impl Step<'_> {
             if self.state.watched[cell as usize] == 0 {
                 continue;
             }
-            self.work(self.state.rests.len() / 64);
+            self.work(self.state.sleepers.len() / 64);
             let stride = (self.state.columns + 2) as u32;
             let (column, row) = ((cell % stride) as i16, (cell / stride) as i16);
             let mut at = 0;
-            while at < self.state.rests.len() {
-                if self.state.rests[at].holds(column, row) {
-                    let rest = self.state.rests.swap_remove(at);
-                    self.rouse(rest);
+            while at < self.state.sleepers.len() {
+                if self.state.sleepers[at].holds(column, row) {
+                    let sleeper = self.state.sleepers.swap_remove(at);
+                    self.wake_one(sleeper);
                 } else {
                     at += 1;
                 }
@@ -326,23 +326,23 @@ impl Step<'_> {
     }
 
     /// Wakes one sprite. Makes up for its movement in this tick if that is past and its way back is not.
-    fn rouse(&mut self, rest: Rest) {
-        let slot = rest.slot;
-        for cell in self.state.cells_in(&rest) {
+    fn wake_one(&mut self, sleeper: Sleeper) {
+        let slot = sleeper.slot;
+        for cell in self.state.cells_in(&sleeper) {
             self.state.watched[cell] -= 1;
         }
         let sprite = &mut self.state.sprites[usize::from(slot)];
-        sprite.rest = mark::NOTHING;
-        self.state.groups[sprite.stype.index()].asleep -= 1;
-        if sprite.is(flag::GONE) {
+        sprite.activity = mark::NOTHING;
+        self.state.groups[sprite.stype.index()].skipped -= 1;
+        if sprite.is(flag::FREE) {
             return;
         }
         if self.has_moved(slot)
-            && self.pass < i32::from(rest.pass)
+            && self.pass < i32::from(sleeper.pass)
             && let Some(aim) = physics::aim(self, slot)
         {
-            self.state.sprites[usize::from(slot)].rest = mark::TRIED;
-            self.tried = true;
+            self.state.sprites[usize::from(slot)].activity = mark::MOVED;
+            self.any_moved = true;
             self.place(slot, aim);
             self.set_age(slot, 0);
         }
@@ -356,24 +356,24 @@ impl Step<'_> {
     }
 
     /// Wakes and lands all sprites, and carries out all deferred moves, because anything may be about to change.
-    pub(crate) fn rouse_all(&mut self) {
-        self.carry_out_bumps();
-        self.rouse_resting();
+    pub(crate) fn wake_and_land_all(&mut self) {
+        self.carry_out_deferred();
+        self.wake_sleepers();
         self.land_midway();
     }
 
-    pub(crate) fn rouse_resting(&mut self) {
-        while let Some(rest) = self.state.rests.pop() {
-            self.rouse(rest);
+    pub(crate) fn wake_sleepers(&mut self) {
+        while let Some(sleeper) = self.state.sleepers.pop() {
+            self.wake_one(sleeper);
         }
         self.wake();
     }
 }
 
 impl State {
-    fn cells_in(&self, rest: &Rest) -> impl Iterator<Item = usize> + use<> {
+    fn cells_in(&self, sleeper: &Sleeper) -> impl Iterator<Item = usize> + use<> {
         let stride = self.columns + 2;
-        let Rest { left, top, right, bottom, .. } = *rest;
+        let Sleeper { left, top, right, bottom, .. } = *sleeper;
         (i32::from(top)..i32::from(bottom) + 1).flat_map(move |row| {
             (i32::from(left)..i32::from(right) + 1).map(move |column| (row * stride + column) as usize)
         })
@@ -382,7 +382,7 @@ impl State {
     /// Notes a permanent change in the cells that a sprite covers.
     pub(crate) fn stamp(&mut self, sprite: &Sprite, tick: i32) {
         let stamp = stamp_of(tick);
-        if !sprite.is(flag::LOOSE) {
+        if !sprite.is(flag::MULTI_CELL) {
             let cell = self.cell_of(sprite);
             self.stamps[cell] = self.stamps[cell].max(stamp);
             return;
